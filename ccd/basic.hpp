@@ -1,0 +1,24 @@
+// The basic cubic CCD (Provot 1997; Bridson et al. 2002) without any tolerance: the baseline.
+#pragma once
+
+#include "ccd/cubic.hpp"
+#include "ccd/plane_culling.hpp"
+#include "ccd/proximity.hpp"
+#include "ccd/subject.hpp"
+
+namespace nearmiss {
+
+/// Solves F(t) = 0 as well as the scalar allows and applies the barycentric test at each root. Nothing is
+/// guaranteed: a root that rounding hides, or a weight that it moves outside, is a miss.
+template <Kind kind, class T, bool plane_culling>
+Verdict basic(const Query& query) {
+  if (plane_culling && separated_by_plane<kind>(query)) return {};
+  Pair<kind, T> pair;  // without a bound B, and so without normalisation
+  form_vectors(query, pair);
+  for (const T t : solve_cubic(coplanarity(pair), T(0))) {
+    if (Figure<kind, T>(pair, t).inside()) return {true, Stage::proximity, static_cast<double>(t)};
+  }
+  return {};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,124 @@
+// The coplanarity cubic F(t) and its roots in [0, 1] (the paper's Appendix B).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "ccd/motion.hpp"
+#include "ccd/quadratic.hpp"
+
+namespace nearmiss {
+
+/// F(t) = a t³ + b t² + c t + d.
+template <class T>
+struct Cubic {
+  T a, b, c, d;
+
+  [[nodiscard]] T operator()(T t) const { return ((a * t + b) * t + c) * t + d; }
+  [[nodiscard]] T slope(T t) const { return (3 * a * t + 2 * b) * t + c; }
+};
+
+/// F(t) = p · (q × r) of a pair. By Theorem 4.1, with all vectors within B: a and d are computed within
+/// 6B³((1 + ε)⁵ - 1) and b and c within 18B³((1 + ε)⁷ - 1), as the paper has it: x·(v×v) + v·(x×v + v×x)
+/// is the paper's sum with the dot product taken out.
+template <Kind kind, class T>
+Cubic<T> coplanarity(const Pair<kind, T>& pair) {
+  const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
+  const Vector3<T> n0 = q.x().cross(r.x());
+  const Vector3<T> n1 = q.x().cross(r.v()) + q.v().cross(r.x());
+  const Vector3<T> n2 = q.v().cross(r.v());
+  return {p.v().dot(n2), p.x().dot(n2) + p.v().dot(n1), p.x().dot(n1) + p.v().dot(n0), p.x().dot(n0)};
+}
+
+namespace detail {
+
+// A time between lo and hi, where F has different signs, with |F| <= μ: Newton, safeguarded by bisection.
+// It ends: a step that leaves the bracket, or does not halve what the step before it did, is replaced by
+// bisection; when the bracket cannot shrink any more, its end with the smaller residual is returned.
+template <class T>
+T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
+  using std::abs;
+  T t = lo + (hi - lo) * (F_lo / (F_lo - F_hi));
+  T last_step = hi - lo;
+  for (;;) {
+    if (!(t > lo && t < hi)) {
+      t = lo + (hi - lo) / 2;
+      if (!(t > lo && t < hi)) return abs(F_lo) <= abs(F_hi) ? lo : hi;
+      last_step = hi - lo;
+    }
+    const T value = F(t);
+    if (abs(value) <= mu) return t;
+    if ((value < 0) == (F_lo < 0)) {
+      lo = t;
+      F_lo = value;
+    } else {
+      hi = t;
+      F_hi = value;
+    }
+    const T slope = F.slope(t);
+    const T step = slope != 0 ? value / slope : hi;
+    const T next = t - step;
+    if (next == t) return t;
+    t = abs(step) * 2 <= last_step ? next : hi;  // hi: not inside, so bisect
+    last_step = abs(step);
+  }
+}
+
+}  // namespace detail
+
+/// Times at which |F| <= μ that stand for the roots of F in [0, 1], in ascending order, at most three.
+///
+/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node
+/// where |F| <= μ there, else its right node, else nothing where F has one sign at both, else a refined root.
+///
+/// Claim (Appendix B): for μ >= 33492 B³ε every exact root t0 has a returned t with |F| <= μ on [t0, t].
+/// Between exact critical points F is monotone, so that |F| between t0 and t is at most |F(t)| <= μ. A
+/// computed critical point is the root of F' with coefficients moved by a few ε; following that root as they
+/// move, F' stays below k ε (3|a| + 2|b| + |c|) <= 72 k B³ε, k < 8, on the way, so F is monotone but for 576
+/// B³ε. What decides is computed, so F there is wrong by at most 866 B³ε (`evaluation_error`). Both are far
+/// below μ.
+///
+/// F lies between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d, so where all are
+/// beyond μ on one side there is nothing to look for; rounding moves that border by less than 100 B³ε.
+template <class T>
+Times<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
+  using std::abs;
+  Times<T, 3> roots;
+  const T end = F(T(1));
+  const T third = F.c / 3;
+  const T b1 = F.d + third;
+  const T b2 = b1 + (third + F.b / 3);
+  if (std::min(std::min(F.d, end), std::min(b1, b2)) > mu) return roots;
+  if (std::max(std::max(F.d, end), std::max(b1, b2)) < -mu) return roots;
+
+  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
+  Times<T, 2> critical;
+  const T s1 = F.c + F.b;
+  const T s2 = 3 * F.a + 2 * F.b + F.c;
+  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c);
+    if (critical.count == 2 && critical.values[0] > critical.values[1])
+      std::swap(critical.values[0], critical.values[1]);
+  }
+
+  T left = 0;
+  T F_left = F.d;
+  for (int i = 0; i <= critical.count; ++i) {
+    const bool last = i == critical.count;
+    const T right = last ? T(1) : critical.values[i];
+    const T F_right = last ? end : F(right);
+    if (abs(F_left) <= mu) {
+      roots.add(left);
+    } else if (abs(F_right) <= mu) {
+      roots.add(right);
+    } else if ((F_left < 0) != (F_right < 0)) {
+      roots.add(detail::refine_root(F, left, right, F_left, F_right, mu));
+    }
+    left = right;
+    F_left = F_right;
+  }
+  return roots;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,215 @@
+// Relative positions and velocities of a pair, normalised by a power of two, with its bound B.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
+template <class T>
+inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
+
+/// The largest magnitude of a component, ‖a‖∞.
+template <class Vector>
+auto max_component(const Vector& a) {
+  using std::abs;
+  using T = typename Vector::Scalar;
+  static_assert(Vector::SizeAtCompileTime == 3);
+  return std::max(std::max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
+}
+
+/// A vector that moves linearly: x + t v for t in [0, 1].
+template <class T>
+struct Moving {
+  Eigen::Array<T, 6, 1> xv;  ///< x, then v
+
+  [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
+  [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
+  [[nodiscard]] Vector3<T> at(T t) const { return x() + t * v(); }
+};
+
+/// The power-of-two frame in which a pair is computed: differences of coordinates times 2^exponent, with
+/// the coordinates themselves times 2^-4 first where a difference would overflow.
+struct Frame {
+  int exponent = 0;
+  bool reduced = false;
+
+  [[nodiscard]] bool identity() const { return exponent == 0 && !reduced; }
+  /// The exponent by which a length of the frame is the length of the query.
+  [[nodiscard]] int total() const { return exponent - (reduced ? reduction : 0); }
+
+  static constexpr int reduction = 4;
+};
+
+namespace detail {
+
+template <class T>
+Vector3<T> difference(const double* a, const double* b, const Frame& frame) {
+  const auto component = [&](int k) -> T {
+    if (frame.identity()) return static_cast<T>(a[k]) - static_cast<T>(b[k]);
+    using std::ldexp;
+    const int reduce = frame.reduced ? -Frame::reduction : 0;
+    return ldexp(T(ldexp(static_cast<T>(a[k]), reduce) - ldexp(static_cast<T>(b[k]), reduce)),
+                 frame.exponent);
+  };
+  return {component(0), component(1), component(2)};
+}
+
+}  // namespace detail
+
+/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position is one
+/// rounding away from exact (relative error u); scaling is exact but for underflow below 2^-1074.
+template <class T>
+Moving<T> relative_motion(const Query& query, int a, int b, const Frame& frame = {}) {
+  const auto* x = query.x.data();
+  const Vector3<T> start = detail::difference<T>(x + 3 * a, x + 3 * b, frame);
+  const Vector3<T> end = detail::difference<T>(x + 12 + 3 * a, x + 12 + 3 * b, frame);
+  Moving<T> motion;
+  motion.xv << start, end - start;
+  return motion;
+}
+
+/// The vertices of a pair in the order in which the paper's formulas name them. For edges the end points
+/// of each may change places (§4.1).
+using Order = std::array<int, 4>;
+inline constexpr Order given_order{0, 1, 2, 3};
+
+/// The three relative vectors whose triple product is the coplanarity cubic F(t) = p · (q × r):
+/// vertex-triangle x01, x21, x31 (Algorithm 3); edge-edge x20, x10, x32 (Algorithm 4).
+template <Kind kind, class T>
+struct Pair {
+  Moving<T> p, q, r;
+  Frame frame;
+  Order order = given_order;
+  T E = 0;  ///< largest component of an edge at t = 0
+  T W = 0;  ///< largest component of a relative velocity within the pair: 2 V_max of §4.1, relative
+  T B = 0;  ///< the bound of §4.1 on all relative positions and velocities, if the pair collides
+};
+
+/// Forms p, q and r in the pair's frame and order.
+template <Kind kind, class T>
+void form_vectors(const Query& query, Pair<kind, T>& pair) {
+  const Order& o = pair.order;
+  if constexpr (kind == Kind::vertex_triangle) {
+    pair.p = relative_motion<T>(query, o[0], o[1], pair.frame);
+    pair.q = relative_motion<T>(query, o[2], o[1], pair.frame);
+    pair.r = relative_motion<T>(query, o[3], o[1], pair.frame);
+  } else {
+    pair.p = relative_motion<T>(query, o[2], o[0], pair.frame);
+    pair.q = relative_motion<T>(query, o[1], o[0], pair.frame);
+    pair.r = relative_motion<T>(query, o[3], o[2], pair.frame);
+  }
+}
+
+namespace detail {
+
+// B = (E + W)(1 + 64 ε), where E bounds the edges at t = 0 and W is the extent of the box of all velocities
+// relative to one vertex, that is, of the velocities themselves: W = 2 V_max with V_max the relative one of
+// §4.1, which is never above 2 max ‖v_i‖∞.
+// Rounding, with E*, W* exact and B* = E* + W*, for a pair that collides (others need no bound):
+//   every edge is within B* at both times; the vertex of VT is within B* of all others; any two end points
+//   of EE are within B* + 2E* <= 3B* of each other (some pair is within B*, and the edges are within E*)
+//   at t = 0, and within 4B* at t = 1. A computed velocity misses by u(|start| + |end|) + u|v| <= 8uB*;
+//   a sum of two (v30 = v20 + v32) by 17uB*; an extent is the difference of two: by 34uB* + u; an edge
+//   (x32 = x31 - x21) by 4uB*; the sum E + W adds u: together below 40uB* = 20 ε B*.
+// 64 ε leaves room for the product's own rounding: B >= B*(1 + 40ε).
+template <Kind kind, class T>
+void form_bound(Pair<kind, T>& pair) {
+  // Six components at once: positions, then velocities, of the points relative to the first one, itself at 0.
+  using Six = Eigen::Array<T, 6, 1>;
+  const Six& q = pair.q.xv;
+  Six p;
+  Six r = pair.r.xv;
+  p << Vector3<T>::Zero(), pair.p.v();
+  if constexpr (kind == Kind::edge_edge) r += p;  // v30 = v32 + v20; r's position stays x32, an edge
+  const Six hi = p.max(q).max(r).max(T(0));
+  const Six lo = p.min(q).min(r).min(T(0));
+  const Six extent = hi - lo;
+  const auto largest = [](const Six& six, int first) {
+    return std::max(std::max(six[first], six[first + 1]), six[first + 2]);
+  };
+  // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
+  pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
+  pair.W = largest(extent, 3);
+  pair.B = (pair.E + pair.W) * (1 + 64 * epsilon<T>);
+}
+
+}  // namespace detail
+
+/// The relative vectors of a pair and its bound B in a given frame and order of end points.
+template <Kind kind, class T>
+Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order& order = given_order) {
+  Pair<kind, T> pair;
+  pair.frame = frame;
+  pair.order = order;
+  form_vectors(query, pair);
+  detail::form_bound(pair);
+  return pair;
+}
+
+/// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double, with B within
+/// [2^-100, 2^100], nothing can overflow, and what underflows is below 2^-1074 against B⁴ε >= 2^-452: scaling
+/// there would change no digit. For a narrower scalar the same argument holds with a smaller range.
+template <class T>
+bool in_range(T B) {
+  constexpr int range = std::numeric_limits<T>::max_exponent >= 1024 ? 50 : 3;
+  constexpr T root = static_cast<T>(1ULL << range);
+  return B <= root * root && B >= 1 / (root * root);
+}
+
+/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude; the identity where the pair
+/// is in range already, or B = 0.
+template <Kind kind, class T>
+Frame normalising_frame(const Query& query) {
+  Frame frame;
+  T B = make_pair<kind, T>(query).B;
+  if (in_range(B)) return frame;
+  if (!(B <= std::numeric_limits<T>::max() / 16)) {
+    frame.reduced = true;
+    B = make_pair<kind, T>(query, frame).B;
+  }
+  using std::ilogb;
+  if (B > 0) frame.exponent = -ilogb(B);
+  return frame;
+}
+
+namespace detail {
+
+// The order of end points in which x20 is the closest of the four pairs by largest component.
+template <class T>
+Order closest_order(const Query& query, const Frame& frame) {
+  Order best = given_order;
+  T smallest = std::numeric_limits<T>::infinity();
+  for (const int i : {0, 1}) {
+    for (const int j : {2, 3}) {
+      const T size = max_component(relative_motion<T>(query, j, i, frame).x());
+      if (size < smallest) {
+        smallest = size;
+        best = {i, 1 - i, j, 5 - j};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// Whether all vectors of the pair are within B, as they are when it collides (§4.1). Edges exchange their
+/// end points for this where they must: only the closest pair of end points is sure to be within B, and x20
+/// within B is all that §4.1 needs. A computed p is at most u away from exact and B >= B*(1 + 40ε), so a pair
+/// that is not within B cannot collide. B itself does not depend on the order.
+template <Kind kind, class T>
+bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
+  if (max_component(pair.p.x()) <= pair.B) return true;
+  if constexpr (kind == Kind::vertex_triangle) return false;
+  pair.order = detail::closest_order<T>(query, pair.frame);
+  form_vectors(query, pair);
+  return max_component(pair.p.x()) <= pair.B;
+}
+
+}  // namespace nearmiss

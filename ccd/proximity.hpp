@@ -1,0 +1,50 @@
+// The area, height and barycentric tests of Algorithms 3 and 4 at one time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "ccd/motion.hpp"
+#include "ccd/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The figure of a pair at one time: p, q, r of `Pair`, the normal N = q × r and the barycentric weights.
+///
+/// vertex-triangle: weights of x3, x2 and their sum (1 minus that of x1), each times N·N; x01 = β x31 + α x21
+/// gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: α on x0x1 and β on x2x3 from
+/// x20 = α x10 - β x32: N·(x20 × x32) = α N·N, N·(x20 × x10) = β N·N.
+template <Kind kind, class T>
+struct Figure {
+  Vector3<T> p, q, r, N;
+  T NN;
+  static constexpr int weight_count = kind == Kind::vertex_triangle ? 3 : 2;
+  std::array<T, weight_count> weights;
+
+  Figure(const Pair<kind, T>& pair, T t)
+      : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(N.dot(N)) {
+    if constexpr (kind == Kind::vertex_triangle) {
+      weights[0] = N.dot(q.cross(p));
+      weights[1] = N.dot(p.cross(r));
+      weights[2] = weights[0] + weights[1];
+    } else {
+      weights[0] = N.dot(p.cross(r));
+      weights[1] = N.dot(p.cross(q));
+    }
+  }
+
+  /// Barycentric test: every weight in [0, N·N].
+  [[nodiscard]] bool inside() const {
+    return std::all_of(weights.begin(), weights.end(), [&](T w) { return 0 <= w && w <= NN; });
+  }
+
+  /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
+  [[nodiscard]] bool well_shaped(const Tolerances<T>& tol) const {
+    const T area = max_component(N);
+    T longest = std::max(max_component(q), max_component(r));
+    if constexpr (kind == Kind::vertex_triangle) longest = std::max(longest, max_component(r - q));
+    return area >= tol.tau && longest * tol.eta <= area;
+  }
+};
+
+}  // namespace nearmiss

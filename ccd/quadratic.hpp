@@ -1,0 +1,51 @@
+// Roots of a quadratic in [0, 1] (the paper's Appendix A).
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+namespace nearmiss {
+
+/// Times in [0, 1], at most `capacity` of them; a fixed buffer, no allocation.
+template <class T, int capacity>
+struct Times {
+  T values[capacity];
+  int count = 0;
+
+  void add(T t) { values[count++] = t; }
+  [[nodiscard]] const T* begin() const { return values; }
+  [[nodiscard]] const T* end() const { return values + count; }
+};
+
+/// Adds numerator / denominator where that is in [0, 1]; found out without dividing, so that a zero
+/// denominator or an overflow never reaches a comparison. 0/0 adds nothing: the equation is trivial.
+template <class T, int capacity>
+void add_quotient(Times<T, capacity>& times, T numerator, T denominator) {
+  if (denominator < 0) {
+    numerator = -numerator;
+    denominator = -denominator;
+  }
+  if (denominator > 0 && numerator >= 0 && numerator <= denominator) times.add(numerator / denominator);
+}
+
+/// Adds the roots of a t² + b t + c in [0, 1], in no particular order; a linear equation is solved, a
+/// constant one adds nothing.
+///
+/// A discriminant that comes out negative is taken as 0: rounding hides tangential roots there, and a
+/// candidate more is harmless. With q = -(b + sign(b) sqrt(disc)) the roots are q/2a and 2c/q, neither of
+/// which cancels; each is the root of a quadratic whose coefficients differ from these by a few ε relatively.
+template <class T, int capacity>
+void solve_quadratic(Times<T, capacity>& times, T a, T b, T c) {
+  using std::sqrt;
+  if (a == 0) {
+    add_quotient(times, -c, b);
+    return;
+  }
+  const T disc = b * b - 4 * a * c;
+  const T root = disc > 0 ? T(sqrt(disc)) : T(0);
+  const T q = b >= 0 ? -(b + root) : root - b;
+  add_quotient(times, q, 2 * a);
+  if (root > 0) add_quotient(times, 2 * c, q);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,61 @@
+// A query: the value that every part of nearmiss passes on.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace nearmiss {
+
+/// What moves against what.
+enum class Kind : std::uint8_t {
+  vertex_triangle,  ///< x0 is the vertex, x1 x2 x3 the triangle
+  edge_edge,        ///< x0x1 and x2x3 are the edges
+};
+
+inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge};
+
+/// "vt" or "ee", the names on the command line, in files and in reports.
+constexpr std::string_view short_name(Kind kind) { return kind == Kind::vertex_triangle ? "vt" : "ee"; }
+
+/// The vertices of one primitive are x[0 .. split), those of the other x[split .. 4).
+constexpr int split(Kind kind) { return kind == Kind::vertex_triangle ? 1 : 2; }
+
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+
+/// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, with the
+/// double coordinates given. Any unit of length. Coordinates are finite; readers refuse others.
+struct Query {
+  Kind kind{};
+  /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
+  std::array<double, 24> x{};
+
+  [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
+  [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
+  void set_start(int vertex, const Vector3<double>& p) { set(vertex, p); }
+  void set_end(int vertex, const Vector3<double>& p) { set(4 + vertex, p); }
+
+  bool operator==(const Query&) const = default;
+
+ private:
+  [[nodiscard]] Eigen::Map<const Vector3<double>> at(int point) const {
+    return Eigen::Map<const Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point);
+  }
+  void set(int point, const Vector3<double>& p) {
+    Eigen::Map<Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point) = p;
+  }
+};
+
+/// Whether all 24 coordinates are finite.
+inline bool is_finite(const Query& query) {
+  return std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::isfinite(c); });
+}
+
+}  // namespace nearmiss

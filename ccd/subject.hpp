@@ -1,0 +1,82 @@
+// The interface behind which any CCD is put on trial.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// Which test accepted a pair.
+enum class Stage : std::uint8_t {
+  none,         ///< no collision was reported
+  proximity,    ///< area, height and barycentric tests of VT or EE
+  ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
+  ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
+  ve_equal,     ///< VE, KKT case 3: two edge components of the same magnitude
+  ve_zero,      ///< VE, KKT case 4: a component of the cross product vanishes
+  vv,           ///< VV (KKT case 5)
+  unspecified,  ///< a subject that does not tell, such as a plug-in
+};
+
+inline constexpr std::size_t stage_count = 8;
+
+/// Names of the stages, in order, as they stand in files and reports.
+inline constexpr std::array<std::string_view, stage_count> stage_names{
+    "none", "proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"};
+
+/// A subject's answer to one query.
+struct Verdict {
+  bool hit = false;
+  Stage stage = Stage::none;
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] where hit; NaN where not known
+};
+
+/// A CCD on trial: a pure function of the query.
+class Subject {
+ public:
+  Subject() = default;
+  Subject(const Subject&) = delete;
+  Subject& operator=(const Subject&) = delete;
+  virtual ~Subject() = default;
+
+  /// Name on the command line and in reports; a plug-in's own name for a plug-in.
+  [[nodiscard]] virtual const std::string& name() const = 0;
+
+  /// Throws Error where the subject itself reports an error (plug-ins) or a coordinate is not finite.
+  [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
+
+  /// verdicts[i] = decide(queries[i]); the spans have one length. This is what is timed.
+  virtual void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
+  }
+
+  /// The largest distance that a false positive of this subject may have, as the subject claims it
+  /// (same unit of length as the query); infinity where it claims nothing.
+  [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
+};
+
+/// Names of the built-in subjects, in the order in which `nearmiss subjects` lists them.
+std::vector<std::string> subject_names();
+
+/// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). `given_bound`, in
+/// the queries' unit of length, takes the place of every pair's own bound B (§5 of the paper: per scene, or
+/// given by the user); subjects without B take no notice of it. Throws Error for a name that is not known or
+/// a plug-in that cannot be used.
+std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
+                                      std::optional<double> given_bound = std::nullopt);
+
+/// The bound B of one pair (§4.1), in its unit of length; infinity beyond the largest double. The largest
+/// over a scene's pairs is the scene's.
+double pair_bound(const Query& query);
+
+}  // namespace nearmiss

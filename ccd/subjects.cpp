@@ -1,0 +1,125 @@
+// The built-in subjects.
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "ccd/basic.hpp"
+#include "ccd/error.hpp"
+#include "ccd/plugin.hpp"
+#include "ccd/subject.hpp"
+#include "ccd/wang.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+// Whether any of the 24 coordinates is NaN or infinite: all exponent bits set. In integers, so that the
+// loop is a few vector operations.
+bool any_not_finite(const Query& query) {
+  constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000;
+  constexpr std::uint64_t one = 0x0010'0000'0000'0000;  // carries into the sign bit where all are set
+  std::uint64_t carry = 0;
+  for (const double c : query.x) carry |= (std::bit_cast<std::uint64_t>(c) & exponent) + one;
+  return (carry >> 63) != 0;
+}
+
+[[noreturn, gnu::cold]] void refuse(const std::string& name) {
+  throw Error(name + ": found a coordinate that is not finite, expected 24 finite numbers");
+}
+
+template <Kind kind>
+double own_bound(const Query& query) {
+  const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
+  return std::ldexp(pair.B, -pair.frame.total());
+}
+
+/// A policy is `template <Kind> static Verdict decide(query, given)` and `static double distance_bound(query,
+/// given)`.
+template <class Policy>
+class BuiltIn final : public Subject {
+ public:
+  BuiltIn(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (any_not_finite(query)) refuse(name_);
+    return query.kind == Kind::vertex_triangle ? Policy::template decide<Kind::vertex_triangle>(query, given_)
+                                               : Policy::template decide<Kind::edge_edge>(query, given_);
+  }
+
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = BuiltIn::decide(queries[i]);
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    return Policy::distance_bound(query, given_);
+  }
+
+ private:
+  std::string name_;
+  std::optional<double> given_;
+};
+
+template <bool plane_culling>
+struct Basic {
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
+    return basic<kind, double, plane_culling>(query);
+  }
+  static double distance_bound(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::infinity();
+  }
+};
+
+template <WangOptions options>
+struct Wang {
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& given) {
+    return wang<kind, double, options>(query, given);
+  }
+  static double distance_bound(const Query& query, const std::optional<double>& given) {
+    // The bound is proportional to B, so it is taken at B = 1, where nothing overflows.
+    return paper_tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
+  }
+};
+
+using Factory = std::unique_ptr<Subject> (*)(std::string_view, std::optional<double>);
+
+template <class Policy>
+std::unique_ptr<Subject> build(std::string_view name, std::optional<double> given) {
+  return std::make_unique<BuiltIn<Policy>>(name, given);
+}
+
+constexpr std::array<std::pair<std::string_view, Factory>, 5> registry{{
+    {"basic", build<Basic<true>>},
+    {"basic-plain", build<Basic<false>>},
+    {"wang", build<Wang<WangOptions{true, VeCulling::per_root}>>},
+    {"wang-eps", build<Wang<WangOptions{true, VeCulling::fixed}>>},
+    {"wang-plain", build<Wang<WangOptions{false, VeCulling::none}>>},
+}};
+
+}  // namespace
+
+std::vector<std::string> subject_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, factory] : registry) names.emplace_back(name);
+  return names;
+}
+
+std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  for (const auto& [name, factory] : registry)
+    if (name == name_or_path) return factory(name, given_bound);
+  if (name_or_path.find('/') != std::string_view::npos) return load_plugin(std::string(name_or_path));
+  std::string known;
+  for (const auto& [name, factory] : registry) known += (known.empty() ? "" : ", ") + std::string(name);
+  throw Error("unknown subject '" + std::string(name_or_path) + "', expected one of " + known +
+              " or the path of a plug-in such as ./plugin.so");
+}
+
+double pair_bound(const Query& query) {
+  return query.kind == Kind::vertex_triangle ? own_bound<Kind::vertex_triangle>(query)
+                                             : own_bound<Kind::edge_edge>(query);
+}
+
+}  // namespace nearmiss

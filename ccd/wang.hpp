@@ -1,0 +1,119 @@
+// The failure-proof CCD of the paper: vertex-triangle (Algorithm 3) and edge-edge (Algorithm 4).
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "ccd/basic.hpp"
+#include "ccd/cubic.hpp"
+#include "ccd/error.hpp"
+#include "ccd/plane_culling.hpp"
+#include "ccd/proximity.hpp"
+#include "ccd/subject.hpp"
+#include "ccd/tolerances.hpp"
+#include "ccd/ve_culling.hpp"
+#include "ccd/vertex_edge.hpp"
+
+namespace nearmiss {
+
+/// Which culling a variant of the algorithm uses.
+struct WangOptions {
+  bool plane_culling = true;
+  VeCulling ve_culling = VeCulling::per_root;
+};
+
+namespace detail {
+
+// The vertex-edge pairs of Algorithms 3 and 4: vertex, edge's i and j.
+template <Kind kind>
+inline constexpr auto ve_tests = [] {
+  if constexpr (kind == Kind::vertex_triangle)
+    return std::array<std::array<int, 3>, 3>{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+  else
+    return std::array<std::array<int, 3>, 4>{{{2, 0, 1}, {3, 0, 1}, {0, 2, 3}, {1, 2, 3}}};
+}();
+
+template <Kind kind, class T>
+[[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const Order& order,
+                                            const Tolerances<T>& tol) {
+  for (const auto& test : ve_tests<kind>) {
+    const int vertex = order[static_cast<std::size_t>(test[0])];
+    const int i = order[static_cast<std::size_t>(test[1])];
+    const int j = order[static_cast<std::size_t>(test[2])];
+    const VertexEdge<T> ve{relative_motion<T>(query, vertex, i, frame),
+                           relative_motion<T>(query, j, i, frame),
+                           relative_motion<T>(query, vertex, j, frame)};
+    if (const Verdict verdict = vertex_edge(ve, tol); verdict.hit) return verdict;
+  }
+  return {};
+}
+
+// A pair with a given B in the place of its own, in the frame that this B asks for.
+template <Kind kind, class T>
+Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
+  using std::ilogb;
+  using std::ldexp;
+  if (!(ldexp(static_cast<T>(given), pair.frame.total()) >= pair.B))
+    throw Error("the given bound B = " + std::to_string(given) + " is smaller than a pair's own, " +
+                std::to_string(ldexp(static_cast<double>(pair.B), -pair.frame.total())));
+  Frame frame = pair.frame;
+  if (!in_range(ldexp(static_cast<T>(given), frame.total()))) {
+    frame.exponent -= ilogb(static_cast<T>(given)) + frame.total();
+    pair = make_pair<kind, T>(query, frame, pair.order);
+  }
+  pair.B = ldexp(static_cast<T>(given), frame.total());
+  return pair;
+}
+
+// Algorithms 3 and 4 for a pair whose vectors are within B.
+template <Kind kind, class T, WangOptions options>
+[[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair) {
+  const Tolerances<T> tol = paper_tolerances(pair.B);
+  const Cubic<T> F = coplanarity(pair);
+  const auto roots = solve_cubic(F, tol.mu);
+  bool culled = options.ve_culling != VeCulling::none;
+  const auto proximity = [&](T t, bool root) {
+    const Figure<kind, T> figure(pair, t);
+    const bool well_shaped = figure.well_shaped(tol);
+    if (well_shaped && figure.inside()) return true;
+    culled =
+        culled && (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, figure, t, tol)));
+    return false;
+  };
+  const auto hit = [](T t) { return Verdict{true, Stage::proximity, static_cast<double>(t)}; };
+  for (const T t : roots)
+    if (proximity(t, true)) return hit(t);
+  // T ∪ {0, 1} of the algorithms: a candidate only where its residual is a root's. Then t = 0 is the left
+  // node of the first interval, hence among the roots; t = 1 need not be.
+  using std::abs;
+  if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
+  if (culled) return {};
+  return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
+}
+
+// The same for a pair that needs another frame or has a given B (§5).
+template <Kind kind, class T, WangOptions options>
+[[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given) {
+  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
+  if (given) pair = with_given_bound(query, pair, *given);
+  if (!bring_within_reach(query, pair)) return {};
+  return wang_tests<kind, T, options>(query, pair);
+}
+
+}  // namespace detail
+
+/// Algorithms 3 and 4. Reports every true collision of finite input in double (§4: the tolerances are
+/// failure-proof where μ >= 33492 B³ε), contact at t = 0 and t = 1 included. What it reports without a
+/// collision is within the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). `given`, where it is
+/// set, takes the place of the pair's own B; one that is smaller throws Error (§5).
+template <Kind kind, class T, WangOptions options>
+Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt) {
+  if (options.plane_culling && separated_by_plane<kind>(query)) return {};
+  auto pair = make_pair<kind, T>(query);
+  if (given || !in_range(pair.B)) return detail::wang_careful<kind, T, options>(query, given);
+  if (!bring_within_reach(query, pair)) return {};
+  return detail::wang_tests<kind, T, options>(query, pair);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,61 @@
+// Plug-in subjects, good and bad.
+#include "ccd/plugin.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ccd/error.hpp"
+#include "tests/ccd/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+
+TEST(Plugin, TheExampleAnswers) {
+  const auto subject = make_subject(plugin("example"));
+  EXPECT_EQ(subject->name(), "boxes");
+  EXPECT_TRUE(subject->decide(testing::falling_vertex(0.25, 0.25, 1, -1)).hit);
+  EXPECT_FALSE(subject->decide(testing::falling_vertex(0.25, 0.25, 2, 1)).hit);
+  EXPECT_TRUE(subject->decide(testing::falling_edge(1, -1)).hit);
+  EXPECT_TRUE(std::isinf(subject->distance_bound(testing::falling_edge(1, -1))));
+}
+
+TEST(Plugin, ATimeIsPassedOn) {
+  const Verdict verdict = make_subject(plugin("always"))->decide(testing::falling_vertex(0, 0, 2, 1));
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_EQ(verdict.time, 0.5);
+  EXPECT_EQ(verdict.stage, Stage::unspecified);
+}
+
+TEST(Plugin, AnErrorIsAnError) {
+  const auto subject = make_subject(plugin("error"));
+  EXPECT_THAT([&] { (void)subject->decide(Query{}); }, ThrowsMessage<Error>(HasSubstr("returned -7")));
+}
+
+TEST(Plugin, AnotherAbiIsRefused) {
+  EXPECT_THAT([] { (void)make_subject(plugin("other_abi")); },
+              ThrowsMessage<Error>(HasSubstr("abi 99, expected 1")));
+}
+
+TEST(Plugin, ASharedObjectWithoutTheFunctionIsRefused) {
+  EXPECT_THAT([] { (void)make_subject(plugin("no_function")); },
+              ThrowsMessage<Error>(HasSubstr("no function nearmiss_get_subject")));
+}
+
+TEST(Plugin, AMissingFileIsRefused) {
+  EXPECT_THAT([] { (void)make_subject("./no/such.so"); }, ThrowsMessage<Error>(HasSubstr("cannot load")));
+}
+
+TEST(Subjects, AnUnknownNameListsTheKnownOnes) {
+  EXPECT_THAT([] { (void)make_subject("wong"); },
+              ThrowsMessage<Error>(HasSubstr("basic, basic-plain, wang")));
+}
+
+}  // namespace
+}  // namespace nearmiss

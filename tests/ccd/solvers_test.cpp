@@ -1,0 +1,100 @@
+// The quadratic and the cubic solver.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "ccd/cubic.hpp"
+#include "ccd/quadratic.hpp"
+
+namespace nearmiss {
+namespace {
+
+std::vector<double> quadratic_roots(double a, double b, double c) {
+  Times<double, 2> times;
+  solve_quadratic(times, a, b, c);
+  std::vector<double> sorted(times.begin(), times.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+using Roots = std::vector<double>;
+
+TEST(Quadratic, TwoRoots) { EXPECT_EQ(quadratic_roots(16, -16, 3), (Roots{0.25, 0.75})); }
+TEST(Quadratic, NegativeLeadingCoefficient) { EXPECT_EQ(quadratic_roots(-16, 16, -3), (Roots{0.25, 0.75})); }
+TEST(Quadratic, RootsAtTheEnds) { EXPECT_EQ(quadratic_roots(1, -1, 0), (Roots{0, 1})); }
+TEST(Quadratic, OutsideIsLeftOut) { EXPECT_EQ(quadratic_roots(1, -2.5, 1), (Roots{0.5})); }
+TEST(Quadratic, DoubleRoot) { EXPECT_EQ(quadratic_roots(4, -4, 1), (Roots{0.5})); }
+TEST(Quadratic, NegativeDiscriminantKeepsTheVertex) { EXPECT_EQ(quadratic_roots(4, -4, 1.1), (Roots{0.5})); }
+TEST(Quadratic, Linear) { EXPECT_EQ(quadratic_roots(0, 4, -1), (Roots{0.25})); }
+TEST(Quadratic, ConstantHasNone) { EXPECT_EQ(quadratic_roots(0, 0, 3), (Roots{})); }
+TEST(Quadratic, ZeroHasNone) { EXPECT_EQ(quadratic_roots(0, 0, 0), (Roots{})); }
+TEST(Quadratic, SmallRootDoesNotCancel) {
+  // t² + 1e8 t - 1: the textbook formula loses all digits of the root near 1e-8.
+  EXPECT_EQ(quadratic_roots(1, 1e8, -1), (Roots{1e-8}));
+}
+
+std::vector<double> cubic_roots(const Cubic<double>& F, double mu) {
+  const auto times = solve_cubic(F, mu);
+  return {times.begin(), times.end()};
+}
+
+TEST(Cubic, ThreeRoots) {
+  // (t - 1/4)(t - 1/2)(t - 3/4)
+  const auto roots = cubic_roots({1, -1.5, 0.6875, -0.09375}, 1e-15);
+  ASSERT_EQ(roots.size(), 3U);
+  EXPECT_NEAR(roots[0], 0.25, 1e-12);
+  EXPECT_NEAR(roots[1], 0.5, 1e-12);
+  EXPECT_NEAR(roots[2], 0.75, 1e-12);
+}
+
+TEST(Cubic, NoRoot) { EXPECT_TRUE(cubic_roots({0, 1, -1, 1}, 1e-9).empty()); }
+
+TEST(Cubic, NearlyNoRootWithinTheResidual) {
+  // (t - 1/2)² + 1e-12 stays above 0, but below μ at its minimum.
+  EXPECT_FALSE(cubic_roots({0, 1, -1, 0.25 + 1e-12}, 1e-9).empty());
+}
+
+TEST(Cubic, ZeroPolynomialIsARootEverywhere) { EXPECT_FALSE(cubic_roots({0, 0, 0, 0}, 0).empty()); }
+
+TEST(Cubic, EndsEvenWhereTheResidualCannotBeReached) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> coefficient(-1, 1);
+  for (int i = 0; i < 100000; ++i) {
+    const Cubic<double> F{coefficient(random), coefficient(random), coefficient(random), coefficient(random)};
+    for (const double t : cubic_roots(F, 0)) {
+      ASSERT_GE(t, 0);
+      ASSERT_LE(t, 1);
+      ASSERT_LE(std::abs(F(t)), 1e-15) << i;
+    }
+  }
+}
+
+// Appendix B's claim: for a root t0 there is a t in the result with |F| <= μ on all of [t0, t].
+TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double mu = 64 * std::ldexp(1.0, -39);
+  for (int i = 0; i < 20000; ++i) {
+    // Clustered roots, so that F stays near 0 between them.
+    const double r0 = unit(random);
+    const double spread = std::pow(10.0, -8 * unit(random));
+    const double r1 = r0 + spread * (unit(random) - 0.5);
+    const double r2 = i % 2 == 0 ? r0 + spread * (unit(random) - 0.5) : 4 * unit(random) - 2;
+    const Cubic<double> F{1, -(r0 + r1 + r2), r0 * r1 + r0 * r2 + r1 * r2, -r0 * r1 * r2};
+    const auto roots = cubic_roots(F, mu);
+    for (const double t0 : {r0, r1, r2}) {
+      if (t0 < 0 || t0 > 1) continue;
+      const bool reached = std::any_of(roots.begin(), roots.end(), [&](double t) {
+        double worst = 0;
+        for (int k = 0; k <= 64; ++k) worst = std::max(worst, std::abs(F(t0 + (t - t0) * k / 64)));
+        return worst <= mu * 1.001;
+      });
+      ASSERT_TRUE(reached) << "root " << t0 << " of case " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss

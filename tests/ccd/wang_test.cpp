@@ -1,0 +1,156 @@
+// The failure-proof CCD on queries with a known truth.
+#include "ccd/wang.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "ccd/error.hpp"
+#include "ccd/subject.hpp"
+#include "tests/ccd/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+using testing::moved;
+using testing::scaled;
+
+class EveryWang : public ::testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] Verdict decide(const Query& query) const { return make_subject(GetParam())->decide(query); }
+};
+INSTANTIATE_TEST_SUITE_P(Variants, EveryWang, ::testing::Values("wang", "wang-eps", "wang-plain"));
+
+TEST_P(EveryWang, ReportsAVertexThatFallsThroughATriangle) {
+  const Verdict verdict = decide(falling_vertex(0.25, 0.25, 1, -1));
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_EQ(verdict.stage, Stage::proximity);
+  EXPECT_NEAR(verdict.time, 0.5, 1e-9);
+}
+
+TEST_P(EveryWang, ReportsEdgesThatCross) {
+  const Verdict verdict = decide(falling_edge(1, -3));
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_EQ(verdict.stage, Stage::proximity);
+  EXPECT_NEAR(verdict.time, 0.25, 1e-9);
+}
+
+TEST_P(EveryWang, ReportsContactAtTheStart) {
+  EXPECT_TRUE(decide(falling_vertex(0.25, 0.25, 0, 1)).hit);
+  EXPECT_TRUE(decide(falling_edge(0, 1)).hit);
+}
+
+TEST_P(EveryWang, ReportsContactAtTheEnd) {
+  EXPECT_TRUE(decide(falling_vertex(0.25, 0.25, 1, 0)).hit);
+  EXPECT_TRUE(decide(falling_edge(1, 0)).hit);
+}
+
+TEST_P(EveryWang, ReportsTouchingInAVertexAndOnAnEdge) {
+  EXPECT_TRUE(decide(falling_vertex(0, 0, 1, -1)).hit);
+  EXPECT_TRUE(decide(falling_vertex(0.5, 0.5, 1, -1)).hit);
+}
+
+TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
+  EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 2, 1)).hit);
+  EXPECT_FALSE(decide(falling_vertex(2, 2, 1, -1)).hit);
+  EXPECT_FALSE(decide(falling_edge(2, 1)).hit);
+}
+
+// Algorithm 3 read literally would test t = 0 without looking at F.
+TEST_P(EveryWang, DoesNotReportAVertexFarAboveATriangleAtRest) {
+  EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
+}
+
+TEST_P(EveryWang, ReportsThePairThatIsAllZero) {
+  for (const Kind kind : kinds) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
+}
+
+TEST_P(EveryWang, ReportsAPairThatIsOnePoint) {
+  for (const Kind kind : kinds) EXPECT_TRUE(decide(moved(Query{.kind = kind}, 7)).hit);
+}
+
+TEST_P(EveryWang, GivesTheSameVerdictAtEveryScale) {
+  for (const Query& query : {falling_vertex(0.25, 0.25, 1, -1), falling_vertex(0.25, 0.25, 2, 1),
+                             falling_vertex(0.5, 0.5, 1, -1), falling_edge(1, -3), falling_edge(3, 1)}) {
+    const Verdict expected = decide(query);
+    for (const int exponent : {-1040, -1000, -300, -101, -99, 99, 101, 300, 1000, 1021}) {
+      const Verdict verdict = decide(scaled(query, std::ldexp(1.0, exponent)));
+      EXPECT_EQ(verdict.hit, expected.hit) << exponent;
+      EXPECT_EQ(verdict.stage, expected.stage) << exponent;
+    }
+  }
+}
+
+TEST_P(EveryWang, ReportsCollisionsWhoseDifferencesOverflow) {
+  const double big = std::numeric_limits<double>::max();
+  const Vector3<double> a(-big, -big, 0), b(big, -big, 0), c(0, big, 0);
+  EXPECT_TRUE(decide(make_query(Kind::vertex_triangle, {{0, 0, big}, a, b, c}, {{0, 0, -big}, a, b, c})).hit);
+  EXPECT_FALSE(
+      decide(make_query(Kind::vertex_triangle, {{0, 0, big}, a, b, c}, {{0, 0, big / 2}, a, b, c})).hit);
+}
+
+// §3.3, small triangle: the residual of F is small although the vertex is far away in units of the triangle.
+TEST_P(EveryWang, ReportsAVertexThroughATinyTriangle) {
+  const double s = 1e-9;
+  const Vector3<double> o(0, 0, 0), a(s, 0, 0), b(0, s, 0);
+  const Query query =
+      make_query(Kind::vertex_triangle, {{s / 4, s / 4, 1}, o, a, b}, {{s / 4, s / 4, -1}, o, a, b});
+  EXPECT_TRUE(decide(query).hit);
+}
+
+TEST_P(EveryWang, RefusesCoordinatesThatAreNotFinite) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity()}) {
+    for (std::size_t i = 0; i < 24; ++i) {
+      Query query = falling_vertex(0.25, 0.25, 2, 1);
+      query.x[i] = bad;
+      EXPECT_THROW((void)decide(query), Error) << i;
+    }
+  }
+}
+
+TEST(Wang, AGivenBoundWidensTheToleranceAndMustNotBeSmaller) {
+  const Query query = falling_vertex(0.25, 0.25, 1, 0.01);
+  EXPECT_FALSE(make_subject("wang-plain")->decide(query).hit);
+  EXPECT_TRUE(make_subject("wang-plain", 1e3)->decide(query).hit);
+  EXPECT_THROW((void)make_subject("wang", 0.5)->decide(falling_vertex(0.25, 0.25, 1, -1)), Error);
+  EXPECT_NO_THROW((void)make_subject("wang", 1e200)->decide(query));
+  EXPECT_FALSE(make_subject("wang", pair_bound(query))->decide(query).hit);
+}
+
+TEST(Wang, ClaimsADistanceOf41BTimesTheFourthRootOfEpsilon) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -1);
+  const double B = pair_bound(query);
+  EXPECT_NEAR(B, 3, 1e-12);  // edges within 1, relative velocities within 2
+  EXPECT_NEAR(make_subject("wang")->distance_bound(query), std::sqrt(1678.0) * B * std::ldexp(1.0, -13),
+              1e-9);
+}
+
+TEST(Wang, BoundUsesRelativeVelocities) {
+  const Query still = falling_vertex(0.25, 0.25, 1, 1);
+  Query together = still;
+  for (std::size_t i = 12; i < 24; ++i) together.x[i] += 64;
+  EXPECT_NEAR(pair_bound(together), pair_bound(still), 1e-12);
+}
+
+TEST(Wang, EdgeEdgeFindsTheEndPointsThatAreClosest) {
+  // x0 and x2 are 1000 apart while the edges are long on one side only: every order gives one answer.
+  const Vector3<double> a(-1000, 0, 1), b(1, 0, 1), c(0, -1000, 0), d(0, 1, 0);
+  const Vector3<double> down(0, 0, -2);
+  for (const bool swap_first : {false, true}) {
+    for (const bool swap_second : {false, true}) {
+      const auto& x0 = swap_first ? b : a;
+      const auto& x1 = swap_first ? a : b;
+      const auto& x2 = swap_second ? d : c;
+      const auto& x3 = swap_second ? c : d;
+      const Query query = make_query(Kind::edge_edge, {x0, x1, x2, x3}, {x0 + down, x1 + down, x2, x3});
+      EXPECT_TRUE(make_subject("wang")->decide(query).hit);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,42 @@
+# What all of our own targets share: warnings as errors, sanitizers, clang-tidy, ccache.
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+if(NEARMISS_CLANG_TIDY)
+  find_program(CLANG_TIDY clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet)
+endif()
+
+if(NEARMISS_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+# nearmiss_options(TARGET): our own code compiles without a warning; includes are from the top, "folder/file.hpp".
+function(nearmiss_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
+
+# nearmiss_library(FOLDER LIB...): the library of one folder, from all of its .cpp files.
+function(nearmiss_library folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(nearmiss_${folder} STATIC ${sources})
+  nearmiss_options(nearmiss_${folder})
+  target_link_libraries(nearmiss_${folder} PUBLIC ${ARGN})
+endfunction()
+
+# nearmiss_tests(FOLDER LIB...): one GoogleTest executable from tests/FOLDER/*.cpp, each test known to CTest.
+function(nearmiss_tests folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
+  add_executable(${folder}_tests ${sources})
+  nearmiss_options(${folder}_tests)
+  target_link_libraries(${folder}_tests PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+endfunction()
