@@ -1,0 +1,160 @@
+// VV and VE: what is within their thresholds is reported, and nothing farther away than the bound.
+#include "ccd/vertex_edge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace nearmiss {
+namespace {
+
+using Vector = Vector3<double>;
+
+Moving<double> moving(const Vector& x, const Vector& v) {
+  Moving<double> m;
+  m.xv << x, v;
+  return m;
+}
+
+const Tolerances<double> tol = paper_tolerances(1.0);
+const double e = std::ldexp(1.0, -13);
+
+TEST(Tolerances, AreThePapersForDouble) {
+  EXPECT_EQ(fourth_root_of_epsilon<double>(), e);
+  EXPECT_EQ(tol.D2, 1678 * e * e);
+  EXPECT_EQ(tol.delta, 311 * epsilon<double>);
+  EXPECT_EQ(tol.rho, 3 * e * e);
+  EXPECT_EQ(tol.psi, 725 * e * e);
+  EXPECT_EQ(tol.lambda2, 2080 * e * e);
+  EXPECT_EQ(tol.R, 6 * e);
+  EXPECT_EQ(tol.S, 18 * e);
+  EXPECT_EQ(tol.mu, 64 * e * e * e);
+  EXPECT_EQ(tol.tau, 64 * e * e);
+  EXPECT_EQ(tol.eta, 4 * e);
+  EXPECT_GE(tol.mu, 33492 * epsilon<double>);  // what makes the cubic solver failure-proof
+}
+
+TEST(VertexVertex, ReportsWhatIsWithinD) {
+  const double D = std::sqrt(tol.D2);
+  // Passing at distance D at t = 1/2; at rest at that distance; apart by a little more.
+  EXPECT_EQ(vertex_vertex(moving({D, -0.5, 0}, {0, 1, 0}), tol), 0.5);
+  EXPECT_EQ(vertex_vertex(moving({D, 0, 0}, {0, 0, 0}), tol), 0);
+  EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
+}
+
+TEST(VertexVertex, LooksOnlyWithinTheStep) {
+  EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {1, 0, 0}), tol));
+  EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {-0.25, 0, 0}), tol));
+  EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
+}
+
+// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions, made so that no earlier case in
+// the algorithm's order sees it.
+struct Case {
+  Stage stage;
+  VertexEdge<double> pair;
+};
+
+VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
+  return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
+}
+
+TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
+  for (const double t : {0.0, 1.0}) {
+    // On the edge's middle at time t, elsewhere far away.
+    const auto pair =
+        vertex_edge_pair(moving({0.25, -0.5 * t, 0}, {0, 0.5, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
+    const Verdict verdict = vertex_edge(pair, tol);
+    EXPECT_EQ(verdict.stage, Stage::ve_end);
+    EXPECT_EQ(verdict.time, t);
+  }
+}
+
+TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
+  const auto pair = vertex_edge_pair(moving({0.25, -0.25, 0}, {0, 0.5, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
+  const Verdict verdict = vertex_edge(pair, tol);
+  EXPECT_EQ(verdict.stage, Stage::ve_zero);
+  EXPECT_EQ(verdict.time, 0.5);
+}
+
+TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
+  // The edge turns through the diagonal of x and y at t = 1/2, where the vertex crosses its line.
+  const auto xji = moving({0.5, 0.25, 0}, {-0.25, 0.25, 0});
+  const auto pair = vertex_edge_pair(moving(Vector(0.1875, 0.1875, -0.25), {0, 0, 0.5}), xji);
+  const Verdict verdict = vertex_edge(pair, tol);
+  EXPECT_EQ(verdict.stage, Stage::ve_equal);
+  EXPECT_EQ(verdict.time, 0.5);
+}
+
+TEST(VertexEdge, Case5OutsideOfTheEdge) {
+  // Passes the end xj at a third of D beyond it: the projection is never inside.
+  const double d = std::sqrt(tol.D2) / 3;
+  const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
+  EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
+}
+
+TEST(VertexEdge, ShortEdgesAreLeftToVertexVertex) {
+  const double l = std::sqrt(tol.lambda2) / 2;
+  const auto pair = vertex_edge_pair(moving({l / 2, 0, 0}, {0, 0, 0}), moving({l, 0, 0}, {0, 0, 0}));
+  EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
+}
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(engine_); }
+  double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
+  Vector vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+double distance_to_edge(const VertexEdge<double>& pair, double t) {
+  const Vector a = pair.x0i.at(t);
+  const Vector edge = pair.xji.at(t);
+  const double w = std::clamp(a.dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (a - w * edge).norm();
+}
+
+/// A vertex that is `distance` away from a point of the edge at a random time, all vectors within 1.
+VertexEdge<double> pair_at_distance(Random& random, double distance, double& time) {
+  const Vector edge = random.vector(random.log_uniform(1e-6, 0.5));
+  const Vector edge_velocity = random.vector(random.log_uniform(1e-6, 0.5));
+  time = random.uniform(0, 1);
+  const double w = random.uniform(0, 1);
+  const Vector direction = random.vector(1).normalized();
+  const Vector velocity = random.vector(random.log_uniform(1e-6, 0.25));
+  const Vector at_time = w * (edge + time * edge_velocity) + distance * direction;
+  return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
+}
+
+// Algorithm 2's promise, the one that VT and EE build on: whatever comes within R is reported.
+TEST(VertexEdge, ReportsWhateverComesWithinR) {
+  Random random(3);
+  for (int i = 0; i < 200000; ++i) {
+    double time = 0;
+    const auto pair = pair_at_distance(random, tol.R * 0.999 * (i % 4 == 0 ? random.uniform(0, 1) : 1), time);
+    ASSERT_TRUE(vertex_edge(pair, tol).hit) << "case " << i << ": x0i " << pair.x0i.xv.transpose() << ", xji "
+                                            << pair.xji.xv.transpose() << " within R at t = " << time;
+  }
+}
+
+TEST(VertexEdge, ReportsNothingFartherAwayThanTheBound) {
+  Random random(4);
+  int reported = 0;
+  for (int i = 0; i < 200000; ++i) {
+    double time = 0;
+    const auto pair = pair_at_distance(random, random.log_uniform(tol.R, 100 * tol.R), time);
+    const Verdict verdict = vertex_edge(pair, tol);
+    if (!verdict.hit) continue;
+    ++reported;
+    ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << "case " << i;
+  }
+  EXPECT_GT(reported, 1000);
+}
+
+}  // namespace
+}  // namespace nearmiss
