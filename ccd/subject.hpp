@@ -65,8 +65,14 @@ class Subject {
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 };
 
-/// Names of the built-in subjects, in the order in which `nearmiss subjects` lists them.
-std::vector<std::string> subject_names();
+/// A built-in subject's name and what it is, in a line.
+struct SubjectInfo {
+  std::string_view name;
+  std::string_view about;
+};
+
+/// The built-in subjects, in the order in which `nearmiss subjects` lists them.
+std::vector<SubjectInfo> subjects();
 
 /// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). `given_bound`, in
 /// the queries' unit of length, takes the place of every pair's own bound B (§5 of the paper: per scene, or

@@ -84,35 +84,43 @@ struct Wang {
   }
 };
 
-using Factory = std::unique_ptr<Subject> (*)(std::string_view, std::optional<double>);
+struct Entry {
+  SubjectInfo info;
+  std::unique_ptr<Subject> (*make)(std::string_view name, std::optional<double> given);
+};
 
 template <class Policy>
-std::unique_ptr<Subject> build(std::string_view name, std::optional<double> given) {
-  return std::make_unique<BuiltIn<Policy>>(name, given);
+constexpr Entry entry(std::string_view name, std::string_view about) {
+  return {{name, about},
+          [](std::string_view own_name, std::optional<double> given) -> std::unique_ptr<Subject> {
+            return std::make_unique<BuiltIn<Policy>>(own_name, given);
+          }};
 }
 
-constexpr std::array<std::pair<std::string_view, Factory>, 5> registry{{
-    {"basic", build<Basic<true>>},
-    {"basic-plain", build<Basic<false>>},
-    {"wang", build<Wang<WangOptions{true, VeCulling::per_root}>>},
-    {"wang-eps", build<Wang<WangOptions{true, VeCulling::fixed}>>},
-    {"wang-plain", build<Wang<WangOptions{false, VeCulling::none}>>},
-}};
+constexpr std::array registry{
+    entry<Basic<true>>("basic", "cubic CCD without any tolerance, plane culling: the baseline"),
+    entry<Basic<false>>("basic-plain", "the same without plane culling"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}>>(
+        "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
+    entry<Wang<WangOptions{true, VeCulling::fixed}>>(
+        "wang-eps", "the same with the paper's fixed interval, the root of epsilon"),
+    entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
+};
 
 }  // namespace
 
-std::vector<std::string> subject_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, factory] : registry) names.emplace_back(name);
-  return names;
+std::vector<SubjectInfo> subjects() {
+  std::vector<SubjectInfo> infos;
+  for (const Entry& each : registry) infos.push_back(each.info);
+  return infos;
 }
 
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
-  for (const auto& [name, factory] : registry)
-    if (name == name_or_path) return factory(name, given_bound);
+  for (const Entry& each : registry)
+    if (each.info.name == name_or_path) return each.make(name_or_path, given_bound);
   if (name_or_path.find('/') != std::string_view::npos) return load_plugin(std::string(name_or_path));
   std::string known;
-  for (const auto& [name, factory] : registry) known += (known.empty() ? "" : ", ") + std::string(name);
+  for (const Entry& each : registry) known += (known.empty() ? "" : ", ") + std::string(each.info.name);
   throw Error("unknown subject '" + std::string(name_or_path) + "', expected one of " + known +
               " or the path of a plug-in such as ./plugin.so");
 }

@@ -17,13 +17,20 @@ struct Enclosure {
 /// degenerate, planar, huge and subnormal ones included.
 bool collides(const Query& query);
 
-/// An enclosure of the earliest time at which they do, at most one ulp of 1 wide; nothing where they never do.
+/// An enclosure of the earliest time at which they do, at most one ulp of 1 wide; nothing where they never
+/// do.
 std::optional<Enclosure> earliest_time(const Query& query);
 
-/// An enclosure of the smallest distance over [0, 1] with hi - lo <= relative_width * hi; (0, 0) for a collision.
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi
+/// where double intervals can tell: not where the distance is below about 2^-45 of the largest coordinate; lo
+/// may be 0 there.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// Whether the smallest distance over [0, 1] is above the bound.
+/// The same without the exact decision in front: lo is 0 for a collision, but hi need not be.
+Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
+
+/// Whether the smallest distance over [0, 1] is certainly above the bound (closer to it than double intervals
+/// can tell, about 2^-45 of the largest coordinate, it is not).
 bool distance_exceeds(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ccd/error.hpp"
-#include "tests/ccd/queries.hpp"
+#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/subject.hpp"
-#include "tests/ccd/queries.hpp"
+#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {

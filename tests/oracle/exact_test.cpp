@@ -1,0 +1,218 @@
+// The exact decision on queries whose truth follows by hand.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "oracle/box.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+using testing::scaled;
+using Vector = Vector3<double>;
+
+const Vector o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
+
+Query vertex_against_unit_triangle(const Vector& from, const Vector& to) {
+  return make_query(Kind::vertex_triangle, {from, o, a, b}, {to, o, a, b});
+}
+
+TEST(Exact, VertexThroughTheTriangle) { EXPECT_TRUE(collides(falling_vertex(0.25, 0.25, 1, -1))); }
+TEST(Exact, VertexBesideTheTriangle) { EXPECT_FALSE(collides(falling_vertex(0.75, 0.75, 1, -1))); }
+TEST(Exact, VertexStopsAtTheTriangle) { EXPECT_TRUE(collides(falling_vertex(0.25, 0.25, 1, 0))); }
+TEST(Exact, VertexStopsOneUlpAboveTheTriangle) {
+  EXPECT_FALSE(collides(falling_vertex(0.25, 0.25, 1, std::numeric_limits<double>::denorm_min())));
+}
+TEST(Exact, VertexStartsOnTheTriangle) { EXPECT_TRUE(collides(falling_vertex(0.25, 0.25, 0, 1))); }
+TEST(Exact, VertexTouchesAnEdge) { EXPECT_TRUE(collides(falling_vertex(0.5, 0.5, 1, -1))); }
+TEST(Exact, VertexMissesAnEdgeByOneUlp) {
+  EXPECT_FALSE(collides(falling_vertex(0.5, std::nextafter(0.5, 1), 1, -1)));
+}
+TEST(Exact, VertexTouchesAVertex) { EXPECT_TRUE(collides(falling_vertex(1, 0, 1, -1))); }
+
+TEST(Exact, EdgesCross) { EXPECT_TRUE(collides(falling_edge(1, -1))); }
+TEST(Exact, EdgesTouchAtTheEnd) { EXPECT_TRUE(collides(falling_edge(1, 0))); }
+TEST(Exact, EdgesMissByOneUlp) {
+  EXPECT_FALSE(collides(falling_edge(1, std::numeric_limits<double>::denorm_min())));
+}
+
+TEST(Exact, EdgesTouchInEndPoints) {
+  EXPECT_TRUE(collides(make_query(Kind::edge_edge, {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {1, 1, 0}},
+                                  {{0, 0, -1}, {1, 0, -1}, {1, 0, 0}, {1, 1, 0}})));
+}
+
+/// An edge along the x axis at rest, and one that crosses x = 0 from y = -(1 + t) to y = 2 - t at heights g +
+/// 4 - 8t and g + 8t - 4, so that it passes the first at height (16 t² - 16 t + 4 + 3 g) / 3.
+Query swinging_edge(double g) {
+  return make_query(Kind::edge_edge, {{-1, 0, 0}, {1, 0, 0}, {0, -1, 4 + g}, {0, 2, -4 + g}},
+                    {{-1, 0, 0}, {1, 0, 0}, {0, -2, -4 + g}, {0, 1, 4 + g}});
+}
+
+TEST(Exact, TwoRootsAreACollisionAlthoughTheirParityIsEven) { EXPECT_TRUE(collides(swinging_edge(-1))); }
+TEST(Exact, TangentialContactIsACollision) { EXPECT_TRUE(collides(swinging_edge(0))); }
+TEST(Exact, TangentialMissByAnUlpIsNone) { EXPECT_FALSE(collides(swinging_edge(std::ldexp(1.0, -50)))); }
+
+TEST(Exact, PlanarMotionHitsAndMisses) {
+  EXPECT_TRUE(collides(vertex_against_unit_triangle({-1, 0.25, 0}, {2, 0.25, 0})));
+  EXPECT_FALSE(collides(vertex_against_unit_triangle({-1, -0.25, 0}, {2, -0.25, 0})));
+  // Only a corner is touched, at an interior time.
+  EXPECT_TRUE(collides(vertex_against_unit_triangle({-1, 1, 0}, {1, 1, 0})));
+  EXPECT_FALSE(
+      collides(vertex_against_unit_triangle({-1, std::nextafter(1, 2), 0}, {1, std::nextafter(1, 2), 0})));
+}
+
+TEST(Exact, DegenerateTriangles) {
+  const auto against_segment = [](const Vector& from, const Vector& to) {
+    return make_query(Kind::vertex_triangle, {from, o, a, {0.5, 0, 0}}, {to, o, a, {0.5, 0, 0}});
+  };
+  EXPECT_TRUE(collides(against_segment({0.75, 0, 1}, {0.75, 0, -1})));
+  EXPECT_FALSE(collides(against_segment({1.25, 0, 1}, {1.25, 0, -1})));
+  const auto against_point = [](const Vector& from, const Vector& to) {
+    return make_query(Kind::vertex_triangle, {from, o, o, o}, {to, o, o, o});
+  };
+  EXPECT_TRUE(collides(against_point({-1, -1, -1}, {1, 1, 1})));
+  EXPECT_FALSE(collides(against_point({-1, -1, -1}, {1, 1, 2})));
+}
+
+TEST(Exact, ParallelEdges) {
+  const auto falling_beside = [](double x) {
+    return make_query(Kind::edge_edge, {{x, 0, 1}, {x + 1, 0, 1}, o, a}, {{x, 0, -1}, {x + 1, 0, -1}, o, a});
+  };
+  EXPECT_TRUE(collides(falling_beside(0.5)));
+  EXPECT_TRUE(collides(falling_beside(1)));
+  EXPECT_FALSE(collides(falling_beside(std::nextafter(1, 2))));
+}
+
+TEST(Exact, EverythingInOnePoint) {
+  for (const Kind kind : kinds) EXPECT_TRUE(collides(Query{.kind = kind}));
+}
+
+TEST(Exact, ScalesFromSubnormalToHuge) {
+  for (const int exponent : {-1060, -500, 500, 1020}) {
+    EXPECT_TRUE(collides(scaled(falling_vertex(0.25, 0.25, 1, -1), std::ldexp(1.0, exponent))));
+    EXPECT_FALSE(collides(scaled(falling_vertex(0.75, 0.75, 1, -1), std::ldexp(1.0, exponent))));
+  }
+}
+
+TEST(Exact, MixedExponents) {
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const double huge = std::numeric_limits<double>::max();
+  // The vertex passes one subnormal step inside or outside of a huge triangle's edge x = 0.
+  const auto passing_at = [&](double x) {
+    return make_query(Kind::vertex_triangle, {{x, huge / 4, huge}, o, {huge, 0, 0}, {0, huge, 0}},
+                      {{x, huge / 4, -huge}, o, {huge, 0, 0}, {0, huge, 0}});
+  };
+  EXPECT_TRUE(collides(passing_at(tiny)));
+  EXPECT_TRUE(collides(passing_at(0)));
+  EXPECT_FALSE(collides(passing_at(-tiny)));
+}
+
+TEST(EarliestTime, IsExactWhereItIsADouble) {
+  for (const double t : {0.0, 0.25, 0.5, 1.0}) {
+    const auto time = earliest_time(falling_vertex(0.25, 0.25, t, t - 1));
+    ASSERT_TRUE(time);
+    EXPECT_EQ(time->lo, t);
+    EXPECT_EQ(time->hi, t);
+  }
+}
+
+TEST(EarliestTime, EnclosesAnIrrationalRootTightly) {
+  // The vertex sinks by 3 while it starts 1 above: t = 1/3, no double.
+  const auto third = earliest_time(falling_vertex(0.25, 0.25, 1, -2));
+  ASSERT_TRUE(third);
+  EXPECT_LT(third->lo, third->hi);
+  EXPECT_LE(third->hi - third->lo, std::numeric_limits<double>::epsilon());
+  EXPECT_LE(third->lo, 1.0 / 3);
+  EXPECT_GE(third->hi, 1.0 / 3);
+}
+
+TEST(EarliestTime, IsTheFirstOfSeveral) {
+  // Planar motion along y = 1/4: the vertex is inside from x = 0, t = 1/4, on.
+  const auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->lo, 0.25);
+}
+
+TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }
+
+/// Random queries with coordinates in -3..3, which are full of degenerate figures.
+Query small_integers(std::mt19937_64& random, Kind kind) {
+  Query query{.kind = kind};
+  for (double& c : query.x) c = static_cast<double>(random() % 7) - 3;
+  return query;
+}
+
+/// The same query with its vertices in another order, and times exchanged if asked.
+Query permuted(const Query& query, const std::array<int, 4>& order, bool reverse = false) {
+  Query result{.kind = query.kind};
+  for (int i = 0; i < 4; ++i) {
+    const Vector start = query.start(order[static_cast<std::size_t>(i)]);
+    const Vector end = query.end(order[static_cast<std::size_t>(i)]);
+    result.set_start(i, reverse ? end : start);
+    result.set_end(i, reverse ? start : end);
+  }
+  return result;
+}
+
+TEST(Exact, DoesNotDependOnOrderDirectionScaleOrPlace) {
+  std::mt19937_64 random(5);
+  int collisions = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Kind kind = kinds[static_cast<std::size_t>(i % 2)];
+    const Query query = small_integers(random, kind);
+    const bool truth = collides(query);
+    collisions += truth;
+    using Order = std::array<int, 4>;
+    const auto orders = kind == Kind::vertex_triangle ? std::array{Order{0, 2, 3, 1}, Order{0, 2, 1, 3}}
+                                                      : std::array{Order{2, 3, 0, 1}, Order{1, 0, 2, 3}};
+    for (const Order& order : orders) ASSERT_EQ(collides(permuted(query, order)), truth) << i;
+    ASSERT_EQ(collides(permuted(query, {0, 1, 2, 3}, true)), truth) << i;
+    ASSERT_EQ(collides(scaled(query, -std::ldexp(1.0, -900))), truth) << i;
+    ASSERT_EQ(collides(testing::moved(query, 1e6)), truth) << i;
+    Query mirrored = query;
+    for (std::size_t k = 0; k < 24; k += 3) std::swap(mirrored.x[k], mirrored.x[k + 1]);
+    ASSERT_EQ(collides(mirrored), truth) << i;
+  }
+  EXPECT_GT(collisions, 300);
+  EXPECT_LT(collisions, 2700);
+}
+
+// Independent of the algebra: a certified positive distance is no collision, and vice versa.
+TEST(Exact, AgreesWithTheCertifiedDistance) {
+  std::mt19937_64 random(6);
+  int apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Query query = small_integers(random, kinds[static_cast<std::size_t>(i % 2)]);
+    const Enclosure distance = closest_approach(query);
+    if (collides(query)) {
+      ASSERT_EQ(distance.lo, 0) << i;
+    } else {
+      ASSERT_GT(distance.lo, 0) << i;
+      ++apart;
+    }
+  }
+  EXPECT_GT(apart, 300);
+}
+
+TEST(Exact, LeavesTheRoundingModeAlone) {
+  (void)collides(falling_vertex(0.25, 0.25, 1, -2));
+  (void)earliest_time(falling_vertex(0.25, 0.25, 1, -2));
+  (void)minimum_distance(falling_vertex(2, 2, 1, -1));
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+}
+
+TEST(Boxes, MeetWhereTheyTouch) {
+  EXPECT_TRUE(boxes_meet(falling_vertex(0.25, 0.25, 1, 0)));
+  EXPECT_FALSE(boxes_meet(falling_vertex(0.25, 0.25, 1, std::numeric_limits<double>::denorm_min())));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,52 @@
+// nearmiss: the command line.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "ccd/error.hpp"
+#include "tools/commands.hpp"
+
+namespace {
+
+constexpr const char* about =
+    "nearmiss puts continuous collision detectors (CCDs) on trial: it runs them beside an exact oracle, "
+    "hunts for\n"
+    "collisions that they miss, and measures how far from contact their false alarms are.\n\n"
+    "Try: nearmiss fuzz --subject basic,wang --cases 100000";
+
+constexpr const char* exit_codes =
+    "\nExit codes: 0 fine; 1 a false negative, a refuted bound or an oracle disagreement was found;\n"
+    "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far saved.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace nearmiss::tools;
+  CLI::App app(about, "nearmiss");
+  app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
+  app.set_version_flag("--version", NEARMISS_VERSION);
+  app.footer(exit_codes);
+
+  int exit_code = exit_fine;
+  for (const auto add : {add_fuzz, add_replay, add_report, add_merge, add_scene, add_bench, add_oracle,
+                         add_verdict, add_subjects})
+    add(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    if (asked) return app.exit(error);
+    fmt::print(stderr, "nearmiss: {} (see nearmiss --help)\n", error.what());
+    return exit_bad_input;
+  } catch (const nearmiss::Error& error) {
+    fmt::print(stderr, "nearmiss: {}\n", error.what());
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "nearmiss: {}\n", error.what());
+    return exit_bad_input;
+  }
+  return exit_code;
+}

@@ -1,0 +1,18 @@
+// nearmiss subjects: which CCDs can be put on trial.
+#include <fmt/format.h>
+
+#include "ccd/subject.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+void add_subjects(CLI::App& app, int& /*exit_code*/) {
+  auto* command = app.add_subcommand("subjects", "List the built-in subjects");
+  command->footer(
+      "\nA plug-in is named by its path, with a slash in it: ./plugin.so (see ccd/nearmiss_subject.h).");
+  command->callback([] {
+    for (const SubjectInfo& subject : subjects()) fmt::print("{:<12} {}\n", subject.name, subject.about);
+  });
+}
+
+}  // namespace nearmiss::tools
