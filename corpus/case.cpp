@@ -1,0 +1,108 @@
+#include "corpus/case.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <istream>
+#include <sstream>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// Labels of the eight points, in the order of Query::x.
+constexpr std::array<std::string_view, 8> point_labels{"x0", "x1", "x2", "x3", "y0", "y1", "y2", "y3"};
+
+struct Line {
+  std::string_view label, value;
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+Line split_line(std::string_view text) {
+  text = trimmed(text);
+  const auto label = text.substr(0, text.find(' '));
+  return {label, trimmed(text.substr(label.size()))};
+}
+
+}  // namespace
+
+std::string to_text(const Case& each) {
+  std::string text;
+  std::istringstream why(each.why);
+  for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", line);
+  text += fmt::format("kind {}\n", short_name(each.query.kind));
+  if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);
+  if (!each.provenance.empty()) text += fmt::format("provenance {}\n", each.provenance);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double* x = each.query.x.data() + 3 * i;
+    text += fmt::format("{} {} {} {}\n", point_labels[i], to_hex(x[0]), to_hex(x[1]), to_hex(x[2]));
+  }
+  return text;
+}
+
+Case parse_case(std::istream& in, const std::string& file) {
+  Case result;
+  result.name = file;
+  bool kind_seen = false;
+  std::array<bool, 8> seen{};
+  int number = 0;
+  for (std::string text; std::getline(in, text);) {
+    const std::string where = fmt::format("{}:{}", file, ++number);
+    const auto [label, value] = split_line(text);
+    if (label.empty()) continue;
+    if (label.starts_with('#')) {
+      if (!result.why.empty()) result.why += '\n';
+      result.why += trimmed(std::string_view(text).substr(text.find('#') + 1));
+      continue;
+    }
+    if (label == "kind") {
+      result.query.kind = parse_kind(value, where);
+      kind_seen = true;
+    } else if (label == "truth") {
+      if (value != "0" && value != "1")
+        throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, value));
+      result.truth = value == "1";
+    } else if (label == "provenance") {
+      result.provenance = value;
+    } else {
+      const auto point = std::find(point_labels.begin(), point_labels.end(), label) - point_labels.begin();
+      const auto i = static_cast<std::size_t>(point);
+      if (i == 8)
+        throw Error(fmt::format("{}: found '{}', expected kind, truth, provenance, or x0 .. x3, y0 .. y3",
+                                where, label));
+      if (seen[i]) throw Error(fmt::format("{}: found a second {}, expected one", where, label));
+      seen[i] = true;
+      parse_numbers(value, std::span(result.query.x).subspan(3 * i, 3), where);
+    }
+  }
+  if (!kind_seen)
+    throw Error(fmt::format("{}:{}: found no kind, expected 'kind vt' or 'kind ee'", file, number));
+  for (std::size_t i = 0; i < 8; ++i)
+    if (!seen[i])
+      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, number, point_labels[i]));
+  return result;
+}
+
+void write_case(const Case& each, const std::filesystem::path& file) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
+  out << to_text(each);
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(part, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw Error(fmt::format("{}: cannot write the case", file.string()));
+  }
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,90 @@
+#include "corpus/query_text.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::string_view separators = " \t\r,";
+
+/// The next word of a line, cut off its front; empty at the end.
+std::string_view next_word(std::string_view& rest) {
+  const auto first = rest.find_first_not_of(separators);
+  if (first == std::string_view::npos) return rest = {};
+  rest.remove_prefix(first);
+  const auto word = rest.substr(0, rest.find_first_of(separators));
+  rest.remove_prefix(word.size());
+  return word;
+}
+
+}  // namespace
+
+double parse_number(std::string_view text, std::string_view where) {
+  const auto fail = [&] {
+    return Error(fmt::format("{}: found '{}', expected a finite number", where, text));
+  };
+  std::string_view digits = text;
+  const bool negative = digits.starts_with('-');
+  if (negative || digits.starts_with('+')) digits.remove_prefix(1);
+  const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
+  if (hex) digits.remove_prefix(2);
+  // from_chars takes a sign of its own, which has been read already, and "inf" and "nan".
+  const bool starts_well =
+      !digits.empty() && (digits[0] == '.' || std::isxdigit(static_cast<unsigned char>(digits[0])));
+  if (!starts_well) throw fail();
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
+                                            hex ? std::chars_format::hex : std::chars_format::general);
+  if (end != digits.data() + digits.size()) throw fail();
+  if (error == std::errc::result_out_of_range) {
+    // Too large, or so small that it rounds to 0: only the former is refused. strtod tells them apart.
+    value = std::strtod(std::string(hex ? "0x" : "").append(digits).c_str(), nullptr);
+  } else if (error != std::errc()) {
+    throw fail();
+  }
+  if (!std::isfinite(value)) throw fail();
+  return negative ? -value : value;
+}
+
+void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {
+  std::string_view rest = line;
+  std::size_t count = 0;
+  for (auto word = next_word(rest); !word.empty(); word = next_word(rest), ++count)
+    if (count < numbers.size()) numbers[count] = parse_number(word, where);
+  if (count != numbers.size())
+    throw Error(fmt::format("{}: found {} numbers, expected {}", where, count, numbers.size()));
+}
+
+std::string to_hex(double value) {
+  if (value == 0) return std::signbit(value) ? "-0x0p+0" : "0x0p+0";
+  return fmt::format("{:a}", value);
+}
+
+std::string to_line(const Query& query) {
+  std::string line;
+  for (const double c : query.x) {
+    if (!line.empty()) line += ' ';
+    line += to_hex(c);
+  }
+  return line;
+}
+
+Query parse_line(Kind kind, std::string_view line, std::string_view where) {
+  Query query{.kind = kind};
+  parse_numbers(line, query.x, where);
+  return query;
+}
+
+Kind parse_kind(std::string_view text, std::string_view where) {
+  for (const Kind kind : kinds)
+    if (text == short_name(kind)) return kind;
+  throw Error(fmt::format("{}: found kind '{}', expected vt or ee", where, text));
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,32 @@
+// Queries as text: the one reader and writer of coordinates.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// A finite number, decimal or C hex float ("0x1.8p-3"), rounded to nearest where it is not a double; nothing
+/// is taken from the locale. Throws Error "<where>: found '...', expected a finite number".
+double parse_number(std::string_view text, std::string_view where);
+
+/// Numbers separated by blanks or commas, as many as `numbers` has room for: no more, no fewer.
+/// Throws Error that starts with `where`.
+void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where);
+
+/// The shortest C hex float that is this double.
+std::string to_hex(double value);
+
+/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1. parse_line reads it back exactly.
+std::string to_line(const Query& query);
+
+/// A query from 24 numbers. Throws Error that starts with `where`.
+Query parse_line(Kind kind, std::string_view line, std::string_view where);
+
+/// "vt" or "ee". Throws Error that starts with `where`.
+Kind parse_kind(std::string_view text, std::string_view where);
+
+}  // namespace nearmiss

@@ -1,0 +1,76 @@
+#include "corpus/readers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <istream>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+#include "corpus/sample_csv.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_case_file(const fs::path& path) {
+  const auto extension = path.extension();
+  return extension == ".case" || extension == ".csv" || extension == ".vt" || extension == ".ee";
+}
+
+void read_file(const fs::path& path, const CaseSink& sink) {
+  const std::string name = path.string();
+  std::ifstream in(path);
+  if (!in) throw Error(fmt::format("{}: cannot be read", name));
+  if (in.peek() == std::ifstream::traits_type::eof())
+    throw Error(fmt::format("{}: found an empty file, expected cases", name));
+  const auto extension = path.extension();
+  if (extension == ".case") {
+    sink(parse_case(in, name));
+  } else if (extension == ".csv") {
+    read_sample_csv(in, path, sink);
+  } else if (extension == ".vt" || extension == ".ee") {
+    read_query_lines(in, extension == ".vt" ? Kind::vertex_triangle : Kind::edge_edge, name, sink);
+  } else {
+    throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, *.vt or *.ee", name));
+  }
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
+}
+
+}  // namespace
+
+void read_cases(const fs::path& path, const CaseSink& sink) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return read_file(path, sink);
+  std::vector<fs::path> files;
+  for (auto it = fs::recursive_directory_iterator(path, error);
+       !error && it != fs::recursive_directory_iterator(); it.increment(error))
+    if (it->is_regular_file() && is_case_file(it->path())) files.push_back(it->path());
+  if (error) throw Error(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+  if (files.empty())
+    throw Error(fmt::format("{}: found no case, expected *.case, *.csv, *.vt or *.ee files", path.string()));
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) read_file(file, sink);
+}
+
+void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink) {
+  long number = 0;
+  bool any = false;
+  for (std::string line; std::getline(in, line);) {
+    std::string where = fmt::format("{}:{}", name, ++number);
+    const auto text = std::string_view(line).substr(0, line.find('#'));
+    if (text.find_first_not_of(" \t\r,") == std::string_view::npos) continue;
+    Case each;
+    each.query = parse_line(kind, text, where);
+    each.name = std::move(where);
+    any = true;
+    sink(std::move(each));
+  }
+  if (!any) throw Error(fmt::format("{}:{}: found no query, expected 24 numbers a line", name, number));
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,88 @@
+#include "corpus/sample_csv.hpp"
+
+#include <fmt/format.h>
+#include <gmpxx.h>
+
+#include <cmath>
+
+#include <istream>
+#include <vector>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+Kind kind_of_folder(const std::filesystem::path& path) {
+  const auto folder = std::filesystem::absolute(path).parent_path().filename();
+  if (folder == "vertex-face") return Kind::vertex_triangle;
+  if (folder == "edge-edge") return Kind::edge_edge;
+  throw Error(fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which tells the kind",
+                          path.string(), folder.string()));
+}
+
+std::vector<std::string> split_commas(const std::string& line) {
+  std::vector<std::string> words(1);
+  for (const char c : line) {
+    if (c == ',')
+      words.emplace_back();
+    else if (c != ' ' && c != '\t' && c != '\r')
+      words.back() += c;
+  }
+  return words;
+}
+
+/// The double that numerator / denominator is, exactly.
+double exact_quotient(const std::string& numerator, const std::string& denominator,
+                      const std::string& where) {
+  mpz_class n, d;
+  if (n.set_str(numerator, 10) != 0 || d.set_str(denominator, 10) != 0 || d == 0)
+    throw Error(fmt::format("{}: found '{},{}', expected two integers, the second not 0", where, numerator,
+                            denominator));
+  mpq_class quotient(n, d);
+  quotient.canonicalize();
+  const double value = quotient.get_d();
+  if (!std::isfinite(value) || mpq_class(value) != quotient)
+    throw Error(fmt::format("{}: found {}/{}, expected a number that is a double exactly", where, numerator,
+                            denominator));
+  return value;
+}
+
+}  // namespace
+
+void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink) {
+  constexpr std::size_t rows = 8;
+  const std::string file = path.string();
+  const Kind kind = kind_of_folder(path);
+  Case each;
+  std::size_t row = 0;
+  long number = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string where = fmt::format("{}:{}", file, ++number);
+    const auto words = split_commas(line);
+    if (words.size() == 1 && words[0].empty()) continue;
+    if (words.size() != 7) throw Error(fmt::format("{}: found {} columns, expected 7", where, words.size()));
+    if (words[6] != "0" && words[6] != "1")
+      throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, words[6]));
+    const bool truth = words[6] == "1";
+    if (row == 0) {
+      each = Case{};
+      each.name = where;
+      each.query.kind = kind;
+      each.truth = truth;
+    }
+    if (each.truth != truth)
+      throw Error(fmt::format("{}: found another truth than in the query's first row", where));
+    for (std::size_t k = 0; k < 3; ++k)
+      each.query.x[3 * row + k] = exact_quotient(words[2 * k], words[2 * k + 1], where);
+    if (++row == rows) {
+      row = 0;
+      sink(std::move(each));
+    }
+  }
+  if (row != 0) throw Error(fmt::format("{}:{}: found {} rows of a query, expected 8", file, number, row));
+  if (number == 0) throw Error(fmt::format("{}: found no query", file));
+}
+
+}  // namespace nearmiss

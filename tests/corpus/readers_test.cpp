@@ -1,0 +1,167 @@
+// Formats: exact round trips, and one clear line for what is wrong.
+#include "corpus/readers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, gone at its end.
+class Files : public ::testing::Test {
+ protected:
+  Files() { fs::create_directories(folder_); }
+  ~Files() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) {
+    const fs::path file = folder_ / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  [[nodiscard]] std::string folder() const { return folder_.string(); }
+
+ private:
+  fs::path folder_ =
+      fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+std::vector<Case> read_all(const fs::path& path) {
+  std::vector<Case> cases;
+  read_cases(path, [&](Case&& each) { cases.push_back(std::move(each)); });
+  return cases;
+}
+
+void expect_error(const fs::path& path, const std::string& message) {
+  EXPECT_THAT([&] { (void)read_all(path); }, ThrowsMessage<Error>(HasSubstr(message)));
+}
+
+TEST(Numbers, AreReadExactly) {
+  EXPECT_EQ(parse_number("0.1", ""), 0.1);
+  EXPECT_EQ(parse_number("-0x1.8p-3", ""), -0.1875);
+  EXPECT_EQ(parse_number("+1e3", ""), 1000);
+  EXPECT_EQ(parse_number("4.9406564584124654e-324", ""), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(parse_number("1e-400", ""), 0);
+  EXPECT_EQ(parse_number(".5", ""), 0.5);
+}
+
+TEST(Numbers, ThatAreNoneAreRefused) {
+  for (const char* text :
+       {"nan", "inf", "-inf", "1e400", "0x1p1024", "1.0x", "", "-", "0x", "--1", "1,5", "abc", "1e"})
+    EXPECT_THROW((void)parse_number(text, "here"), Error) << text;
+}
+
+TEST(QueryLine, RoundTripsExtremes) {
+  Query query{.kind = Kind::edge_edge};
+  const std::array values{0.1, -0.0, 1e308, std::numeric_limits<double>::denorm_min(), -1.0 / 3, 5e-310};
+  for (std::size_t i = 0; i < 24; ++i) query.x[i] = values[i % values.size()];
+  const Query back = parse_line(Kind::edge_edge, to_line(query), "here");
+  EXPECT_EQ(to_line(back), to_line(query));
+  EXPECT_EQ(back, query);
+}
+
+TEST(QueryLine, CountsItsNumbers) {
+  EXPECT_THAT([] { (void)parse_line(Kind::edge_edge, "1 2 3", "file.ee:7"); },
+              ThrowsMessage<Error>("file.ee:7: found 3 numbers, expected 24"));
+}
+
+TEST(CaseFile, RoundTrips) {
+  Case each;
+  each.query = testing::falling_vertex(0.1, 0.25, 1, -1);
+  each.truth = true;
+  each.why = "first line\nsecond line";
+  each.provenance = "planted:1:42";
+  std::istringstream in(to_text(each));
+  const Case back = parse_case(in, "x.case");
+  EXPECT_EQ(back.query, each.query);
+  EXPECT_EQ(back.truth, each.truth);
+  EXPECT_EQ(back.why, each.why);
+  EXPECT_EQ(back.provenance, each.provenance);
+  EXPECT_EQ(back.name, "x.case");
+}
+
+TEST_F(Files, AWrittenCaseIsRead) {
+  Case each;
+  each.query = testing::falling_edge(1, -1);
+  write_case(each, folder() + "/a.case");
+  EXPECT_EQ(read_all(folder()).at(0).query, each.query);
+}
+
+TEST_F(Files, ABadCaseIsNamedWithItsLine) {
+  const std::string points = "x0 0 0 0\nx1 0 0 0\nx2 0 0 0\nx3 0 0 0\ny0 0 0 0\ny1 0 0 0\ny2 0 0 0\n";
+  expect_error(write("a.case", "kind vt\n" + points), "a.case:8: found no y3");
+  expect_error(write("b.case", points + "y3 0 0 0\n"), "b.case:8: found no kind");
+  expect_error(write("c.case", "kind vt\n" + points + "y3 0 nan 0\n"), "c.case:9: found 'nan'");
+  expect_error(write("d.case", "kind vt\n" + points + "y3 0 0\n"), "d.case:9: found 2 numbers, expected 3");
+  expect_error(write("e.case", "kind xx\n"), "e.case:1: found kind 'xx', expected vt or ee");
+  expect_error(write("f.case", "kind vt\nx0 0 0 0\nx0 0 0 0\n"), "f.case:3: found a second x0");
+  expect_error(write("g.case", "colour red\n"), "g.case:1: found 'colour'");
+  expect_error(write("h.case", "truth 2\n"), "h.case:1: found truth '2'");
+}
+
+TEST_F(Files, QueryFilesHaveCommentsAndWindowsLineEnds) {
+  const std::string line = to_line(testing::falling_edge(1, -1));
+  const auto cases = read_all(write("a.ee", "# comment\r\n\r\n" + line + "  # mine\r\n" + line + "\n"));
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0].query, testing::falling_edge(1, -1));
+  EXPECT_THAT(cases[1].name, HasSubstr("a.ee:4"));
+}
+
+TEST_F(Files, SampleQueriesAreRationalNumbers) {
+  std::string rows;
+  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",8,-3,4,5,1,1\r\n";
+  const auto cases = read_all(write("vertex-face/data.csv", rows));
+  ASSERT_EQ(cases.size(), 1U);
+  EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);
+  EXPECT_EQ(cases[0].truth, true);
+  EXPECT_EQ(cases[0].query.end(3), Vector3<double>(0.875, -0.75, 5));
+}
+
+TEST_F(Files, BadSampleQueriesAreNamedWithTheirLine) {
+  const std::string row = "1,2,1,2,1,2,0\n";
+  std::string seven;
+  for (int i = 0; i < 7; ++i) seven += row;
+  expect_error(write("edge-edge/a.csv", seven), "a.csv:7: found 7 rows");
+  expect_error(write("edge-edge/b.csv", seven + "1,2,1,2,1,2,1\n"), "b.csv:8: found another truth");
+  expect_error(write("edge-edge/c.csv", "1,3,1,2,1,2,0\n"),
+               "c.csv:1: found 1/3, expected a number that is a double");
+  expect_error(write("edge-edge/d.csv", "1,0,1,2,1,2,0\n"), "d.csv:1: found '1,0'");
+  expect_error(write("edge-edge/e.csv", "1,2\n"), "e.csv:1: found 2 columns");
+  expect_error(write("elsewhere/f.csv", seven + row), "expected vertex-face or edge-edge");
+}
+
+TEST_F(Files, WhatCannotBeReadIsAnError) {
+  expect_error(write("empty.vt", ""), "empty file");
+  expect_error(write("comments.vt", "# nothing\n"), "found no query");
+  expect_error(write("mesh.obj", "v 0 0 0\n"), "unknown kind of file");
+  expect_error(folder() + "/missing.case", "cannot be read");
+  fs::create_directories(folder() + "/sub");
+  expect_error(folder() + "/sub", "found no case");
+}
+
+TEST_F(Files, AFolderIsReadInOrderAndOtherFilesArePassedOver) {
+  const std::string line = to_line(Query{}) + "\n";
+  write("b/second.ee", line);
+  write("a/first.vt", line);
+  write("a/README.md", "text");
+  const auto cases = read_all(folder());
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_THAT(cases[0].name, HasSubstr("first.vt:1"));
+  EXPECT_THAT(cases[1].name, HasSubstr("second.ee:1"));
+}
+
+}  // namespace
+}  // namespace nearmiss
