@@ -1,0 +1,64 @@
+// The one source of random numbers: a counter and a key, no state that outlives a query.
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// A stream of random numbers that is a pure function of (seed, stream, index): Philox4x64-10 with the key
+/// (seed, stream) and the counter (index, number of the draw / 4).
+class Random {
+ public:
+  Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
+      : key_{{seed, stream}}, counter_{{index, 0, 0, 0}} {}
+
+  std::uint64_t bits() {
+    if (used_ == 4) {
+      block_ = r123::Philox4x64()(counter_, key_);
+      ++counter_[1];
+      used_ = 0;
+    }
+    return block_[used_++];
+  }
+
+  /// In [0, 1), a multiple of 2^-53.
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
+  /// Log-uniform in [lo, hi), both positive.
+  double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
+  /// An integer in [lo, hi]; the bias is below 2^-32 for ranges below 2^32.
+  int integer(int lo, int hi) {
+    const auto range = static_cast<std::uint64_t>(hi - lo) + 1;
+    return lo + static_cast<int>(((bits() >> 32) * range) >> 32);
+  }
+  /// True in one of n.
+  bool one_in(int n) { return integer(1, n) == 1; }
+
+  /// Components uniform in [-size, size).
+  Vector3<double> vector(double size) {
+    const double x = uniform(-size, size);
+    const double y = uniform(-size, size);
+    const double z = uniform(-size, size);
+    return {x, y, z};
+  }
+  /// Components are integers in [-size, size].
+  Vector3<double> integer_vector(int size) {
+    const int x = integer(-size, size);
+    const int y = integer(-size, size);
+    const int z = integer(-size, size);
+    return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+  }
+
+ private:
+  r123::Philox4x64::key_type key_;
+  r123::Philox4x64::ctr_type counter_;
+  r123::Philox4x64::ctr_type block_{};
+  unsigned used_ = 4;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,11 @@
+# The libraries that nearmiss builds on, all from Debian 12 (tools/packages.txt says what for).
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(CGAL REQUIRED QUIET)
+find_package(Boost 1.74 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(SQLiteCpp 3.2 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(GTest REQUIRED)
