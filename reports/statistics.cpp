@@ -1,0 +1,118 @@
+#include "reports/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss {
+
+double Histogram::border(std::size_t i) {
+  return std::pow(10.0, lowest_decade + static_cast<double>(i) / per_decade);
+}
+
+void Histogram::add(double ratio) {
+  // The borders decide, not a logarithm, so that a ratio of 1 is never counted below the bound.
+  std::size_t bin = 0;
+  while (bin + 1 < bin_count && ratio >= border(bin + 1)) ++bin;
+  ++bins[bin];
+}
+
+void Histogram::merge(const Histogram& other) {
+  for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
+}
+
+namespace {
+
+/// Farthest first; ties in the order of the queries, so that merging in any order keeps the same cases.
+bool farther(const FarCase& a, const FarCase& b) {
+  if (a.ratio != b.ratio) return a.ratio > b.ratio;
+  return std::tie(a.query.kind, a.query.x, a.provenance) < std::tie(b.query.kind, b.query.x, b.provenance);
+}
+
+void keep_farthest(std::vector<FarCase>& cases) {
+  std::sort(cases.begin(), cases.end(), farther);
+  cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
+  if (cases.size() > Counts::far_cases) cases.resize(Counts::far_cases);
+}
+
+}  // namespace
+
+void Counts::add(const Outcome& outcome, const Query& query, const std::string& provenance) {
+  const bool hit = outcome.verdict.hit;
+  const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
+  ++queries;
+  collisions += outcome.collision ? 1 : 0;
+  positives += hit ? 1 : 0;
+  if (outcome.collision) {
+    if (hit)
+      ++true_by_stage[stage];
+    else
+      ++false_negatives;
+  } else if (hit) {
+    ++false_positives;
+    ++false_by_stage[stage];
+    distances.add(outcome.ratio);
+    refuted_bounds += outcome.bound_refuted ? 1 : 0;
+    if (farthest.size() < far_cases || outcome.ratio >= farthest.back().ratio) {
+      farthest.push_back({outcome.ratio, query, provenance});
+      keep_farthest(farthest);
+    }
+  }
+}
+
+void Counts::merge(const Counts& other) {
+  queries += other.queries;
+  collisions += other.collisions;
+  positives += other.positives;
+  false_negatives += other.false_negatives;
+  false_positives += other.false_positives;
+  refuted_bounds += other.refuted_bounds;
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    true_by_stage[i] += other.true_by_stage[i];
+    false_by_stage[i] += other.false_by_stage[i];
+  }
+  distances.merge(other.distances);
+  farthest.insert(farthest.end(), other.farthest.begin(), other.farthest.end());
+  keep_farthest(farthest);
+  timed_queries += other.timed_queries;
+  nanoseconds += other.nanoseconds;
+}
+
+void Statistics::merge(const Statistics& other) {
+  for (const auto& [key, each] : other.counts) counts[key].merge(each);
+  oracle_disagreements += other.oracle_disagreements;
+  mismatches_with_recorded_truth += other.mismatches_with_recorded_truth;
+}
+
+std::map<Key, Counts> Statistics::by_subject_and_kind() const {
+  std::map<Key, Counts> sums;
+  for (const auto& [key, each] : counts) sums[{key.subject, key.kind, ""}].merge(each);
+  return sums;
+}
+
+std::uint64_t Statistics::false_negatives() const {
+  std::uint64_t sum = 0;
+  for (const auto& [key, each] : counts) sum += each.false_negatives;
+  return sum;
+}
+
+std::uint64_t Statistics::refuted_bounds() const {
+  std::uint64_t sum = 0;
+  for (const auto& [key, each] : counts) sum += each.refuted_bounds;
+  return sum;
+}
+
+std::string_view name(Finding::What what) {
+  switch (what) {
+    case Finding::What::false_negative:
+      return "false-negative";
+    case Finding::What::refuted_bound:
+      return "refuted-bound";
+    case Finding::What::oracle_disagreement:
+      return "oracle-disagreement";
+    case Finding::What::truth_mismatch:
+      return "truth-mismatch";
+  }
+  return "";
+}
+
+}  // namespace nearmiss

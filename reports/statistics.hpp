@@ -1,0 +1,140 @@
+// What a campaign counts: mergeable in any order to the same bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "ccd/subject.hpp"
+
+namespace nearmiss {
+
+/// Counts of the distances of false positives, as fractions of the bound that the subject claims: log-spaced
+/// bins, four to a decade from 10^-16 to 10^1. What is below (a distance of 0 in double included) or above is
+/// counted in the first or the last bin.
+struct Histogram {
+  static constexpr int per_decade = 4;
+  static constexpr int lowest_decade = -16;
+  static constexpr int highest_decade = 1;
+  static constexpr std::size_t bin_count = (highest_decade - lowest_decade) * per_decade;
+
+  std::array<std::uint64_t, bin_count> bins{};
+
+  void add(double ratio);
+  void merge(const Histogram& other);
+  /// The lower border of bin i; that of bin_count is the upper border of the last one.
+  static double border(std::size_t i);
+
+  bool operator==(const Histogram&) const = default;
+};
+
+/// A false positive that is kept because it is among the farthest away.
+struct FarCase {
+  double ratio = 0;  ///< distance / claimed bound
+  Query query;
+  std::string provenance;  ///< "family:seed:index", or the file and line
+
+  bool operator==(const FarCase&) const = default;
+};
+
+/// One answer of a subject beside the oracle's.
+struct Outcome {
+  Verdict verdict;
+  bool collision = false;
+  /// Of a false positive: certified distance over [0, 1] / claimed bound. A subject that claims no bound is
+  /// measured by wang's for the same pair.
+  double ratio = 0;
+  bool bound_refuted = false;  ///< certainly farther away than claimed
+};
+
+/// Counters of one subject, kind and family.
+struct Counts {
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;  ///< by the oracle
+  std::uint64_t positives = 0;   ///< by the subject
+  std::uint64_t false_negatives = 0;
+  std::uint64_t false_positives = 0;
+  std::uint64_t refuted_bounds = 0;
+  std::array<std::uint64_t, stage_count> true_by_stage{};   ///< true positives by the stage that accepted
+  std::array<std::uint64_t, stage_count> false_by_stage{};  ///< false positives likewise
+  Histogram distances;
+  std::vector<FarCase> farthest;  ///< at most far_cases, farthest first
+  std::uint64_t timed_queries = 0;
+  std::uint64_t nanoseconds = 0;  ///< of the subject alone, over timed_queries
+
+  static constexpr std::size_t far_cases = 5;
+
+  /// `query` and `provenance` are kept if the outcome is a far false positive.
+  void add(const Outcome& outcome, const Query& query, const std::string& provenance);
+  void merge(const Counts& other);
+
+  [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
+  /// Not a number where nothing was timed.
+  [[nodiscard]] double ns_per_query() const {
+    return static_cast<double>(nanoseconds) / static_cast<double>(timed_queries);
+  }
+
+  bool operator==(const Counts&) const = default;
+};
+
+/// What counters are kept for.
+struct Key {
+  std::string subject;
+  Kind kind{};
+  std::string family;
+
+  bool operator==(const Key&) const = default;
+  bool operator<(const Key& other) const {
+    return std::tie(subject, kind, family) < std::tie(other.subject, other.kind, other.family);
+  }
+};
+
+/// All counters of a campaign.
+struct Statistics {
+  std::map<Key, Counts> counts;
+  std::uint64_t oracle_disagreements = 0;            ///< between the oracle's own answers
+  std::uint64_t mismatches_with_recorded_truth = 0;  ///< of the oracle with what a case says
+
+  void merge(const Statistics& other);
+
+  /// Counters summed over families: key.family is empty.
+  [[nodiscard]] std::map<Key, Counts> by_subject_and_kind() const;
+  [[nodiscard]] std::uint64_t false_negatives() const;
+  [[nodiscard]] std::uint64_t refuted_bounds() const;
+
+  bool operator==(const Statistics&) const = default;
+};
+
+/// A case that must not be lost.
+struct Finding {
+  enum class What : std::uint8_t { false_negative, refuted_bound, oracle_disagreement, truth_mismatch };
+
+  What what{};
+  std::string subject;  ///< empty for the oracle's own
+  std::string family;
+  Query query;
+  std::string provenance;
+  double ratio = 0;  ///< of a refuted bound: distance / bound
+
+  bool operator==(const Finding&) const = default;
+};
+
+/// "false-negative" and so on.
+std::string_view name(Finding::What what);
+
+/// Where one comes from: what made it, and with what.
+using RunInfo = std::map<std::string, std::string>;
+
+/// Everything that a store holds and a report shows.
+struct Campaign {
+  std::vector<RunInfo> runs;
+  Statistics statistics;
+  std::vector<Finding> findings;
+};
+
+}  // namespace nearmiss

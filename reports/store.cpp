@@ -1,0 +1,256 @@
+#include "reports/store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int schema_version = 1;
+constexpr int application_id = 0x6e656172;  // "near"
+
+constexpr const char* schema = R"sql(
+  CREATE TABLE run (id INTEGER PRIMARY KEY, info TEXT NOT NULL) STRICT;
+  CREATE TABLE statistics (
+    subject TEXT NOT NULL, kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL,
+    queries INTEGER NOT NULL, collisions INTEGER NOT NULL, positives INTEGER NOT NULL,
+    false_negatives INTEGER NOT NULL, false_positives INTEGER NOT NULL, refuted_bounds INTEGER NOT NULL,
+    true_by_stage TEXT NOT NULL, false_by_stage TEXT NOT NULL, distances TEXT NOT NULL, farthest TEXT NOT NULL,
+    timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL,
+    PRIMARY KEY (subject, kind, family)) STRICT;
+  CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
+  CREATE TABLE finding (
+    what TEXT NOT NULL, subject TEXT NOT NULL, family TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
+    provenance TEXT NOT NULL, ratio REAL NOT NULL,
+    PRIMARY KEY (what, subject, provenance, query)) STRICT;
+)sql";
+
+json far_json(const std::vector<FarCase>& cases) {
+  json list = json::array();
+  for (const FarCase& far : cases) list.push_back({to_hex(far.ratio), far.provenance, to_line(far.query)});
+  return list;
+}
+
+std::vector<FarCase> far_cases(const json& list, Kind kind, const std::string& where) {
+  std::vector<FarCase> cases;
+  for (const json& each : list)
+    cases.push_back({parse_number(each.at(0).get<std::string>(), where),
+                     parse_line(kind, each.at(2).get<std::string>(), where), each.at(1).get<std::string>()});
+  return cases;
+}
+
+// SQLite's integers are signed; a count never comes near 2^63.
+std::int64_t stored(std::uint64_t count) { return static_cast<std::int64_t>(count); }
+std::uint64_t count(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
+
+void write_statistics(SQLite::Database& db, const Statistics& statistics) {
+  SQLite::Statement insert(db, "INSERT OR REPLACE INTO statistics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  for (const auto& [key, c] : statistics.counts) {
+    int i = 0;
+    insert.bind(++i, key.subject);
+    insert.bind(++i, std::string(short_name(key.kind)));
+    insert.bind(++i, key.family);
+    for (const std::uint64_t n :
+         {c.queries, c.collisions, c.positives, c.false_negatives, c.false_positives, c.refuted_bounds})
+      insert.bind(++i, stored(n));
+    insert.bind(++i, json(c.true_by_stage).dump());
+    insert.bind(++i, json(c.false_by_stage).dump());
+    insert.bind(++i, json(c.distances.bins).dump());
+    insert.bind(++i, far_json(c.farthest).dump());
+    insert.bind(++i, stored(c.timed_queries));
+    insert.bind(++i, stored(c.nanoseconds));
+    insert.exec();
+    insert.reset();
+  }
+  SQLite::Statement oracle(db, "UPDATE oracle SET disagreements = ?, truth_mismatches = ?");
+  oracle.bind(1, stored(statistics.oracle_disagreements));
+  oracle.bind(2, stored(statistics.mismatches_with_recorded_truth));
+  oracle.exec();
+}
+
+void write_findings(SQLite::Database& db, std::span<const Finding> findings) {
+  SQLite::Statement insert(db, "INSERT OR IGNORE INTO finding VALUES (?,?,?,?,?,?,?)");
+  for (const Finding& finding : findings) {
+    insert.bind(1, std::string(name(finding.what)));
+    insert.bind(2, finding.subject);
+    insert.bind(3, finding.family);
+    insert.bind(4, std::string(short_name(finding.query.kind)));
+    insert.bind(5, to_line(finding.query));
+    insert.bind(6, finding.provenance);
+    insert.bind(7, finding.ratio);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void write_runs(SQLite::Database& db, std::span<const RunInfo> runs) {
+  SQLite::Statement insert(db, "INSERT INTO run (info) VALUES (?)");
+  for (const RunInfo& run : runs) {
+    insert.bind(1, json(run).dump());
+    insert.exec();
+    insert.reset();
+  }
+}
+
+Finding::What parse_what(const std::string& text, const std::string& where) {
+  for (const auto what : {Finding::What::false_negative, Finding::What::refuted_bound,
+                          Finding::What::oracle_disagreement, Finding::What::truth_mismatch})
+    if (name(what) == text) return what;
+  throw Error(fmt::format("{}: found a finding '{}', which this version does not know", where, text));
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::exception& error) {
+  throw Error(fmt::format("{}: {}", file.string(), error.what()));
+}
+
+}  // namespace
+
+struct Store::Database {
+  fs::path file;
+  SQLite::Database db;
+};
+
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Store::Store(const fs::path& file, const RunInfo& run) {
+  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+  try {
+    database_.reset(
+        new Database{file, SQLite::Database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)});
+    auto& db = database_->db;
+    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    SQLite::Transaction transaction(db);
+    db.exec(schema);
+    db.exec(
+        fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}; INSERT INTO oracle VALUES (0, 0);",
+                    schema_version, application_id));
+    write_runs(db, std::span(&run, 1));
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    fail(file, error);
+  }
+}
+
+void Store::save(const Statistics& statistics, std::span<const Finding> new_findings) {
+  try {
+    SQLite::Transaction transaction(database_->db);
+    write_statistics(database_->db, statistics);
+    write_findings(database_->db, new_findings);
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    fail(database_->file, error);
+  }
+}
+
+Campaign load_campaign(const fs::path& file) {
+  const std::string where = file.string();
+  if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", where));
+  Campaign campaign;
+  try {
+    SQLite::Database db(where, SQLite::OPEN_READONLY);
+    if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
+      throw Error(fmt::format("{}: found another kind of database, expected a store of nearmiss", where));
+    const int version = db.execAndGet("PRAGMA user_version").getInt();
+    if (version != schema_version)
+      throw Error(fmt::format("{}: found store version {}, expected {}", where, version, schema_version));
+
+    SQLite::Statement runs(db, "SELECT info FROM run ORDER BY id");
+    while (runs.executeStep())
+      campaign.runs.push_back(json::parse(runs.getColumn(0).getString()).get<RunInfo>());
+
+    SQLite::Statement rows(db, "SELECT * FROM statistics");
+    while (rows.executeStep()) {
+      const Key key{rows.getColumn(0).getString(), parse_kind(rows.getColumn(1).getString(), where),
+                    rows.getColumn(2).getString()};
+      Counts& c = campaign.statistics.counts[key];
+      int i = 2;
+      for (std::uint64_t* n : {&c.queries, &c.collisions, &c.positives, &c.false_negatives,
+                               &c.false_positives, &c.refuted_bounds})
+        *n = count(rows.getColumn(++i));
+      json::parse(rows.getColumn(++i).getString()).get_to(c.true_by_stage);
+      json::parse(rows.getColumn(++i).getString()).get_to(c.false_by_stage);
+      json::parse(rows.getColumn(++i).getString()).get_to(c.distances.bins);
+      c.farthest = far_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
+      c.timed_queries = count(rows.getColumn(++i));
+      c.nanoseconds = count(rows.getColumn(++i));
+    }
+
+    SQLite::Statement oracle(db, "SELECT disagreements, truth_mismatches FROM oracle");
+    if (oracle.executeStep()) {
+      campaign.statistics.oracle_disagreements = count(oracle.getColumn(0));
+      campaign.statistics.mismatches_with_recorded_truth = count(oracle.getColumn(1));
+    }
+
+    SQLite::Statement findings(db, "SELECT * FROM finding ORDER BY what, subject, provenance, query");
+    while (findings.executeStep()) {
+      const Kind kind = parse_kind(findings.getColumn(3).getString(), where);
+      campaign.findings.push_back({parse_what(findings.getColumn(0).getString(), where),
+                                   findings.getColumn(1).getString(), findings.getColumn(2).getString(),
+                                   parse_line(kind, findings.getColumn(4).getString(), where),
+                                   findings.getColumn(5).getString(), findings.getColumn(6).getDouble()});
+    }
+  } catch (const SQLite::Exception& error) {
+    fail(file, error);
+  } catch (const json::exception& error) {
+    fail(file, error);
+  }
+  return campaign;
+}
+
+Campaign merge_campaigns(std::span<const Campaign> campaigns) {
+  Campaign merged;
+  for (const Campaign& each : campaigns) {
+    merged.statistics.merge(each.statistics);
+    merged.runs.insert(merged.runs.end(), each.runs.begin(), each.runs.end());
+    merged.findings.insert(merged.findings.end(), each.findings.begin(), each.findings.end());
+  }
+  std::sort(merged.runs.begin(), merged.runs.end());
+  const auto order = [](const Finding& f) {
+    return std::tie(f.what, f.subject, f.provenance, f.query.kind, f.query.x, f.family, f.ratio);
+  };
+  std::sort(merged.findings.begin(), merged.findings.end(),
+            [&](const Finding& a, const Finding& b) { return order(a) < order(b); });
+  merged.findings.erase(std::unique(merged.findings.begin(), merged.findings.end()), merged.findings.end());
+  return merged;
+}
+
+void write_campaign(const Campaign& campaign, const fs::path& file) {
+  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+  const fs::path part = file.string() + ".part";
+  fs::remove(part);
+  try {
+    Store store(part, {});
+    store.save(campaign.statistics, campaign.findings);
+  } catch (...) {
+    fs::remove(part);
+    throw;
+  }
+  try {
+    // The store's own run stands for none: a merged file has those of its inputs.
+    SQLite::Database db(part.string(), SQLite::OPEN_READWRITE);
+    SQLite::Transaction transaction(db);
+    db.exec("DELETE FROM run");
+    write_runs(db, campaign.runs);
+    transaction.commit();
+    db.exec("PRAGMA journal_mode = DELETE");
+  } catch (const SQLite::Exception& error) {
+    fs::remove(part);
+    fail(file, error);
+  }
+  fs::rename(part, file);
+}
+
+}  // namespace nearmiss

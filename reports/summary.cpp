@@ -1,0 +1,114 @@
+#include "reports/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corpus/query_text.hpp"
+#include "reports/confidence.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json by_stage(const std::array<std::uint64_t, stage_count>& counts) {
+  ordered_json json = ordered_json::object();
+  for (std::size_t i = 0; i < stage_count; ++i)
+    if (counts[i] != 0) json[std::string(stage_names[i])] = counts[i];
+  return json;
+}
+
+ordered_json counts_json(const Counts& counts) {
+  ordered_json json;
+  json["queries"] = counts.queries;
+  json["collisions"] = counts.collisions;
+  json["positives"] = counts.positives;
+  json["false_negatives"] = counts.false_negatives;
+  json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
+  json["false_positives"] = counts.false_positives;
+  json["refuted_bounds"] = counts.refuted_bounds;
+  json["max_fp_distance_over_bound"] = counts.max_ratio();
+  json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
+  json["true_positives_by_stage"] = by_stage(counts.true_by_stage);
+  json["false_positives_by_stage"] = by_stage(counts.false_by_stage);
+  json["fp_distance_histogram"] = counts.distances.bins;
+  json["farthest"] = ordered_json::array();
+  for (const FarCase& far : counts.farthest)
+    json["farthest"].push_back(
+        {{"ratio", far.ratio}, {"provenance", far.provenance}, {"query", to_line(far.query)}});
+  return json;
+}
+
+/// Text in columns: the first two to the left, the others to the right.
+std::string columns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += i < 2 ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string with_separators(std::uint64_t number) {
+  std::string digits = fmt::format("{}", number);
+  for (auto i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
+    digits.insert(static_cast<std::size_t>(i), 1, ',');
+  return digits;
+}
+
+nlohmann::ordered_json summary_json(const Campaign& campaign) {
+  ordered_json json;
+  json["runs"] = campaign.runs;
+  json["oracle"]["disagreements"] = campaign.statistics.oracle_disagreements;
+  json["oracle"]["mismatches_with_recorded_truth"] = campaign.statistics.mismatches_with_recorded_truth;
+  json["subjects"] = ordered_json::object();
+  for (const auto& [key, counts] : campaign.statistics.by_subject_and_kind())
+    json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(counts);
+  for (const auto& [key, counts] : campaign.statistics.counts)
+    json["subjects"][key.subject][std::string(short_name(key.kind))]["families"][key.family] =
+        counts_json(counts);
+  return json;
+}
+
+std::string verdict_line(const Statistics& statistics) {
+  std::string found;
+  const auto add = [&](std::uint64_t count, std::string_view one, std::string_view many) {
+    if (count == 0) return;
+    found += fmt::format("{}{} {}", found.empty() ? "FOUND: " : ", ", with_separators(count),
+                         count == 1 ? one : many);
+  };
+  add(statistics.false_negatives(), "false negative", "false negatives");
+  add(statistics.refuted_bounds(), "refuted bound", "refuted bounds");
+  add(statistics.oracle_disagreements, "oracle disagreement", "oracle disagreements");
+  add(statistics.mismatches_with_recorded_truth, "mismatch with the recorded truth",
+      "mismatches with the recorded truth");
+  return found.empty() ? "no false negative, no refuted bound, no oracle disagreement" : found;
+}
+
+std::string summary_table(const Statistics& statistics) {
+  std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
+                                              "rate below*", "false pos.", "max dist/bound", "ns/query"}};
+  for (const auto& [key, counts] : statistics.by_subject_and_kind()) {
+    rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
+                    with_separators(counts.collisions), with_separators(counts.false_negatives),
+                    fmt::format("{:.2g}", clopper_pearson_upper(counts.false_negatives, counts.collisions)),
+                    with_separators(counts.false_positives), fmt::format("{:.3g}", counts.max_ratio()),
+                    counts.timed_queries == 0 ? "-" : fmt::format("{:.0f}", counts.ns_per_query())});
+  }
+  return verdict_line(statistics) + "\n\n" + columns(rows) +
+         "\n* upper 95 % confidence bound of the rate of misses among true collisions (Clopper-Pearson)\n";
+}
+
+}  // namespace nearmiss
