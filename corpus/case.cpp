@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <istream>
 #include <sstream>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {
@@ -91,18 +91,6 @@ Case parse_case(std::istream& in, const std::string& file) {
   return result;
 }
 
-void write_case(const Case& each, const std::filesystem::path& file) {
-  const std::filesystem::path part = file.string() + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << to_text(each);
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw Error(fmt::format("{}: cannot write the case", file.string()));
-  }
-}
+void write_case(const Case& each, const std::filesystem::path& file) { replace_file(file, to_text(each)); }
 
 }  // namespace nearmiss

@@ -36,7 +36,7 @@ void keep_farthest(std::vector<FarCase>& cases) {
 
 }  // namespace
 
-void Counts::add(const Outcome& outcome, const Query& query, const std::string& provenance) {
+void Counts::add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance) {
   const bool hit = outcome.verdict.hit;
   const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
   ++queries;
@@ -53,7 +53,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::string& 
     distances.add(outcome.ratio);
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
     if (farthest.size() < far_cases || outcome.ratio >= farthest.back().ratio) {
-      farthest.push_back({outcome.ratio, query, provenance});
+      farthest.push_back({outcome.ratio, query, provenance()});
       keep_farthest(farthest);
     }
   }

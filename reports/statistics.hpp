@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -69,8 +70,8 @@ struct Counts {
 
   static constexpr std::size_t far_cases = 5;
 
-  /// `query` and `provenance` are kept if the outcome is a far false positive.
-  void add(const Outcome& outcome, const Query& query, const std::string& provenance);
+  /// `query` and its provenance are kept if the outcome is a far false positive.
+  void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other);
 
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }

@@ -82,19 +82,51 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
   return json;
 }
 
-std::string verdict_line(const Statistics& statistics) {
-  std::string found;
-  const auto add = [&](std::uint64_t count, std::string_view one, std::string_view many) {
-    if (count == 0) return;
-    found += fmt::format("{}{} {}", found.empty() ? "FOUND: " : ", ", with_separators(count),
-                         count == 1 ? one : many);
-  };
-  add(statistics.false_negatives(), "false negative", "false negatives");
-  add(statistics.refuted_bounds(), "refuted bound", "refuted bounds");
-  add(statistics.oracle_disagreements, "oracle disagreement", "oracle disagreements");
-  add(statistics.mismatches_with_recorded_truth, "mismatch with the recorded truth",
-      "mismatches with the recorded truth");
-  return found.empty() ? "no false negative, no refuted bound, no oracle disagreement" : found;
+bool found_anything(const Statistics& statistics) {
+  return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +
+             statistics.mismatches_with_recorded_truth >
+         0;
+}
+
+namespace {
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
+}
+
+}  // namespace
+
+std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
+  std::map<std::string, Counts> by_subject;
+  for (const auto& [key, counts] : statistics.counts) by_subject[key.subject].merge(counts);
+  std::vector<SubjectVerdict> verdicts;
+  for (const auto& [subject, counts] : by_subject) {
+    const bool missed = counts.false_negatives > 0;
+    const bool refuted = counts.refuted_bounds > 0;
+    std::string text =
+        missed ? fmt::format("MISSED {} of ", with_separators(counts.false_negatives)) : "no miss in ";
+    text += counted(counts.collisions, "collision", "collisions");
+    if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
+    if (counts.false_positives > 0)
+      text += fmt::format(", {}, the farthest at {:.3g} of the bound",
+                          counted(counts.false_positives, "false positive", "false positives"),
+                          counts.max_ratio());
+    else
+      text += ", no false positive";
+    verdicts.push_back({subject, !missed && !refuted, std::move(text)});
+  }
+  return verdicts;
+}
+
+std::string oracle_complaint(const Statistics& statistics) {
+  std::string text;
+  if (statistics.oracle_disagreements > 0)
+    text = counted(statistics.oracle_disagreements, "ORACLE DISAGREEMENT", "ORACLE DISAGREEMENTS");
+  if (statistics.mismatches_with_recorded_truth > 0)
+    text += (text.empty() ? "" : ", ") + counted(statistics.mismatches_with_recorded_truth,
+                                                 "MISMATCH of the oracle with the recorded truth",
+                                                 "MISMATCHES of the oracle with the recorded truth");
+  return text;
 }
 
 std::string summary_table(const Statistics& statistics) {
@@ -107,7 +139,12 @@ std::string summary_table(const Statistics& statistics) {
                     with_separators(counts.false_positives), fmt::format("{:.3g}", counts.max_ratio()),
                     counts.timed_queries == 0 ? "-" : fmt::format("{:.0f}", counts.ns_per_query())});
   }
-  return verdict_line(statistics) + "\n\n" + columns(rows) +
+  std::string verdicts;
+  for (const SubjectVerdict& each : subject_verdicts(statistics))
+    verdicts += fmt::format("{} {}: {}\n", each.clean ? " ok " : "FAIL", each.subject, each.text);
+  if (const std::string complaint = oracle_complaint(statistics); !complaint.empty())
+    verdicts += fmt::format("FAIL oracle: {}\n", complaint);
+  return verdicts + "\n" + columns(rows) +
          "\n* upper 95 % confidence bound of the rate of misses among true collisions (Clopper-Pearson)\n";
 }
 

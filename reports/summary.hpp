@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "reports/statistics.hpp"
 
@@ -14,11 +15,25 @@ namespace nearmiss {
 /// stand beside them.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
-/// One line that says whether anything was found, then a row for each subject and kind.
-std::string summary_table(const Statistics& statistics);
+/// Whether there is a false negative, a refuted bound, an oracle disagreement or a truth mismatch.
+bool found_anything(const Statistics& statistics);
 
-/// The line alone: "no false negative ..." or what was found.
-std::string verdict_line(const Statistics& statistics);
+/// What a subject's line says.
+struct SubjectVerdict {
+  std::string subject;
+  bool clean;        ///< no false negative and no refuted bound
+  std::string text;  ///< "no miss in 1,234 collisions" and so on
+};
+
+/// A verdict for each subject, in the order of their names.
+std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
+
+/// The line on the oracle: "" where nothing is wrong.
+std::string oracle_complaint(const Statistics& statistics);
+
+/// A line for each subject that says at a glance whether it missed anything, then a row for each subject and
+/// kind.
+std::string summary_table(const Statistics& statistics);
 
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);

@@ -1,0 +1,129 @@
+#include "fuzz/campaign.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fuzz/parallel.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t block_cases = 1000;
+constexpr auto save_interval = std::chrono::seconds(1);
+
+/// Queries [first, last) of a family.
+struct Block {
+  const Family* family;
+  std::uint64_t first, last;
+};
+
+/// The block of family number f in a round; empty behind the family's last case.
+Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
+  const std::uint64_t n = plan.families.size();
+  const std::uint64_t first = round * block_cases;
+  std::uint64_t last = first + block_cases;
+  if (plan.cases != 0) {
+    const std::uint64_t share = plan.cases / n + (f < plan.cases % n ? 1 : 0);
+    last = std::clamp(share, first, last);
+  }
+  return {plan.families[f], first, last};
+}
+
+TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjects& subjects) {
+  TrialResult result;
+  for (std::uint64_t parity = 0; parity < kinds.size(); ++parity) {
+    const std::uint64_t first = block.first + (block.first % 2 == parity ? 0 : 1);
+    Batch batch;
+    batch.kind = kinds[parity];
+    batch.family = block.family->name;
+    for (std::uint64_t index = first; index < block.last; index += 2)
+      batch.queries.push_back(make_query(*block.family, plan.seed, index));
+    if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
+    batch.provenance = [&](std::size_t i) {
+      return fmt::format("{}:{}:{}", block.family->name, plan.seed, first + 2 * i);
+    };
+    if (!batch.queries.empty()) result.merge(hold_trial(subjects, batch));
+  }
+  return result;
+}
+
+/// The rounds of a shard, in waves of enough blocks for all cores.
+class Rounds {
+ public:
+  explicit Rounds(const CampaignPlan& plan)
+      : plan_(plan), round_(plan.shard), rounds_a_wave_(1 + 4 * plan.jobs / plan.families.size()) {}
+
+  /// Empty when everything is done.
+  std::vector<Block> next_wave() {
+    std::vector<Block> wave;
+    for (std::uint64_t i = 0; i < rounds_a_wave_; ++i) {
+      if (!add_round(round_, wave)) break;
+      round_ += plan_.shards;
+    }
+    return wave;
+  }
+
+  /// How many cases there are in this shard; 0 where there is no end.
+  [[nodiscard]] std::uint64_t cases() const {
+    std::uint64_t sum = 0;
+    if (plan_.cases == 0) return sum;
+    std::vector<Block> blocks;
+    for (std::uint64_t round = plan_.shard; add_round(round, blocks); round += plan_.shards) {
+      for (const Block& block : blocks) sum += block.last - block.first;
+      blocks.clear();
+    }
+    return sum;
+  }
+
+ private:
+  bool add_round(std::uint64_t round, std::vector<Block>& blocks) const {
+    const std::size_t before = blocks.size();
+    for (std::size_t f = 0; f < plan_.families.size(); ++f)
+      if (const Block block = block_of(plan_, round, f); block.first < block.last) blocks.push_back(block);
+    return blocks.size() > before;
+  }
+
+  const CampaignPlan& plan_;
+  std::uint64_t round_;
+  std::uint64_t rounds_a_wave_;
+};
+
+}  // namespace
+
+Statistics run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSave& save,
+                        const std::function<void(const CampaignProgress&)>& progress,
+                        const std::atomic<bool>& stop) {
+  const auto start = Clock::now();
+  const auto is_over = [&] { return stop || (plan.time && Clock::now() - start >= *plan.time); };
+  TrialResult sum;
+  Rounds rounds(plan);
+  const std::uint64_t of = rounds.cases();
+  std::uint64_t cases = 0;
+  auto last_save = start;
+
+  for (auto wave = rounds.next_wave(); !wave.empty() && !is_over(); wave = rounds.next_wave()) {
+    std::vector<TrialResult> results(wave.size());
+    in_parallel(plan.jobs, wave.size(), [&](std::size_t i) {
+      if (!stop) results[i] = try_block(plan, wave[i], subjects);
+    });
+    if (stop) break;  // a wave counts as a whole or not at all
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+      sum.merge(std::move(results[i]));
+      cases += wave[i].last - wave[i].first;
+    }
+    if (Clock::now() - last_save >= save_interval) {
+      save(sum.statistics, sum.findings);
+      sum.findings.clear();
+      last_save = Clock::now();
+    }
+    progress({cases, of, Clock::now() - start, sum.statistics});
+  }
+  save(sum.statistics, sum.findings);
+  return sum.statistics;
+}
+
+}  // namespace nearmiss

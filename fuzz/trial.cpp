@@ -1,0 +1,131 @@
+#include "fuzz/trial.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "ccd/error.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The oracle's answers to one query, each asked for at most once.
+class Truth {
+ public:
+  explicit Truth(const Query& query) : query_(query), collision_(collides(query)) {}
+
+  [[nodiscard]] bool collision() const { return collision_; }
+
+  /// Distance / bound of a query that is no collision.
+  double ratio(double bound) {
+    const double ratio = distance().hi / bound;
+    return std::min(ratio, std::numeric_limits<double>::max());  // a bound of 0 is refuted by any distance
+  }
+
+  bool exceeds(double bound) {
+    if (distance().hi <= bound) return false;
+    return distance().lo > bound || distance_exceeds(query_, bound);
+  }
+
+ private:
+  const Enclosure& distance() {
+    if (!measured_) distance_ = closest_approach(query_);
+    measured_ = true;
+    return distance_;
+  }
+
+  const Query& query_;
+  bool collision_;
+  bool measured_ = false;
+  Enclosure distance_;
+};
+
+struct Timed {
+  std::vector<Verdict> verdicts;
+  std::uint64_t nanoseconds = 0;
+};
+
+Timed decide_all(const Subject& subject, const Batch& batch) {
+  Timed timed;
+  timed.verdicts.resize(batch.queries.size());
+  const auto start = std::chrono::steady_clock::now();
+  subject.decide(batch.queries, timed.verdicts);
+  const auto time = std::chrono::steady_clock::now() - start;
+  timed.nanoseconds =
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(time).count());
+  return timed;
+}
+
+/// The same again, one query at a time, to say which one the subject failed on.
+[[noreturn]] void explain(const Subject& subject, const Batch& batch, const Error& error) {
+  for (std::size_t i = 0; i < batch.queries.size(); ++i) {
+    try {
+      subject.decide(batch.queries[i]);
+    } catch (const Error& own) {
+      throw Error(std::string(own.what()) + " (" + batch.provenance(i) + ")");
+    }
+  }
+  throw error;
+}
+
+}  // namespace
+
+void TrialResult::merge(TrialResult&& other) {
+  statistics.merge(other.statistics);
+  std::move(other.findings.begin(), other.findings.end(), std::back_inserter(findings));
+}
+
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch) {
+  TrialResult result;
+  // Reads the queries once, so that the first subject does not pay for fetching them from memory.
+  for (std::size_t i = 0; i < batch.queries.size(); ++i)
+    if (!is_finite(batch.queries[i]))
+      throw Error("found a coordinate that is not finite (" + batch.provenance(i) +
+                  "), expected finite numbers");
+  std::vector<Timed> answers;
+  std::vector<Counts*> counts;
+  for (const auto& subject : subjects) {
+    try {
+      answers.push_back(decide_all(*subject, batch));
+    } catch (const Error& error) {
+      explain(*subject, batch, error);
+    }
+    counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
+    counts.back()->timed_queries += batch.queries.size();
+    counts.back()->nanoseconds += answers.back().nanoseconds;
+  }
+
+  const auto wang = make_subject("wang");  // the measure for subjects that claim no bound
+  for (std::size_t i = 0; i < batch.queries.size(); ++i) {
+    const Query& query = batch.queries[i];
+    Truth truth(query);
+    const auto find = [&](Finding::What what, const std::string& subject, double ratio) {
+      result.findings.push_back({what, subject, batch.family, query, batch.provenance(i), ratio});
+    };
+    if (!batch.truths.empty() && batch.truths[i].value_or(truth.collision()) != truth.collision()) {
+      ++result.statistics.mismatches_with_recorded_truth;
+      find(Finding::What::truth_mismatch, "", 0);
+    }
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+      Outcome outcome{.verdict = answers[s].verdicts[i], .collision = truth.collision()};
+      if (outcome.verdict.hit && !outcome.collision) {
+        const double claimed = subjects[s]->distance_bound(query);
+        const bool claims = std::isfinite(claimed);
+        outcome.ratio = truth.ratio(claims ? claimed : wang->distance_bound(query));
+        outcome.bound_refuted = claims && truth.exceeds(claimed);
+      }
+      counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
+      if (outcome.collision && !outcome.verdict.hit)
+        find(Finding::What::false_negative, subjects[s]->name(), 0);
+      if (outcome.bound_refuted) find(Finding::What::refuted_bound, subjects[s]->name(), outcome.ratio);
+    }
+  }
+  return result;
+}
+
+}  // namespace nearmiss

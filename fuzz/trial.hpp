@@ -1,0 +1,42 @@
+// A trial: subjects and the oracle decide the same queries, and their answers become statistics.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "ccd/subject.hpp"
+#include "reports/statistics.hpp"
+
+namespace nearmiss {
+
+using Subjects = std::vector<std::unique_ptr<Subject>>;
+
+/// Queries of one kind that are decided, timed and counted together.
+struct Batch {
+  Kind kind{};
+  std::string family;  ///< what they are counted under
+  std::vector<Query> queries;
+  std::vector<std::optional<bool>> truths;  ///< recorded truths; empty where there are none
+  /// Says where query i of the batch comes from; called only for what is kept.
+  std::function<std::string(std::size_t)> provenance;
+};
+
+/// What a trial found.
+struct TrialResult {
+  Statistics statistics;
+  std::vector<Finding> findings;
+
+  void merge(TrialResult&& other);
+};
+
+/// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, apart from the
+/// oracle. A false positive's distance is measured by the bound that the subject claims, or by that of wang
+/// for the same pair where it claims none; only a claimed bound can be refuted. Throws Error where a subject
+/// reports one, with the query's provenance.
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch);
+
+}  // namespace nearmiss

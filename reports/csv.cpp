@@ -1,0 +1,60 @@
+#include "reports/csv.hpp"
+
+#include <fmt/format.h>
+
+#include "corpus/query_text.hpp"
+#include "reports/confidence.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// A text field: in quotes where it needs them.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string statistics_csv(const Statistics& statistics) {
+  std::string text =
+      "subject,kind,family,queries,collisions,positives,false_negatives,false_negative_rate_upper_95,"
+      "false_positives,refuted_bounds,max_fp_distance_over_bound,ns_per_query";
+  for (const auto stage : stage_names) text += fmt::format(",true_by_{}", stage);
+  for (const auto stage : stage_names) text += fmt::format(",false_by_{}", stage);
+  text += '\n';
+  for (const auto& [key, c] : statistics.counts) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", field(key.subject), short_name(key.kind),
+                        field(key.family), c.queries, c.collisions, c.positives, c.false_negatives,
+                        clopper_pearson_upper(c.false_negatives, c.collisions), c.false_positives,
+                        c.refuted_bounds, c.max_ratio(),
+                        c.timed_queries == 0 ? "" : fmt::format("{}", c.ns_per_query()));
+    for (const auto count : c.true_by_stage) text += fmt::format(",{}", count);
+    for (const auto count : c.false_by_stage) text += fmt::format(",{}", count);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string distances_csv(const Statistics& statistics) {
+  std::string text = "subject,kind,family,distance_over_bound_from,distance_over_bound_to,false_positives\n";
+  for (const auto& [key, counts] : statistics.counts)
+    for (std::size_t i = 0; i < Histogram::bin_count; ++i)
+      if (const auto count = counts.distances.bins[i]; count != 0)
+        text += fmt::format("{},{},{},{},{},{}\n", field(key.subject), short_name(key.kind),
+                            field(key.family), Histogram::border(i), Histogram::border(i + 1), count);
+  return text;
+}
+
+std::string findings_csv(const Campaign& campaign) {
+  std::string text = "what,subject,kind,family,provenance,distance_over_bound,query\n";
+  for (const Finding& f : campaign.findings)
+    text += fmt::format("{},{},{},{},{},{},{}\n", name(f.what), field(f.subject), short_name(f.query.kind),
+                        field(f.family), field(f.provenance), f.ratio, to_line(f.query));
+  return text;
+}
+
+}  // namespace nearmiss

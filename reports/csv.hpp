@@ -1,0 +1,19 @@
+// A campaign as CSV files (RFC 4180).
+#pragma once
+
+#include <string>
+
+#include "reports/statistics.hpp"
+
+namespace nearmiss {
+
+/// A row for each subject, kind and family.
+std::string statistics_csv(const Statistics& statistics);
+
+/// A row for each bin of the distance histograms that is not empty.
+std::string distances_csv(const Statistics& statistics);
+
+/// A row for each finding; the query is 24 hex floats, as in a query file.
+std::string findings_csv(const Campaign& campaign);
+
+}  // namespace nearmiss

@@ -1,0 +1,68 @@
+#include "reports/page.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+// The files of the page are part of the executable: NEARMISS_ASSET(name, file) makes name_begin and name_end.
+#define NEARMISS_ASSET(name, file)          \
+  asm(".pushsection .rodata, \"a\"\n" #name \
+      "_begin:\n"                           \
+      ".incbin \"" file "\"\n" #name        \
+      "_end:\n"                             \
+      ".popsection\n");                     \
+  extern "C" const char name##_begin[], name##_end[]
+
+NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
+NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
+NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
+NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
+NEARMISS_ASSET(nearmiss_page_vega_lite, NEARMISS_PAGE "/node_modules/vega-lite/build/vega-lite.min.js");
+NEARMISS_ASSET(nearmiss_page_vega_embed, NEARMISS_PAGE "/node_modules/vega-embed/build/vega-embed.min.js");
+
+namespace nearmiss {
+
+namespace {
+
+std::string_view between(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+void replace(std::string& text, std::string_view what, const std::string& by) {
+  text.replace(text.find(what), what.size(), by);
+}
+
+std::string script(std::string_view content, std::string_view attributes = "") {
+  std::string text = "<script";
+  text += attributes;
+  text += ">\n";
+  text += content;
+  return text + "\n</script>";
+}
+
+/// JSON that can stand inside a script element: no "</" or "<!--" in it.
+std::string inside_script(const nlohmann::ordered_json& json) {
+  std::string text;
+  for (const char c : json.dump()) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string report_page(const nlohmann::ordered_json& report) {
+  std::string page(between(nearmiss_page_html_begin, nearmiss_page_html_end));
+  const std::string scripts = script(between(nearmiss_page_vega_begin, nearmiss_page_vega_end)) +
+                              script(between(nearmiss_page_vega_lite_begin, nearmiss_page_vega_lite_end)) +
+                              script(between(nearmiss_page_vega_embed_begin, nearmiss_page_vega_embed_end)) +
+                              script(inside_script(report), " type=\"application/json\" id=\"report\"") +
+                              script(between(nearmiss_page_js_begin, nearmiss_page_js_end));
+  replace(page, "/* page.css */", std::string(between(nearmiss_page_css_begin, nearmiss_page_css_end)));
+  replace(page, "<!-- scripts -->", scripts);
+  return page;
+}
+
+}  // namespace nearmiss

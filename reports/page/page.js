@@ -1,0 +1,263 @@
+// Draws the report: nothing here computes what report.json does not say.
+"use strict";
+
+const report = JSON.parse(document.getElementById("report").textContent);
+const element = (id) => document.getElementById(id);
+
+/** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
+function countRows(byFamily) {
+  const rows = [];
+  for (const [subject, ofKind] of Object.entries(report.subjects))
+    for (const [kind, counts] of Object.entries(ofKind)) {
+      const families = byFamily ? counts.families : { "": counts };
+      for (const [family, each] of Object.entries(families)) rows.push({ subject, kind, family, ...each });
+    }
+  return rows;
+}
+
+// --- tables ---------------------------------------------------------------------------------------
+
+const integer = (n) => n.toLocaleString("en-US");
+const short = (x) =>
+  x === null || x === undefined ? "–" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
+
+/** columns: {title, text(row), number: value(row) for sorting, bad(row)} */
+function fillTable(table, columns, rows, sortable = false) {
+  const draw = () => {
+    const body = document.createElement("tbody");
+    for (const row of rows) {
+      const line = body.insertRow();
+      for (const column of columns) {
+        const cell = line.insertCell();
+        const content = column.text(row);
+        if (content instanceof Node) cell.append(content);
+        else cell.textContent = content;
+        if (column.number) cell.classList.add("number");
+        if (column.bad && column.bad(row)) cell.classList.add("bad");
+      }
+    }
+    table.tBodies[0]?.remove();
+    table.append(body);
+  };
+  table.replaceChildren();
+  const head = table.createTHead().insertRow();
+  for (const column of columns) {
+    const title = document.createElement("th");
+    title.textContent = column.title;
+    if (column.number) title.classList.add("number");
+    if (sortable)
+      title.addEventListener("click", () => {
+        const up = title.getAttribute("aria-sort") === "descending";
+        for (const other of head.cells) other.removeAttribute("aria-sort");
+        title.setAttribute("aria-sort", up ? "ascending" : "descending");
+        const key = column.number ?? column.text;
+        rows.sort((a, b) => (key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0) * (up ? 1 : -1));
+        draw();
+      });
+    head.append(title);
+  }
+  draw();
+}
+
+const count = (title, field, bad) => ({
+  title, number: (r) => r[field], text: (r) => integer(r[field]), bad: bad ? (r) => r[field] > 0 : undefined,
+});
+const figure = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
+const text = (title, field) => ({ title, text: (r) => r[field] });
+
+function drawCounts() {
+  const byFamily = element("by-family").checked;
+  const columns = [
+    text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
+    count("queries", "queries"), count("collisions", "collisions"), count("false negatives", "false_negatives", true),
+    figure("rate below", "false_negative_rate_upper_95"), count("false positives", "false_positives"),
+    figure("max distance/bound", "max_fp_distance_over_bound"), count("beyond", "refuted_bounds", true),
+    figure("ns / query", "ns_per_query"),
+  ];
+  fillTable(element("counts"), columns, countRows(byFamily), true);
+}
+
+function code(content) {
+  const node = document.createElement("code");
+  node.textContent = content;
+  return node;
+}
+
+function drawFindings() {
+  const total = report.findings_total;
+  element("findings-note").textContent = total === 0
+    ? "None: no false negative, no bound refuted, no disagreement."
+    : `${integer(total)} in all, in findings.csv; the first of each subject and sort are shown here and stand as case ` +
+      "files in cases/. The commands work in this report's folder.";
+  if (total === 0) return;
+  fillTable(element("findings"), [
+    text("what", "what"), text("subject", "subject"), text("kind", "kind"), text("family", "family"),
+    text("from", "provenance"), { title: "distance / bound", number: (r) => r.ratio, text: (r) => (r.ratio ? short(r.ratio) : "") },
+    { title: "replay", text: (r) => code(`nearmiss replay ${r.file}${r.subject ? " --subject " + r.subject : ""}`) },
+  ], report.findings);
+}
+
+function drawFarthest() {
+  const rows = countRows(false).flatMap((r) => r.farthest.map((far) => ({ subject: r.subject, kind: r.kind, ...far })));
+  fillTable(element("farthest"), [
+    text("subject", "subject"), text("kind", "kind"), figure("distance / bound", "ratio"), text("from", "provenance"),
+  ], rows);
+}
+
+function drawBaseline() {
+  const baseline = report.baseline;
+  if (!baseline) return;
+  element("baseline").hidden = false;
+  element("baseline-new").textContent = baseline.new_findings === 0
+    ? "No finding that the baseline does not have."
+    : `${integer(baseline.new_findings)} findings that the baseline does not have.`;
+  const pair = (title, field) => ({
+    title, number: (r) => r.now[field], text: (r) => `${short(r.before?.[field])} → ${short(r.now[field])}`,
+  });
+  fillTable(element("baseline-table"), [
+    text("subject", "subject"), text("kind", "kind"), pair("false negatives", "false_negatives"),
+    pair("false-positive rate", "false_positive_rate"), pair("max distance / bound", "max_fp_distance_over_bound"),
+    pair("ns / query", "ns_per_query"),
+  ], baseline.changes);
+}
+
+// --- head -----------------------------------------------------------------------------------------
+
+function drawHead() {
+  element("runs").textContent = report.runs
+    .map((run) => [run.command, run.scene, run.families && `families ${run.families}`, run.seed && `seed ${run.seed}`,
+      run.started, `nearmiss ${run.version}, ${run.compiler}, ${run.cpu}`].filter(Boolean).join(", "))
+    .join(" · ");
+  const lines = report.verdicts.map((v) => ({ name: v.subject, bad: !v.clean, text: v.text }));
+  if (report.oracle.complaint) lines.unshift({ name: "oracle", bad: true, text: report.oracle.complaint });
+  for (const line of lines) {
+    const node = document.createElement("div");
+    node.className = line.bad ? "verdict bad" : "verdict";
+    for (const [name, content] of [["mark", line.bad ? "FAIL" : "ok"], ["subject", line.name], ["text", line.text]]) {
+      const part = document.createElement("span");
+      part.className = name;
+      part.textContent = content;
+      node.append(part);
+    }
+    element("verdicts").append(node);
+  }
+}
+
+// --- charts ---------------------------------------------------------------------------------------
+
+const subjects = Object.keys(report.subjects);
+// Okabe and Ito's colours, which the colour-blind can tell apart.
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#000000"];
+const subjectColor = {
+  field: "subject", type: "nominal", title: "subject",
+  scale: { domain: subjects, range: subjects.map((_, i) => palette[i % palette.length]) },
+};
+const look = { font: "system-ui, DejaVu Sans, sans-serif", view: { stroke: "#dde3e9" },
+  legend: { orient: "bottom", columns: 8 }, axis: { gridColor: "#eef1f4" } };
+
+function draw(id, spec) {
+  return vegaEmbed("#" + id, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, ...spec },
+    { renderer: "svg", actions: { export: true, source: false, compiled: false, editor: false } });
+}
+
+function drawErrorTime() {
+  const points = subjects.map((subject) => {
+    const sum = { queries: 0, collisions: 0, false_negatives: 0, false_positives: 0, ns: 0 };
+    for (const c of Object.values(report.subjects[subject])) {
+      for (const field of ["queries", "collisions", "false_negatives", "false_positives"]) sum[field] += c[field];
+      sum.ns += (c.ns_per_query ?? 0) * c.queries;
+    }
+    return {
+      subject, ns: sum.ns / sum.queries,
+      missed: (100 * sum.false_negatives) / Math.max(1, sum.collisions),
+      alarms: (100 * sum.false_positives) / Math.max(1, sum.queries - sum.collisions),
+    };
+  }).filter((p) => p.ns > 0);
+  const panel = (field, title) => ({
+    width: 420, height: 260, title,
+    mark: { type: "point", filled: true, size: 130, opacity: 0.85 },
+    encoding: {
+      x: { field: "ns", type: "quantitative", title: "ns a query", scale: { type: "log", nice: false, padding: 30 },
+        axis: { grid: true, tickCount: 6, format: "~s" } },
+      y: { field, type: "quantitative", title: "%", scale: { type: "symlog", constant: 0.01, domainMin: 0, nice: true },
+        axis: { tickCount: 6 } },
+      color: subjectColor,
+      shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjects } },
+      tooltip: [{ field: "subject" }, { field: "ns", title: "ns a query", format: ".4~g" },
+        { field: "missed", title: "missed, %", format: ".4~g" }, { field: "alarms", title: "false positives, %", format: ".4~g" }],
+    },
+  });
+  return draw("error-time", {
+    data: { values: points },
+    hconcat: [panel("missed", "missed, % of the collisions"), panel("alarms", "false positives, % of all else")],
+  });
+}
+
+function drawDistances() {
+  const borders = report.histogram_borders;
+  const values = [];
+  for (const row of countRows(false)) {
+    const bins = row.fp_distance_histogram;
+    if (bins.every((n) => n === 0)) continue;
+    bins.forEach((n, i) => values.push({ subject: row.subject, kind: row.kind, from: borders[i], to: borders[i + 1], count: n }));
+  }
+  if (values.length === 0) {
+    element("distances").textContent = "There is no false positive.";
+    return Promise.resolve();
+  }
+  const used = values.filter((v) => v.count > 0).map((v) => v.from);
+  const first = borders[Math.max(0, borders.indexOf(Math.min(...used)) - 1)];
+  const kinds = { vt: "vertex-triangle", ee: "edge-edge" };
+  const panel = (kind) => ({
+    width: 420, height: 260, title: kinds[kind],
+    layer: [
+      {
+        transform: [{ filter: `datum.kind === "${kind}" && datum.from >= ${first}` }],
+        mark: { type: "line", interpolate: "step-after", strokeWidth: 2 },
+        encoding: {
+          x: { field: "from", type: "quantitative", title: "distance / bound", scale: { type: "log", domain: [first, 10] },
+            axis: { format: ".0e", tickCount: 8, labelAngle: -40 } },
+          y: { field: "count", type: "quantitative", title: "false positives", scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } },
+          color: subjectColor,
+          tooltip: [{ field: "subject" }, { field: "from", format: ".3e" }, { field: "to", format: ".3e" }, { field: "count" }],
+        },
+      },
+      { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: "#b3261e", strokeWidth: 2 },
+        encoding: { x: { field: "bound", type: "quantitative" } } },
+    ],
+  });
+  return draw("distances", { data: { values }, hconcat: ["vt", "ee"].map(panel) });
+}
+
+function drawStages() {
+  const values = [];
+  for (const row of countRows(false))
+    for (const [truth, field] of [["true positives", "true_positives_by_stage"], ["false positives", "false_positives_by_stage"]])
+      for (const [stage, n] of Object.entries(row[field])) values.push({ subject: `${row.subject} ${row.kind}`, truth, stage, count: n });
+  const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"];
+  return draw("stages", {
+    data: { values },
+    facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
+    spec: {
+      width: 360, height: { step: 20 },
+      mark: "bar",
+      encoding: {
+        y: { field: "subject", type: "nominal", title: null },
+        x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
+        color: { field: "stage", type: "nominal", title: "accepted by", sort: order, scale: { domain: order, range: palette } },
+        order: { field: "stage", sort: "ascending" },
+        tooltip: [{ field: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
+      },
+    },
+  });
+}
+
+drawHead();
+drawBaseline();
+drawCounts();
+element("by-family").addEventListener("change", drawCounts);
+drawFindings();
+drawFarthest();
+Promise.all([drawErrorTime(), drawDistances(), drawStages()])
+  .then(() => document.body.setAttribute("data-drawn", "true"))
+  .catch((error) => document.body.setAttribute("data-error", String(error)));

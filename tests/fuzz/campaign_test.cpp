@@ -1,0 +1,112 @@
+// A campaign is the same whoever runs it and however it is cut.
+#include "fuzz/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nearmiss {
+namespace {
+
+struct Ran {
+  Statistics statistics;
+  std::vector<Finding> findings;
+  int saves = 0;
+};
+
+CampaignPlan plan_of(std::uint64_t cases, int jobs) {
+  CampaignPlan plan;
+  for (const Family& family : families()) plan.families.push_back(&family);
+  plan.cases = cases;
+  plan.jobs = jobs;
+  return plan;
+}
+
+Ran run(const CampaignPlan& plan, const std::atomic<bool>& stop = false) {
+  Subjects subjects;
+  subjects.push_back(make_subject("basic"));
+  subjects.push_back(make_subject("wang"));
+  Ran run;
+  run.statistics = run_campaign(
+      plan, subjects,
+      [&](const Statistics& statistics, std::span<const Finding> findings) {
+        ++run.saves;
+        run.statistics = statistics;
+        run.findings.insert(run.findings.end(), findings.begin(), findings.end());
+      },
+      [](const CampaignProgress&) {}, stop);
+  for (auto& [key, counts] : run.statistics.counts) counts.nanoseconds = 0;  // the one thing that varies
+  return run;
+}
+
+std::uint64_t queries(const Statistics& statistics, const std::string& subject, const std::string& family) {
+  std::uint64_t sum = 0;
+  for (const Kind kind : kinds) {
+    const auto it = statistics.counts.find({subject, kind, family});
+    if (it != statistics.counts.end()) sum += it->second.queries;
+  }
+  return sum;
+}
+
+TEST(Campaign, SharesTheCasesOutAmongTheFamilies) {
+  const Ran all = run(plan_of(4000, 2));
+  std::uint64_t sum = 0;
+  for (const Family& family : families()) {
+    const auto own = queries(all.statistics, "wang", std::string(family.name));
+    EXPECT_GE(own, 4000 / families().size()) << family.name;
+    EXPECT_LE(own, 4000 / families().size() + 1) << family.name;
+    sum += own;
+  }
+  EXPECT_EQ(sum, 4000);
+}
+
+TEST(Campaign, WangMissesNothingAndStaysWithinItsBound) {
+  const Ran all = run(plan_of(4000, 2));
+  for (const auto& [key, counts] : all.statistics.counts) {
+    if (key.subject != "wang") continue;
+    EXPECT_EQ(counts.false_negatives, 0) << key.family;
+    EXPECT_EQ(counts.refuted_bounds, 0) << key.family;
+  }
+  EXPECT_EQ(all.statistics.mismatches_with_recorded_truth, 0);
+}
+
+TEST(Campaign, DoesNotDependOnTheNumberOfThreads) {
+  const Ran one = run(plan_of(4000, 1));
+  const Ran three = run(plan_of(4000, 3));
+  EXPECT_EQ(one.statistics, three.statistics);
+  EXPECT_EQ(one.findings, three.findings);
+  EXPECT_FALSE(one.findings.empty());  // basic misses
+}
+
+TEST(Campaign, ShardsAddUpToTheWhole) {
+  CampaignPlan plan = plan_of(0, 2);
+  plan.families = {&find_family("planted"), &find_family("degenerate")};
+  plan.cases = 9000;
+  const Ran whole = run(plan);
+  Statistics sum;
+  plan.shards = 3;
+  for (plan.shard = 0; plan.shard < plan.shards; ++plan.shard) sum.merge(run(plan).statistics);
+  EXPECT_EQ(sum, whole.statistics);
+}
+
+TEST(Campaign, AnotherSeedMakesOtherQueries) {
+  CampaignPlan plan = plan_of(2000, 2);
+  const Ran first = run(plan);
+  plan.seed = 2;
+  EXPECT_NE(run(plan).statistics, first.statistics);
+}
+
+TEST(Campaign, StopsWhenTheTimeIsOver) {
+  CampaignPlan plan = plan_of(0, 2);
+  plan.time = std::chrono::milliseconds(300);
+  const Ran timed = run(plan);
+  EXPECT_GT(queries(timed.statistics, "wang", "uniform"), 0);
+  EXPECT_GE(timed.saves, 1);
+}
+
+TEST(Campaign, StopsWhenItIsToldTo) {
+  CampaignPlan plan = plan_of(0, 2);
+  const std::atomic<bool> stop{true};
+  EXPECT_TRUE(run(plan, stop).statistics.counts.empty());
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,141 @@
+// Subjects beside the oracle.
+#include "fuzz/trial.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ccd/error.hpp"
+#include "fuzz/trial_stream.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Says what it is told to, and claims what it is told to.
+class Told final : public Subject {
+ public:
+  Told(std::string name, bool hit, double bound) : name_(std::move(name)), hit_(hit), bound_(bound) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
+    return {hit_, hit_ ? Stage::unspecified : Stage::none, 0};
+  }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
+
+ private:
+  std::string name_;
+  bool hit_;
+  double bound_;
+};
+
+/// Reports an error for a vertex that ends at a certain height.
+class Choosy final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (query.x[14] == 3) throw Error("choosy: refused");
+    return {};
+  }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+ private:
+  std::string name_ = "choosy";
+};
+
+Subjects one(std::unique_ptr<Subject> subject) {
+  Subjects subjects;
+  subjects.push_back(std::move(subject));
+  return subjects;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A hit, then a vertex that stays at a distance of 1 or more.
+Batch batch() {
+  Batch batch;
+  batch.family = "two";
+  batch.queries = {falling_vertex(0.25, 0.25, 1, -1), falling_vertex(0.25, 0.25, 3, 1)};
+  batch.provenance = [](std::size_t i) { return "query " + std::to_string(i); };
+  return batch;
+}
+
+Counts counts_of(const TrialResult& result) { return result.statistics.counts.begin()->second; }
+
+TEST(Trial, ASubjectThatNeverReportsMisses) {
+  const auto result = hold_trial(one(std::make_unique<Told>("never", false, infinity)), batch());
+  EXPECT_EQ(counts_of(result).false_negatives, 1);
+  ASSERT_EQ(result.findings.size(), 1);
+  EXPECT_EQ(result.findings[0].what, Finding::What::false_negative);
+  EXPECT_EQ(result.findings[0].provenance, "query 0");
+}
+
+TEST(Trial, AFalsePositiveIsMeasuredByTheClaimedBound) {
+  const auto result = hold_trial(one(std::make_unique<Told>("always", true, 4)), batch());
+  EXPECT_EQ(counts_of(result).false_positives, 1);
+  EXPECT_NEAR(counts_of(result).max_ratio(), 0.25, 1e-3);
+  EXPECT_EQ(counts_of(result).refuted_bounds, 0);
+}
+
+TEST(Trial, AClaimedBoundIsRefutedByWhatIsFartherAway) {
+  const auto above = hold_trial(one(std::make_unique<Told>("always", true, 0.999)), batch());
+  EXPECT_EQ(counts_of(above).refuted_bounds, 1);
+  ASSERT_EQ(above.findings.size(), 1);
+  EXPECT_EQ(above.findings[0].what, Finding::What::refuted_bound);
+  const auto at = hold_trial(one(std::make_unique<Told>("always", true, 1)), batch());
+  EXPECT_EQ(counts_of(at).refuted_bounds, 0);
+}
+
+TEST(Trial, WhoClaimsNothingIsMeasuredByTheFailureProofBoundAndNotRefuted) {
+  const auto result = hold_trial(one(std::make_unique<Told>("always", true, infinity)), batch());
+  EXPECT_EQ(counts_of(result).refuted_bounds, 0);
+  EXPECT_NEAR(counts_of(result).max_ratio(), 1 / make_subject("wang")->distance_bound(batch().queries[1]), 1);
+}
+
+TEST(Trial, ARecordedTruthThatIsWrongIsAFinding) {
+  Batch wrong = batch();
+  wrong.truths = {true, true};
+  const auto result = hold_trial({}, wrong);
+  EXPECT_EQ(result.statistics.mismatches_with_recorded_truth, 1);
+  ASSERT_EQ(result.findings.size(), 1);
+  EXPECT_EQ(result.findings[0].provenance, "query 1");
+}
+
+TEST(Trial, AnErrorOfASubjectNamesTheQuery) {
+  Batch third = batch();
+  third.queries.push_back(falling_vertex(0.25, 0.25, 4, 3));
+  EXPECT_THAT([&] { hold_trial(one(std::make_unique<Choosy>()), third); },
+              ThrowsMessage<Error>(HasSubstr("choosy: refused (query 2)")));
+}
+
+TEST(TrialStream, DecidesEverythingInOrder) {
+  const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
+  const std::atomic<bool> stop{false};
+  TrialResult sum;
+  TrialStream stream(subjects, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  constexpr int count = 12345;
+  for (int i = 0; i < count; ++i)
+    stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt, std::to_string(i));
+  stream.finish();
+  EXPECT_EQ(counts_of(sum).queries, count);
+  ASSERT_EQ(sum.findings.size(), 13);
+  for (std::size_t i = 0; i < sum.findings.size(); ++i)
+    EXPECT_EQ(sum.findings[i].provenance, std::to_string(1000 * i));
+}
+
+TEST(TrialStream, DecidesNothingOnceItIsToStop) {
+  const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
+  const std::atomic<bool> stop{true};
+  TrialResult sum;
+  TrialStream stream(subjects, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, ""));
+  stream.finish();
+  EXPECT_TRUE(sum.statistics.counts.empty());
+}
+
+}  // namespace
+}  // namespace nearmiss

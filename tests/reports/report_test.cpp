@@ -1,0 +1,130 @@
+// The report's folder and its data.
+#include "reports/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ccd/error.hpp"
+#include "corpus/readers.hpp"
+#include "reports/csv.hpp"
+#include "reports/summary.hpp"
+#include "tests/queries.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+class ReportTest : public testing::TemporaryFolder {};
+
+const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+
+/// `subject` finds one collision, misses one, and has one false positive at half of the bound.
+Campaign some_campaign(const std::string& subject) {
+  Campaign campaign;
+  campaign.runs.push_back({{"command", "fuzz"}});
+  Counts& counts = campaign.statistics.counts[{subject, Kind::vertex_triangle, "fam,\"ily"}];
+  counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, [] { return "f:1:0"; });
+  counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, [] { return "f:1:2"; });
+  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.5}, query,
+             [] { return "f:1:4"; });
+  counts.timed_queries = 3;
+  counts.nanoseconds = 300;
+  campaign.findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0});
+  return campaign;
+}
+
+TEST(Summary, HasTheFieldsThatScriptsDependOn) {
+  const auto json = summary_json(some_campaign("wang"));
+  const auto& counts = json["subjects"]["wang"]["vt"];
+  EXPECT_EQ(counts["queries"], 3);
+  EXPECT_EQ(counts["collisions"], 2);
+  EXPECT_EQ(counts["positives"], 2);
+  EXPECT_EQ(counts["false_negatives"], 1);
+  EXPECT_EQ(counts["false_positives"], 1);
+  EXPECT_EQ(counts["max_fp_distance_over_bound"], 0.5);
+  EXPECT_EQ(counts["ns_per_query"], 100);
+  EXPECT_EQ(json["oracle"]["disagreements"], 0);
+  EXPECT_EQ(json["oracle"]["mismatches_with_recorded_truth"], 0);
+}
+
+TEST(Summary, SaysAtAGlanceWhoMissed) {
+  Statistics statistics = some_campaign("bad").statistics;
+  statistics.counts[{"good", Kind::edge_edge, "f"}].add({.verdict = {true, Stage::vv, 0}, .collision = true},
+                                                        query, [] { return ""; });
+  const std::string table = summary_table(statistics);
+  EXPECT_THAT(table, HasSubstr("FAIL bad: MISSED 1 of 2 collisions, 1 false positive, the farthest at 0.5"));
+  EXPECT_THAT(table, HasSubstr(" ok  good: no miss in 1 collision, no false positive"));
+  EXPECT_TRUE(found_anything(statistics));
+}
+
+TEST(Summary, AMismatchWithTheRecordedTruthIsAFinding) {
+  Statistics statistics;
+  EXPECT_FALSE(found_anything(statistics));
+  statistics.mismatches_with_recorded_truth = 1;
+  EXPECT_TRUE(found_anything(statistics));
+  EXPECT_THAT(summary_table(statistics), HasSubstr("FAIL oracle: 1 MISMATCH"));
+}
+
+TEST(Summary, NumbersAreGroupedByThousands) {
+  EXPECT_EQ(with_separators(7), "7");
+  EXPECT_EQ(with_separators(1234), "1,234");
+  EXPECT_EQ(with_separators(123456789), "123,456,789");
+}
+
+TEST(Csv, OneRowASubjectKindAndFamily) {
+  const std::string text = statistics_csv(some_campaign("wang").statistics);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+  EXPECT_THAT(text, HasSubstr("\nwang,vt,\"fam,\"\"ily\",3,2,2,1,"));
+}
+
+TEST_F(ReportTest, WritesEverythingThatItPromises) {
+  write_report(some_campaign("wang"), std::nullopt, file("report"));
+  for (const char* name : {"index.html", "report.json", "statistics.csv", "distances.csv", "findings.csv"})
+    EXPECT_TRUE(std::filesystem::exists(file("report") / name)) << name;
+  std::vector<Case> cases;
+  read_cases(file("report/cases"), [&](Case&& each) { cases.push_back(std::move(each)); });
+  ASSERT_EQ(cases.size(), 2);
+  for (const Case& each : cases) EXPECT_EQ(each.query, query);
+  EXPECT_THAT(read("report/index.html"), Not(HasSubstr("src=\"http")));
+  EXPECT_FALSE(std::filesystem::exists(file("report.part")));
+}
+
+TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
+  write_report(some_campaign("wang"), std::nullopt, file("report"));
+  write("report/cases/old.case", "");
+  write_report(some_campaign("basic"), std::nullopt, file("report"));
+  EXPECT_FALSE(std::filesystem::exists(file("report/cases/old.case")));
+  EXPECT_THAT(read("report/report.json"), HasSubstr("basic"));
+}
+
+TEST_F(ReportTest, NeverReplacesAnythingElse) {
+  write("home/letter.txt", "precious");
+  EXPECT_THAT([&] { write_report(some_campaign("wang"), std::nullopt, file("home")); },
+              ThrowsMessage<Error>(HasSubstr("found something that is no report")));
+  EXPECT_EQ(read("home/letter.txt"), "precious");
+}
+
+TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
+  const Campaign before = some_campaign("wang");
+  Campaign now = before;
+  EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);
+  now.findings.push_back(now.findings.front());
+  now.findings.back().query.x[0] += 1;
+  const auto json = report_json(now, before);
+  EXPECT_EQ(json["baseline"]["new_findings"], 1);
+  EXPECT_EQ(json["baseline"]["changes"][0]["before"]["false_positive_rate"], 1);
+}
+
+TEST_F(ReportTest, TextFromOutsideCannotLeaveItsPlaceInThePage) {
+  write_report(some_campaign("</script><script>alert(1)"), std::nullopt, file("report"));
+  EXPECT_THAT(read("report/index.html"), Not(HasSubstr("<script>alert(1)")));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,136 @@
+// Counting and merging.
+#include "reports/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "reports/confidence.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+
+Outcome false_positive(double ratio, bool refuted = false) {
+  return {.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = ratio, .bound_refuted = refuted};
+}
+
+std::string here() { return "here"; }
+
+TEST(Histogram, ARatioOfOneIsNotCountedBelowTheBound) {
+  Histogram histogram;
+  histogram.add(std::nextafter(1.0, 0.0));
+  histogram.add(1.0);
+  std::size_t at_one = 0;
+  while (Histogram::border(at_one) < 1) ++at_one;
+  EXPECT_EQ(Histogram::border(at_one), 1);
+  EXPECT_EQ(histogram.bins[at_one - 1], 1);
+  EXPECT_EQ(histogram.bins[at_one], 1);
+}
+
+TEST(Histogram, WhatIsOutsideIsCountedInTheFirstOrLastBin) {
+  Histogram histogram;
+  histogram.add(0);
+  histogram.add(1e-300);
+  histogram.add(1e300);
+  EXPECT_EQ(histogram.bins.front(), 2);
+  EXPECT_EQ(histogram.bins.back(), 1);
+}
+
+TEST(Counts, EachOutcomeIsCountedOnce) {
+  Counts counts;
+  counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, here);
+  counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, here);
+  counts.add({.verdict = {false, Stage::none, 0}, .collision = false}, query, here);
+  counts.add(false_positive(0.5), query, here);
+  counts.add(false_positive(2, true), query, here);
+  EXPECT_EQ(counts.queries, 5);
+  EXPECT_EQ(counts.collisions, 2);
+  EXPECT_EQ(counts.positives, 3);
+  EXPECT_EQ(counts.false_negatives, 1);
+  EXPECT_EQ(counts.false_positives, 2);
+  EXPECT_EQ(counts.refuted_bounds, 1);
+  EXPECT_EQ(counts.true_by_stage[static_cast<std::size_t>(Stage::proximity)], 1);
+  EXPECT_EQ(counts.false_by_stage[static_cast<std::size_t>(Stage::vv)], 2);
+  EXPECT_EQ(counts.max_ratio(), 2);
+}
+
+TEST(Counts, KeepsTheFarthestCases) {
+  Counts counts;
+  for (int i = 0; i < 100; ++i) counts.add(false_positive((i * 37 % 100) / 100.0), query, here);
+  ASSERT_EQ(counts.farthest.size(), Counts::far_cases);
+  for (std::size_t i = 0; i < Counts::far_cases; ++i)
+    EXPECT_EQ(counts.farthest[i].ratio, (99 - static_cast<double>(i)) / 100.0);
+}
+
+Statistics random_statistics(unsigned seed) {
+  std::mt19937_64 random(seed);
+  Statistics statistics;
+  for (int i = 0; i < 200; ++i) {
+    const Key key{random() % 2 ? "a" : "b", kinds[random() % 2], random() % 2 ? "f" : "g"};
+    Outcome outcome = false_positive(static_cast<double>(random() % 1000) / 500);
+    outcome.collision = random() % 2 == 0;
+    outcome.verdict.hit = random() % 3 != 0;
+    Query own = query;
+    own.x[0] = static_cast<double>(random() % 7);
+    statistics.counts[key].add(outcome, own, [&] { return std::to_string(random() % 5); });
+    statistics.counts[key].timed_queries += 1;
+    statistics.counts[key].nanoseconds += random() % 100;
+  }
+  statistics.oracle_disagreements = random() % 10;
+  statistics.mismatches_with_recorded_truth = random() % 10;
+  return statistics;
+}
+
+Statistics merged(std::initializer_list<Statistics> all) {
+  Statistics sum;
+  for (const Statistics& each : all) sum.merge(each);
+  return sum;
+}
+
+TEST(Statistics, MergingInAnyOrderGivesTheSame) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const Statistics a = random_statistics(3 * seed);
+    const Statistics b = random_statistics(3 * seed + 1);
+    const Statistics c = random_statistics(3 * seed + 2);
+    const Statistics expected = merged({a, b, c});
+    EXPECT_EQ(merged({c, a, b}), expected) << "seed " << seed;
+    EXPECT_EQ(merged({a, merged({c, b})}), expected) << "seed " << seed;
+    EXPECT_EQ(merged({merged({b, a}), c}), expected) << "seed " << seed;
+  }
+}
+
+TEST(Statistics, SumsOverFamilies) {
+  const Statistics statistics = random_statistics(1);
+  std::uint64_t queries = 0;
+  for (const auto& [key, counts] : statistics.by_subject_and_kind()) {
+    EXPECT_EQ(key.family, "");
+    queries += counts.queries;
+  }
+  EXPECT_EQ(queries, 200);
+}
+
+// Clopper and Pearson's bound solves P(X <= count) = 5 % for the binomial X; for 0 in n that is 1 -
+// 0.05^(1/n).
+TEST(Confidence, NoneSeenInMany) {
+  for (const std::uint64_t n : {1, 10, 1000, 1000000})
+    EXPECT_NEAR(clopper_pearson_upper(0, n) / (1 - std::pow(0.05, 1.0 / static_cast<double>(n))), 1, 1e-6);
+}
+
+TEST(Confidence, TheTailHasFivePercent) {
+  const double p = clopper_pearson_upper(2, 20);
+  const double q = 1 - p;
+  const double tail = std::pow(q, 20) + 20 * p * std::pow(q, 19) + 190 * p * p * std::pow(q, 18);
+  EXPECT_NEAR(tail, 0.05, 1e-9);
+}
+
+TEST(Confidence, OneWhereNothingIsKnown) {
+  EXPECT_EQ(clopper_pearson_upper(0, 0), 1);
+  EXPECT_EQ(clopper_pearson_upper(5, 5), 1);
+}
+
+}  // namespace
+}  // namespace nearmiss

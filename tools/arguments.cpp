@@ -1,0 +1,107 @@
+#include "tools/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <thread>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+#include "corpus/readers.hpp"
+
+namespace nearmiss::tools {
+
+void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
+  command
+      .add_option(
+          "--subject", names,
+          "CCDs to put on trial, separated by commas: built-in names (see nearmiss subjects) or paths of "
+          "plug-ins (./plugin.so)")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("A,B,...");
+}
+
+void add_jobs_option(CLI::App& command, int& jobs) {
+  jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command.add_option("--jobs", jobs, "Threads")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str()
+      ->type_name("J");
+}
+
+void add_kind_option(CLI::App& command, std::string& kind) {
+  command
+      .add_option("--kind", kind, "vt: vertex x0 against triangle x1 x2 x3; ee: edge x0x1 against edge x2x3")
+      ->required()
+      ->check(CLI::IsMember({"vt", "ee"}));
+}
+
+void read_queries(const std::string& file, Kind kind, const std::function<void(const Query&)>& sink) {
+  const auto each = [&](const Case& read) { sink(read.query); };
+  if (file == "-") return read_query_lines(std::cin, kind, "stdin", each);
+  std::ifstream in(file);
+  if (!in) throw Error(fmt::format("{}: cannot be read", file));
+  read_query_lines(in, kind, file, each);
+}
+
+Subjects make_subjects(const std::vector<std::string>& names, std::optional<double> given_bound) {
+  Subjects made;
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    made.push_back(make_subject(name, given_bound));
+    if (!seen.insert(made.back()->name()).second)
+      throw Error(
+          fmt::format("found two subjects named '{}', expected different names", made.back()->name()));
+  }
+  return made;
+}
+
+std::vector<const Family*> find_families(const std::vector<std::string>& names) {
+  std::vector<const Family*> found;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const Family& family : families()) found.push_back(&family);
+    } else {
+      found.push_back(&find_family(name));
+    }
+  }
+  const std::set<const Family*> different(found.begin(), found.end());
+  if (different.size() != found.size())
+    throw Error("found a family twice in --family, expected different ones");
+  return found;
+}
+
+std::chrono::duration<double> parse_duration(std::string_view text) {
+  double count = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  const std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  const double seconds = unit == "ms" ? 1e-3 : unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+  if (error != std::errc() || seconds == 0 || !(count > 0) || !(count * seconds <= 1e9))
+    throw Error(fmt::format("--time: found '{}', expected a time such as 30s, 2m or 8h", text));
+  return std::chrono::duration<double>(count * seconds);
+}
+
+std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text) {
+  std::uint64_t shard = 0;
+  std::uint64_t shards = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard);
+  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, shards);
+  if (!slash || second.ec != std::errc() || second.ptr != end || shard >= shards)
+    throw Error(fmt::format("--shard: found '{}', expected I/N with 0 <= I < N, such as 0/4", text));
+  return {shard, shards};
+}
+
+double parse_bound(std::string_view text) {
+  const double bound = parse_number(text, "--bound");
+  if (!(bound > 0)) throw Error(fmt::format("--bound: found '{}', expected a positive number", text));
+  return bound;
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,45 @@
+// Options that several subcommands share, and how their values are read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "fuzz/families.hpp"
+#include "fuzz/trial.hpp"
+
+namespace nearmiss::tools {
+
+/// --subject A,B,./plugin.so
+void add_subject_option(CLI::App& command, std::vector<std::string>& names);
+
+/// --jobs J, all cores where it is not given.
+void add_jobs_option(CLI::App& command, int& jobs);
+
+/// --kind vt|ee, required.
+void add_kind_option(CLI::App& command, std::string& kind);
+
+/// FILE|- with one query a line; opens it and passes every query on, in order. Throws Error.
+void read_queries(const std::string& file, Kind kind, const std::function<void(const Query&)>& sink);
+
+/// The subjects by these names. Throws Error, also where two have the same name.
+Subjects make_subjects(const std::vector<std::string>& names,
+                       std::optional<double> given_bound = std::nullopt);
+
+/// The families by these names; all of them for "all". Throws Error.
+std::vector<const Family*> find_families(const std::vector<std::string>& names);
+
+/// "500ms", "30s", "2m", "8h". Throws Error.
+std::chrono::duration<double> parse_duration(std::string_view text);
+
+/// "0/4" .. "3/4": this shard, and how many there are. Throws Error.
+std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
+
+/// A positive finite number. Throws Error.
+double parse_bound(std::string_view text);
+
+}  // namespace nearmiss::tools

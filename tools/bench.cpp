@@ -1,0 +1,177 @@
+// nearmiss bench: what subjects cost.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "ccd/error.hpp"
+#include "corpus/file.hpp"
+#include "corpus/readers.hpp"
+#include "fuzz/families.hpp"
+#include "oracle/box.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+using Queries = std::map<Kind, std::vector<Query>>;
+
+struct Options {
+  std::vector<std::filesystem::path> paths;
+  std::vector<std::string> subjects{"basic", "wang"};
+  std::uint64_t queries = 20000;
+  int runs = 31;
+  std::filesystem::path json;
+};
+
+struct Input {
+  std::string name;
+  Queries queries;  ///< those that pass the box test
+};
+
+/// Times of one subject on one input, ns a query, one for each run.
+using Times = std::vector<double>;
+
+double median(Times times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+/// The first queries of a family whose boxes meet, as many of each kind as asked for.
+Input family_input(std::string_view name, std::uint64_t count) {
+  const Family& family = find_family(name);
+  Input input{std::string(name), {}};
+  for (std::uint64_t index = 0;
+       std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) { return input.queries[kind].size() < count; });
+       ++index) {
+    const Query query = make_query(family, 1, index);
+    if (auto& same = input.queries[query.kind]; same.size() < count && boxes_meet(query))
+      same.push_back(query);
+  }
+  return input;
+}
+
+Input file_input(const std::filesystem::path& path) {
+  const auto whole = path.lexically_normal();
+  Input input{(whole.has_filename() ? whole : whole.parent_path()).filename().string(), {}};
+  read_cases(path, [&](const Case& each) {
+    if (boxes_meet(each.query)) input.queries[each.query.kind].push_back(each.query);
+  });
+  if (input.queries.empty())
+    throw Error(
+        fmt::format("{}: found no query whose swept boxes meet, expected some to time", path.string()));
+  return input;
+}
+
+/// One pass over the queries, repeated until it lasts long enough to be measured.
+double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto least = std::chrono::microseconds(500);
+  const auto start = Clock::now();
+  std::size_t decided = 0;
+  do {
+    subject.decide(queries, verdicts);
+    decided += queries.size();
+  } while (Clock::now() - start < least);
+  const std::chrono::duration<double, std::nano> time = Clock::now() - start;
+  return time.count() / static_cast<double>(decided);
+}
+
+/// All subjects in turn, run after run, so that noise of the machine falls on all of them alike.
+std::vector<Times> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs) {
+  std::vector<Times> times(subjects.size());
+  std::vector<Verdict> verdicts(queries.size());
+  for (int run = 0; run < runs; ++run)
+    for (std::size_t s = 0; s < subjects.size(); ++s)
+      times[s].push_back(time_once(*subjects[s], queries, verdicts));
+  return times;
+}
+
+/// The median over the runs of a subject's time by the first subject's in the same run.
+double median_ratio(const Times& times, const Times& first) {
+  Times ratios;
+  for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
+  return median(ratios);
+}
+
+/// The runs of both kinds together, each kind weighted by its number of queries.
+std::vector<Times> together(const std::vector<std::vector<Times>>& by_kind,
+                            const std::vector<double>& weights) {
+  std::vector<Times> sum(by_kind.front().size(), Times(by_kind.front().front().size(), 0));
+  double total = 0;
+  for (const double weight : weights) total += weight;
+  for (std::size_t k = 0; k < by_kind.size(); ++k)
+    for (std::size_t s = 0; s < sum.size(); ++s)
+      for (std::size_t i = 0; i < sum[s].size(); ++i) sum[s][i] += by_kind[k][s][i] * weights[k] / total;
+  return sum;
+}
+
+void run(const Options& options) {
+  const Subjects subjects = make_subjects(options.subjects);
+  std::vector<Input> inputs;
+  for (const auto& path : options.paths) inputs.push_back(file_input(path));
+  for (const std::string_view name : {"uniform", "uniform-end", "uniform-slow"})
+    inputs.push_back(family_input(name, options.queries));
+
+  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  const std::string over = "/" + subjects.front()->name();
+  fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject", "ns/query",
+             over);
+  const auto print = [&](const Input& input, std::string_view kind, std::size_t count,
+                         const std::vector<Times>& times) {
+    for (std::size_t s = 0; s < subjects.size(); ++s)
+      fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, count,
+                 subjects[s]->name(), median(times[s]), median_ratio(times[s], times.front()));
+  };
+  for (const Input& input : inputs) {
+    std::vector<std::vector<Times>> by_kind;
+    std::vector<double> weights;
+    std::size_t count = 0;
+    for (const auto& [kind, queries] : input.queries) {
+      const auto times = time_all(subjects, queries, options.runs);
+      print(input, short_name(kind), queries.size(), times);
+      for (std::size_t s = 0; s < subjects.size(); ++s)
+        results.push_back({{"subject", subjects[s]->name()},
+                           {"kind", short_name(kind)},
+                           {"input", input.name},
+                           {"ns_per_query", median(times[s])},
+                           {"runs", options.runs},
+                           {"queries", queries.size()},
+                           {"ratio", median_ratio(times[s], times.front())}});
+      by_kind.push_back(times);
+      weights.push_back(static_cast<double>(queries.size()));
+      count += queries.size();
+    }
+    if (by_kind.size() > 1) print(input, "both", count, together(by_kind, weights));
+  }
+  fmt::print(
+      "\nQueries whose swept boxes meet. ns/query: median of {} runs, the subjects in turn in each; {}: "
+      "median of the ratios within a run.\n",
+      options.runs, over);
+  if (!options.json.empty())
+    replace_file(options.json, nlohmann::ordered_json{{"results", results}}.dump(2) + "\n");
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, int& /*exit_code*/) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("bench", "Time subjects side by side, after the box test");
+  command->add_option("PATH", options->paths, "Files and folders of cases to time besides the random inputs");
+  add_subject_option(*command, options->subjects);
+  command->add_option("--queries", options->queries, "Random queries of each kind")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--runs", options->runs, "Runs")->check(CLI::Range(1, 1000000))->capture_default_str();
+  command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
+  command->footer("\nRatios are by the first subject, so name the baseline first: --subject basic,wang");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nearmiss::tools

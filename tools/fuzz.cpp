@@ -1,0 +1,105 @@
+// nearmiss fuzz: a campaign.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "ccd/error.hpp"
+#include "fuzz/campaign.hpp"
+#include "reports/summary.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> subjects{"wang"};
+  std::vector<std::string> families{"all"};
+  std::uint64_t cases = 0;
+  std::string time, shard = "0/1";
+  std::uint64_t seed = 1;
+  int jobs = 1;
+  RecordOptions record;
+};
+
+std::string show(const CampaignProgress& now) {
+  const double seconds = now.elapsed.count();
+  const double rate = static_cast<double>(now.cases) / seconds;
+  std::string line = with_separators(now.cases);
+  if (now.of != 0) line += " of " + with_separators(now.of);
+  line += fmt::format(" cases, {:.0f}/s, {} false negatives, {} refuted bounds", rate,
+                      with_separators(now.statistics.false_negatives()),
+                      with_separators(now.statistics.refuted_bounds()));
+  const std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
+  return line + (now.of != 0 ? ", " + show_duration(left) + " left" : ", " + show_duration(now.elapsed));
+}
+
+int run(const Options& options) {
+  const auto& stop = interrupted();
+  const Subjects subjects = make_subjects(options.subjects);
+  CampaignPlan plan;
+  plan.families = find_families(options.families);
+  plan.seed = options.seed;
+  plan.cases = options.cases;
+  if (!options.time.empty()) plan.time = parse_duration(options.time);
+  plan.jobs = options.jobs;
+  std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
+
+  RunInfo info = run_info("fuzz");
+  info["seed"] = fmt::format("{}", plan.seed);
+  info["families"] = fmt::format("{}", fmt::join(options.families, ","));
+  info["cases"] = plan.cases == 0 ? "until the time is over" : fmt::format("{}", plan.cases);
+  info["shard"] = options.shard;
+  Record record(options.record, std::move(info));
+  {
+    Progress progress;
+    run_campaign(
+        plan, subjects,
+        [&](const Statistics& statistics, std::span<const Finding> findings) {
+          record.replace(statistics, findings);
+        },
+        [&](const CampaignProgress& now) {
+          if (progress.due()) progress.show(show(now));
+        },
+        stop);
+  }
+  return record.finish(stop);
+}
+
+}  // namespace
+
+void add_fuzz(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("fuzz", "Hunt for false negatives and far false positives with random queries");
+  add_subject_option(*command, options->subjects);
+  command->add_option("--family", options->families, "Families of queries, separated by commas, or all")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("all|A,B,...");
+  auto* limit = command->add_option_group("limit", "How long");
+  limit->add_option("--cases", options->cases, "As many queries in all, shared out among the families")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
+      ->type_name("N");
+  limit->add_option("--time", options->time, "As many as there is time for: 30s, 2m, 8h")->type_name("T");
+  limit->require_option(1, 2);
+  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
+      ->capture_default_str()
+      ->type_name("S");
+  add_jobs_option(*command, options->jobs);
+  command->add_option("--shard", options->shard, "Do part I of N of the campaign, 0 <= I < N")
+      ->capture_default_str()
+      ->type_name("I/N");
+  options->record.add_to(*command);
+  std::string known;
+  for (const Family& family : families()) known += fmt::format("\n  {:<13} {}", family.name, family.about);
+  command->footer(
+      "\nFamilies:" + known +
+      "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
+      "night.db -o report");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools

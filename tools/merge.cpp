@@ -1,0 +1,28 @@
+// nearmiss merge: several stores into one.
+#include <fmt/format.h>
+
+#include "reports/store.hpp"
+#include "reports/summary.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+void add_merge(CLI::App& app, int& /*exit_code*/) {
+  struct Options {
+    std::filesystem::path out;
+    std::vector<std::filesystem::path> in;
+  };
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("merge", "Add up the stores of several runs or shards into a new one");
+  command->add_option("OUT", options->out, "The new store")->required()->type_name("OUT.db");
+  command->add_option("IN", options->in, "Stores to add up")->required()->type_name("IN.db...");
+  command->callback([options] {
+    std::vector<Campaign> campaigns;
+    for (const auto& file : options->in) campaigns.push_back(load_campaign(file));
+    const Campaign merged = merge_campaigns(campaigns);
+    write_campaign(merged, options->out);
+    fmt::print("{}", summary_table(merged.statistics));
+  });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,80 @@
+// nearmiss replay: cases that are kept.
+#include <fmt/format.h>
+
+#include "corpus/readers.hpp"
+#include "fuzz/trial_stream.hpp"
+#include "reports/summary.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<fs::path> paths;
+  std::vector<std::string> subjects{"wang"};
+  std::string bound;
+  int jobs = 1;
+  RecordOptions record;
+};
+
+/// What a case is counted under: the folder below `path` that it is in, or the name of `path` itself.
+std::string family_of(const fs::path& path, const std::string& name) {
+  const fs::path whole = fs::path(path).lexically_normal();
+  const fs::path own = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  if (!fs::is_directory(path)) return own.string();
+  const fs::path below = fs::path(name).lexically_relative(path);
+  return std::distance(below.begin(), below.end()) > 1 ? below.begin()->string() : own.string();
+}
+
+int run(const Options& options) {
+  const auto& stop = interrupted();
+  const auto given = options.bound.empty() ? std::nullopt : std::optional(parse_bound(options.bound));
+  const Subjects subjects = make_subjects(options.subjects, given);
+  for (const fs::path& path : options.paths)  // all is read once before anything is written
+    read_cases(path, [](const Case&) {});
+  std::string command = "replay";
+  for (const fs::path& path : options.paths) command += " " + path.string();
+  Record record(options.record, run_info(command));
+  {
+    Progress progress;
+    std::uint64_t count = 0;
+    TrialStream stream(subjects, options.jobs, stop,
+                       [&](TrialResult&& result) { record.add(std::move(result)); });
+    for (const fs::path& path : options.paths)
+      read_cases(path, [&](const Case& each) {
+        if (stop) return;
+        stream.add(family_of(path, each.name), each.query, each.truth, each.name);
+        ++count;
+        if (progress.due())
+          progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
+                                    with_separators(record.statistics().false_negatives())));
+      });
+    stream.finish();
+  }
+  return record.finish(stop);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("replay", "Decide the cases of files and folders by subjects and the oracle");
+  command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
+      ->required();
+  add_subject_option(*command, options->subjects);
+  command->add_option("--bound", options->bound, "Use this B for every pair, in place of each pair's own")
+      ->type_name("B");
+  add_jobs_option(*command, options->jobs);
+  options->record.add_to(*command);
+  command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools
