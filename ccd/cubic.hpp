@@ -67,6 +67,19 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
 
 }  // namespace detail
 
+/// How far F certainly keeps from 0 on [0, 1], but for rounding below 100 B³ε; negative where that is not
+/// known. F lies between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
+template <class T>
+T clearance(const Cubic<T>& F) {
+  const T third = F.c / 3;
+  const T b1 = F.d + third;
+  const T b2 = b1 + (third + F.b / 3);
+  const T b3 = F(T(1));
+  const T lowest = std::min(std::min(F.d, b3), std::min(b1, b2));
+  const T highest = std::max(std::max(F.d, b3), std::max(b1, b2));
+  return std::max(lowest, -highest);
+}
+
 /// Times at which |F| <= μ that stand for the roots of F in [0, 1], in ascending order, at most three.
 ///
 /// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node
@@ -79,18 +92,13 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
 /// B³ε. What decides is computed, so F there is wrong by at most 866 B³ε (`evaluation_error`). Both are far
 /// below μ.
 ///
-/// F lies between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d, so where all are
-/// beyond μ on one side there is nothing to look for; rounding moves that border by less than 100 B³ε.
+/// Where F keeps clear of μ there is nothing to look for.
 template <class T>
 Times<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
   using std::abs;
   Times<T, 3> roots;
+  if (clearance(F) > mu) return roots;
   const T end = F(T(1));
-  const T third = F.c / 3;
-  const T b1 = F.d + third;
-  const T b2 = b1 + (third + F.b / 3);
-  if (std::min(std::min(F.d, end), std::min(b1, b2)) > mu) return roots;
-  if (std::max(std::max(F.d, end), std::max(b1, b2)) < -mu) return roots;
 
   // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
   Times<T, 2> critical;

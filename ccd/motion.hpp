@@ -199,17 +199,23 @@ Order closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B, as they are when it collides (§4.1). Edges exchange their
-/// end points for this where they must: only the closest pair of end points is sure to be within B, and x20
-/// within B is all that §4.1 needs. A computed p is at most u away from exact and B >= B*(1 + 40ε), so a pair
-/// that is not within B cannot collide. B itself does not depend on the order.
+/// Whether all vectors of the pair are within B, as they are when it collides (§4.1) and, of two edges, the
+/// end points of p are the closest ones: x20 within B is all that §4.1 needs. A computed p is at most u away
+/// from exact and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+template <Kind kind, class T>
+bool within_reach(const Pair<kind, T>& pair) {
+  return max_component(pair.p.x()) <= pair.B;
+}
+
+/// The same, with the end points of edges exchanged where they must be. B itself does not depend on the
+/// order.
 template <Kind kind, class T>
 bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
-  if (max_component(pair.p.x()) <= pair.B) return true;
+  if (within_reach(pair)) return true;
   if constexpr (kind == Kind::vertex_triangle) return false;
   pair.order = detail::closest_order<T>(query, pair.frame);
   form_vectors(query, pair);
-  return max_component(pair.p.x()) <= pair.B;
+  return within_reach(pair);
 }
 
 }  // namespace nearmiss

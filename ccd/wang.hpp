@@ -66,11 +66,29 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
+// Whether F certainly keeps clear of μ, told without B: then solve_cubic finds no root, and nothing is left
+// to test.
+//
+// Let s be the sum of all squared components of p, q and r. E <= √2 √s_x with the positions' part s_x (an
+// edge is the difference of two vectors at most), W <= √3 √s_v with the velocities' part (p + r - q at most),
+// and so E + W <= √(5 s) by Cauchy and Schwarz; μ = 64 B³e³ <= 64 · 5^(3/2) e³ s^(3/2) < 716 e³ s^(3/2): with
+// 1024 there is 0.4 μ to spare for every rounding here, and for the order of end points (F of another order
+// differs in sign and rounding only). Squared, for want of a root: (1024 e³)² s³. For s outside its range,
+// where s³ might over- or underflow, nothing is told.
+template <Kind kind, class T>
+bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F) {
+  const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();
+  const T c = clearance(F);
+  const T e = fourth_root_of_epsilon<T>();
+  const T factor = 1024 * e * e * e;
+  return in_range(s) && c > 0 && c * c > factor * factor * (s * s * s);
+}
+
 // Algorithms 3 and 4 for a pair whose vectors are within B.
 template <Kind kind, class T, WangOptions options>
-[[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair) {
+[[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
+                                                 const Cubic<T>& F) {
   const Tolerances<T> tol = paper_tolerances(pair.B);
-  const Cubic<T> F = coplanarity(pair);
   const auto roots = solve_cubic(F, tol.mu);
   bool culled = options.ve_culling != VeCulling::none;
   const auto proximity = [&](T t, bool root) {
@@ -92,13 +110,13 @@ template <Kind kind, class T, WangOptions options>
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
 }
 
-// The same for a pair that needs another frame or has a given B (§5).
+// The same for a pair that needs another frame, another order of end points, or has a given B (§5).
 template <Kind kind, class T, WangOptions options>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given) {
   auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
   if (given) pair = with_given_bound(query, pair, *given);
   if (!bring_within_reach(query, pair)) return {};
-  return wang_tests<kind, T, options>(query, pair);
+  return wang_tests<kind, T, options>(query, pair, coplanarity(pair));
 }
 
 }  // namespace detail
@@ -110,10 +128,14 @@ template <Kind kind, class T, WangOptions options>
 template <Kind kind, class T, WangOptions options>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt) {
   if (options.plane_culling && separated_by_plane<kind>(query)) return {};
-  auto pair = make_pair<kind, T>(query);
-  if (given || !in_range(pair.B)) return detail::wang_careful<kind, T, options>(query, given);
-  if (!bring_within_reach(query, pair)) return {};
-  return detail::wang_tests<kind, T, options>(query, pair);
+  Pair<kind, T> pair;
+  form_vectors(query, pair);
+  const Cubic<T> F = coplanarity(pair);
+  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F)) return {};
+  detail::form_bound(pair);
+  if (given || !in_range(pair.B) || !within_reach(pair))
+    return detail::wang_careful<kind, T, options>(query, given);
+  return detail::wang_tests<kind, T, options>(query, pair, F);
 }
 
 }  // namespace nearmiss
