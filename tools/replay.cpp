@@ -23,13 +23,12 @@ struct Options {
   RecordOptions record;
 };
 
-/// What a case is counted under: the folder below `path` that it is in, or the name of `path` itself.
-std::string family_of(const fs::path& path, const std::string& name) {
-  const fs::path whole = fs::path(path).lexically_normal();
-  const fs::path own = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
-  if (!fs::is_directory(path)) return own.string();
-  const fs::path below = fs::path(name).lexically_relative(path);
-  return std::distance(below.begin(), below.end()) > 1 ? below.begin()->string() : own.string();
+/// What a case is counted under: the folder that it is in; above the folders of the two kinds, where it is in
+/// one of them.
+std::string family_of(const std::string& name) {
+  fs::path folder = fs::absolute(name).lexically_normal().parent_path();
+  if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
+  return folder.filename().string();
 }
 
 int run(const Options& options) {
@@ -49,7 +48,7 @@ int run(const Options& options) {
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
         if (stop) return;
-        stream.add(family_of(path, each.name), each.query, each.truth, each.name);
+        stream.add(family_of(each.name), each.query, each.truth, each.name);
         ++count;
         if (progress.due())
           progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),

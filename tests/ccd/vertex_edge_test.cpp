@@ -72,6 +72,19 @@ TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
   }
 }
 
+TEST(VertexEdge, Case2AtTheMinimumOfOnePiece) {
+  // A vertex grazes a turning edge: no component of the cross product comes near zero (then it were case 4).
+  // Found by random search; the bound B of the pair is 2.64.
+  const Vector vertex(-0x1.5d08p+0, 0x1.3c7p-2, 0x1.075cp-2);
+  const Vector vertex_end(0x1.4418p-2, -0x1.629p-4, -0x1.50ap-4);
+  const Vector edge(-0x1.ebc8p-1, 0x1.6ce8p-2, 0x1.7e48p-2);
+  const Vector edge_end(-0x1.8f84p-1, 0x1.dap-6, -0x1.894p-6);
+  const auto pair = vertex_edge_pair(moving(vertex, vertex_end - vertex), moving(edge, edge_end - edge));
+  const auto wide = paper_tolerances(2.64);
+  const Verdict verdict = vertex_edge(pair, wide);
+  EXPECT_EQ(verdict.stage, Stage::ve_minimum);
+}
+
 TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
   const auto pair = vertex_edge_pair(moving({0.25, -0.25, 0}, {0, 0.5, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   const Verdict verdict = vertex_edge(pair, tol);

@@ -1,0 +1,68 @@
+// The corpus: every case says why it is there, the oracle agrees with its truth, and wang reports it.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "ccd/subject.hpp"
+#include "corpus/readers.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+std::vector<Case> corpus() {
+  std::vector<Case> cases;
+  read_cases(NEARMISS_CORPUS, [&](Case&& each) { cases.push_back(std::move(each)); });
+  return cases;
+}
+
+TEST(Corpus, EveryCaseSaysWhyItIsThere) {
+  const auto cases = corpus();
+  EXPECT_GE(cases.size(), 40);
+  for (const Case& each : cases) {
+    EXPECT_FALSE(each.why.empty()) << each.name;
+    EXPECT_TRUE(each.truth) << each.name;
+    EXPECT_FALSE(each.provenance.empty()) << each.name;
+  }
+}
+
+TEST(Corpus, TheOracleAgreesWithEveryRecordedTruth) {
+  for (const Case& each : corpus()) EXPECT_EQ(collides(each.query), each.truth) << each.name;
+}
+
+TEST(Corpus, EveryWangReportsEveryCollision) {
+  for (const char* name : {"wang", "wang-eps", "wang-plain"}) {
+    const auto subject = make_subject(name);
+    for (const Case& each : corpus())
+      EXPECT_GE(subject->decide(each.query).hit, *each.truth) << name << ", " << each.name;
+  }
+}
+
+TEST(Corpus, NoFalsePositiveIsBeyondTheBound) {
+  const auto subject = make_subject("wang-plain");
+  for (const Case& each : corpus()) {
+    if (!*each.truth && subject->decide(each.query).hit) {
+      EXPECT_FALSE(distance_exceeds(each.query, subject->distance_bound(each.query))) << each.name;
+    }
+  }
+}
+
+// Each of Algorithm 2's candidate cases is needed by a query that no other case reports.
+TEST(Corpus, EachVertexEdgeCaseAcceptsItsOwn) {
+  const std::map<std::string, Stage> stages{
+      {"case-1-end.case", Stage::ve_end},     {"case-2-minimum.case", Stage::ve_minimum},
+      {"case-3-equal.case", Stage::ve_equal}, {"case-4-zero.case", Stage::ve_zero},
+      {"case-5-vertex.case", Stage::vv},      {"case-5-vertex-hit.case", Stage::vv},
+  };
+  const auto subject = make_subject("wang");
+  std::size_t seen = 0;
+  read_cases(NEARMISS_CORPUS "/kkt", [&](const Case& each) {
+    const auto name = std::filesystem::path(each.name).filename().string();
+    EXPECT_EQ(subject->decide(each.query).stage, stages.at(name)) << each.name;
+    ++seen;
+  });
+  EXPECT_EQ(seen, stages.size());
+}
+
+}  // namespace
+}  // namespace nearmiss
