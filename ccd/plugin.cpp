@@ -36,7 +36,11 @@ class Plugin final : public Subject {
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (subject_.distance_bound == nullptr) return std::numeric_limits<double>::infinity();
-    return subject_.distance_bound(query.x.data(), query.kind == Kind::edge_edge ? 1 : 0);
+    const double bound = subject_.distance_bound(query.x.data(), query.kind == Kind::edge_edge ? 1 : 0);
+    if (!(bound >= 0))
+      throw Error(path_ + ": the plug-in claims a distance bound of " + std::to_string(bound) +
+                  ", expected 0 or more");
+    return bound;
   }
 
  private:

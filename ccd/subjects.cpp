@@ -79,8 +79,10 @@ struct Wang {
     return wang<kind, double, options>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
-    // The bound is proportional to B, so it is taken at B = 1, where nothing overflows.
-    return paper_tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
+    // The bound is proportional to B, so it is taken at B = 1, where nothing overflows; rounded up, so that a
+    // tiny pair's does not vanish.
+    const double bound = paper_tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
+    return std::nextafter(bound, std::numeric_limits<double>::infinity());
   }
 };
 

@@ -117,6 +117,17 @@ Finding::What parse_what(const std::string& text, const std::string& where) {
 }  // namespace
 
 struct Store::Database {
+  Database(fs::path path, int flags) : file(std::move(path)), db(file.string(), flags) {}
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+  ~Database() {
+    try {
+      db.exec("PRAGMA journal_mode = DELETE");  // one plain file is left, for readers that may not write
+    } catch (const SQLite::Exception&) {
+      return;  // then the log stays beside it, and nothing is lost
+    }
+  }
+
   fs::path file;
   SQLite::Database db;
 };
@@ -128,8 +139,7 @@ Store::~Store() = default;
 Store::Store(const fs::path& file, const RunInfo& run) {
   if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
   try {
-    database_.reset(
-        new Database{file, SQLite::Database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)});
+    database_ = std::make_unique<Database>(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     auto& db = database_->db;
     db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
     SQLite::Transaction transaction(db);
@@ -245,7 +255,6 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
     db.exec("DELETE FROM run");
     write_runs(db, campaign.runs);
     transaction.commit();
-    db.exec("PRAGMA journal_mode = DELETE");
   } catch (const SQLite::Exception& error) {
     fs::remove(part);
     fail(file, error);

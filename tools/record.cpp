@@ -51,6 +51,13 @@ Record::Record(RecordOptions options, RunInfo run) : options_(std::move(options)
   if (!options_.db.empty()) store_.emplace(options_.db, run_);
 }
 
+Record::~Record() {
+  if (!store_ || saved_) return;
+  store_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(options_.db, ignored);
+}
+
 void Record::add(TrialResult&& result) {
   statistics_.merge(result.statistics);
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(unsaved_));
@@ -65,6 +72,7 @@ void Record::replace(const Statistics& statistics, std::span<const Finding> new_
 
 void Record::save() {
   if (store_) store_->save(statistics_, unsaved_);
+  saved_ = true;
   const std::size_t room = printed_findings - first_findings_.size();
   first_findings_.insert(first_findings_.end(), unsaved_.begin(),
                          unsaved_.begin() + static_cast<std::ptrdiff_t>(std::min(room, unsaved_.size())));

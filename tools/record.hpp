@@ -29,6 +29,10 @@ class Record {
  public:
   /// Throws Error, before any work is done, where a file cannot be made.
   Record(RecordOptions options, RunInfo run);
+  Record(const Record&) = delete;
+  Record& operator=(const Record&) = delete;
+  /// Removes the store where nothing was ever saved in it.
+  ~Record();
 
   /// Adds a result to what is held; saved now and then.
   void add(TrialResult&& result);
@@ -45,10 +49,11 @@ class Record {
   RecordOptions options_;
   RunInfo run_;
   std::optional<Store> store_;
+  bool saved_ = false;
   Statistics statistics_;
   std::vector<Finding> unsaved_;
   std::vector<Finding> first_findings_;  ///< as many as are printed
-  std::chrono::steady_clock::time_point last_save_;
+  std::chrono::steady_clock::time_point last_save_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace nearmiss::tools

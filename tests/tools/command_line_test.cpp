@@ -1,0 +1,293 @@
+// The command line from outside: answers, exit codes, and what it says to bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
+
+class CommandLine : public testing::TemporaryFolder {
+ protected:
+  struct Answer {
+    int code = -1;
+    std::string out, error;
+  };
+
+  /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder; `before` is put in front, such as "ulimit -f
+  /// 8;".
+  [[nodiscard]] Answer run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd " + file("").string() + " && " + before + " " + NEARMISS_EXECUTABLE +
+                                " " + arguments + " >out.txt 2>error.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
+  }
+
+  /// One line on stderr with all of these words, exit code 2, and no file that was not there before.
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Answer answer = run(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1)
+        << arguments << ": " << answer.error;
+    EXPECT_THAT(answer.error, StartsWith("nearmiss: ")) << arguments;
+    for (const std::string& word : words) EXPECT_THAT(answer.error, HasSubstr(word)) << arguments;
+    for (const char* name : {"new.db", "new.db-wal", "new.json", "new.json.part", "new"})
+      EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
+  }
+
+  [[nodiscard]] json read_json(const std::string& name) const { return json::parse(read(name)); }
+};
+
+/// A vertex that falls through the triangle (0,0,0) (1,0,0) (0,1,0), from z = 1 to -1, and one that stays
+/// above.
+const std::string hit = "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0\n";
+const std::string miss = "0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p0  0 0 0  1 0 0  0 1 0\n";
+
+std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+
+// --- answers ----------------------------------------------------------------------------------------------
+
+TEST_F(CommandLine, OraclePrintsALineAQuery) {
+  write("q.vt", "# two queries\n" + hit + "\n" + miss);
+  EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n0\n");
+  EXPECT_EQ(run("oracle --kind vt --method exact - < q.vt").out, "1\n0\n");
+}
+
+TEST_F(CommandLine, OraclePrintsTimeAndDistance) {
+  write("q.vt", hit + miss);
+  EXPECT_EQ(run("oracle --kind vt --toi q.vt").out, "1 0x1p-1 0x1p-1\n0 inf inf\n");
+  EXPECT_THAT(run("oracle --kind vt --distance q.vt").out,
+              MatchesRegex("1 0x0p\\+0 0x0p\\+0\n0 0x[^ ]* 0x[^ ]*\n"));
+  EXPECT_THAT(run("oracle --kind vt --toi --distance q.vt").out,
+              StartsWith("1 0x1p-1 0x1p-1 0x0p+0 0x0p+0\n0 inf inf 0x"));
+}
+
+TEST_F(CommandLine, VerdictPrintsStageAndTime) {
+  write("q.vt", hit + miss);
+  EXPECT_EQ(run("verdict --kind vt --subject wang q.vt").out, "1 proximity 0x1p-1\n0\n");
+  EXPECT_EQ(run("verdict --kind vt --subject " + plugin("example") + " q.vt").out, "1 unspecified nan\n0\n");
+}
+
+TEST_F(CommandLine, TheBoundCanBeGiven) {
+  write("q.vt", hit);
+  EXPECT_EQ(run("verdict --kind vt --bound 8 q.vt").code, 0);
+  expect_refused("verdict --kind vt --bound 0.5 q.vt",
+                 {"the given bound B = 0.5", "is smaller than a pair's own"});
+  expect_refused("verdict --kind vt --bound=-1 q.vt", {"--bound: found '-1', expected a positive number"});
+}
+
+TEST_F(CommandLine, ReplayComparesAndCounts) {
+  write("q.vt", hit + miss);
+  const Answer answer = run("replay q.vt --subject basic,wang --json new.json");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  const json counts = read_json("new.json")["subjects"]["wang"]["vt"];
+  EXPECT_EQ(counts["queries"], 2);
+  EXPECT_EQ(counts["collisions"], 1);
+  EXPECT_EQ(counts["positives"], 1);
+  EXPECT_EQ(counts["false_negatives"], 0);
+}
+
+TEST_F(CommandLine, AMissExitsWithOne) {
+  write("q.vt", hit);
+  const Answer answer = run("replay q.vt --subject " + plugin("never"));
+  EXPECT_EQ(answer.code, 1);
+  EXPECT_THAT(answer.out, HasSubstr("MISSED 1 of 1 collision"));
+  EXPECT_THAT(answer.out, HasSubstr("q.vt:1"));
+}
+
+TEST_F(CommandLine, AWrongRecordedTruthExitsWithOne) {
+  write("a.case",
+        "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
+        "y0 0.25 0.25 -1\ny1 0 0 0\ny2 1 0 0\ny3 0 1 0\n");
+  const Answer answer = run("replay a.case --json new.json");
+  EXPECT_EQ(answer.code, 1);
+  EXPECT_EQ(read_json("new.json")["oracle"]["mismatches_with_recorded_truth"], 1);
+}
+
+TEST_F(CommandLine, FuzzMergeAndReport) {
+  EXPECT_EQ(run("fuzz --cases 1100 --seed 5 --shard 0/2 --db a.db").code, 0);
+  EXPECT_EQ(run("fuzz --cases 1100 --seed 5 --shard 1/2 --db b.db --json b.json").code, 0);
+  EXPECT_EQ(run("merge all.db a.db b.db").code, 0);
+  EXPECT_EQ(run("report all.db -o report --baseline a.db").code, 0);
+  const json report = read_json("report/report.json");
+  int queries = 0;
+  for (const char* kind : {"vt", "ee"}) queries += report["subjects"]["wang"][kind]["queries"].get<int>();
+  EXPECT_EQ(queries, 1100);
+  EXPECT_EQ(report["runs"].size(), 2);
+  EXPECT_EQ(report["baseline"]["new_findings"], 0);
+}
+
+TEST_F(CommandLine, SceneComparesAllPairs) {
+  write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 1 1\nf 1 2 3\nf 4 5 6\n");
+  write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 1 -1\nf 1 2 3\nf 4 5 6\n");
+  for (const char* bound : {"pair", "scene", "100"}) {
+    const Answer answer = run(std::string("scene start.obj end.obj --json new.json --bound ") + bound);
+    EXPECT_EQ(answer.code, 0) << answer.error;
+    EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["vt"]["collisions"], 3) << bound;
+  }
+}
+
+TEST_F(CommandLine, BenchWritesItsResults) {
+  write("own.vt", hit);
+  const Answer answer = run("bench own.vt --queries 50 --runs 3 --json new.json");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  const json results = read_json("new.json")["results"];
+  EXPECT_EQ(results.size(), 2 * 1 + 2 * 2 * 3);  // two subjects: one kind of own.vt, two of each random input
+  for (const json& each : results) {
+    EXPECT_GT(each["ns_per_query"], 0);
+    EXPECT_EQ(each["runs"], 3);
+  }
+  EXPECT_EQ(results[0]["input"], "own.vt");
+}
+
+TEST_F(CommandLine, SubjectsAreListed) {
+  const Answer answer = run("subjects");
+  for (const char* name : {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain "})
+    EXPECT_THAT(answer.out, HasSubstr(name));
+}
+
+TEST_F(CommandLine, EverySubcommandHasHelp) {
+  for (const char* name :
+       {"oracle", "verdict", "replay", "fuzz", "scene", "merge", "report", "bench", "subjects"}) {
+    const Answer answer = run(std::string(name) + " --help");
+    EXPECT_EQ(answer.code, 0) << name;
+    EXPECT_THAT(answer.out, HasSubstr("Usage: nearmiss ")) << name;
+  }
+}
+
+// --- bad input --------------------------------------------------------------------------------------------
+
+TEST_F(CommandLine, BadQueries) {
+  const std::string numbers = hit.substr(hit.find(' '));
+  write("nan.vt", "# a comment\nnan" + numbers);
+  write("inf.vt", hit + "inf" + numbers);
+  write("word.vt", "x" + numbers);
+  write("few.vt", "1 2 3\n");
+  write("many.vt", hit.substr(0, hit.size() - 1) + " 5\n");
+  write("empty.vt", "");
+  write("comments.vt", "# nothing\n");
+  for (const char* command :
+       {"oracle --kind vt ", "verdict --kind vt ", "replay --json new.json --db new.db "}) {
+    expect_refused(command + std::string("nan.vt"), {"nan.vt:2", "'nan'"});
+    expect_refused(command + std::string("inf.vt"), {"inf.vt:2", "'inf'"});
+    expect_refused(command + std::string("word.vt"), {"word.vt:1", "'x'"});
+    expect_refused(command + std::string("few.vt"), {"few.vt:1", "3", "24"});
+    expect_refused(command + std::string("many.vt"), {"many.vt:1", "24"});
+    expect_refused(command + std::string("empty.vt"), {"empty.vt"});
+    expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
+    expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});
+  }
+}
+
+TEST_F(CommandLine, BadNames) {
+  write("q.vt", hit);
+  expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang"});
+  expect_refused("replay q.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
+  expect_refused("fuzz --cases 10 --family plantet --db new.db", {"unknown family 'plantet'", "planted"});
+  expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"a family twice"});
+  expect_refused("verdict --kind vt --subject wong q.vt", {"unknown subject 'wong'"});
+  expect_refused("oracle --kind vf q.vt", {"--kind", "vf"});
+}
+
+TEST_F(CommandLine, BadUsage) {
+  write("q.vt", hit);
+  expect_refused("", {"subcommand"});
+  expect_refused("fuzz --db new.db", {"--cases", "--time"});
+  expect_refused("fuzz --cases 0 --db new.db", {"--cases"});
+  expect_refused("fuzz --time 3parsec --db new.db", {"--time: found '3parsec'", "30s"});
+  expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
+  expect_refused("replay q.vt --json no/folder/new.json", {"no/folder"});
+  expect_refused("replay q.vt --db no/folder/new.db", {"no/folder/new.db"});
+  expect_refused("replay", {"PATH"});
+}
+
+TEST_F(CommandLine, BadPlugins) {
+  write("q.vt", hit);
+  const auto refused = [&](const std::string& name, const std::vector<std::string>& words) {
+    expect_refused("replay q.vt --db new.db --json new.json --subject " + plugin(name), words);
+  };
+  refused("no_function", {"no_function.so", "nearmiss_get_subject"});
+  refused("other_abi", {"other_abi.so", "abi 99", "expected 1"});
+  refused("error", {"error.so: the plug-in returned -7", "q.vt:1"});
+  refused("absent", {"absent.so", "cannot load"});
+}
+
+TEST_F(CommandLine, BadMeshes) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  write("good.obj", square + "f 1 2 3\n");
+  write("other.obj", square + "f 1 2 4\n");
+  write("five.obj", square + "v 0 0 0\nf 1 2 3\n");
+  write("far.obj", square + "f 1 2 9\n");
+  write("nan.obj", "v 0 nan 0\n" + square + "f 1 2 3\n");
+  write("empty.obj", "");
+  const auto refused = [&](const std::string& end, const std::vector<std::string>& words) {
+    expect_refused("scene good.obj " + end + " --db new.db --json new.json", words);
+  };
+  refused("other.obj", {"other.obj", "1 2 4", "1 2 3"});
+  refused("five.obj", {"five.obj", "5 vertices", "4"});
+  refused("far.obj", {"far.obj:5", "vertex 9"});
+  refused("nan.obj", {"nan.obj:1", "'nan'"});
+  refused("empty.obj", {"empty.obj"});
+  refused("absent.obj", {"absent.obj: cannot be read"});
+}
+
+TEST_F(CommandLine, BadStores) {
+  write("text.db", "no database, but long enough to look like one if nobody looks at it closely");
+  write("taken.db", "precious");
+  expect_refused("report text.db -o new", {"text.db", "not a database"});
+  expect_refused("report absent.db -o new", {"absent.db: no such file"});
+  expect_refused("merge new.db absent.db", {"absent.db: no such file"});
+  expect_refused("fuzz --cases 10 --db taken.db", {"taken.db: exists already"});
+  EXPECT_EQ(read("taken.db"), "precious");
+}
+
+// --- what goes wrong while it works -----------------------------------------------------------------------
+
+TEST_F(CommandLine, AnInterruptSavesEverything) {
+  const Answer answer = run("fuzz --time 60s --db a.db", "timeout --preserve-status -s INT 2");
+  EXPECT_EQ(answer.code, 130) << answer.error;
+  EXPECT_THAT(answer.out, HasSubstr("no miss in"));
+  EXPECT_EQ(run("report a.db -o report").code, 0);
+  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
+}
+
+TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
+  const Answer answer = run("fuzz --time 60s --db a.db", "timeout -s KILL 3");
+  EXPECT_EQ(answer.code, 137);
+  EXPECT_EQ(run("report a.db -o report").code, 0);
+  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
+}
+
+TEST_F(CommandLine, AFullDiskIsSaidAndLosesNothingThatWasSaved) {
+  // A limit on the size of files stands for the full disk.
+  const Answer answer =
+      run("fuzz --time 60s --subject basic --family planted --db a.db", "ulimit -f 1600; trap '' XFSZ;");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1) << answer.error;
+  EXPECT_THAT(answer.error, HasSubstr("a.db: "));
+  EXPECT_EQ(run("merge b.db a.db").code, 0);
+  write("q.vt", hit);
+  const Answer no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
+  EXPECT_EQ(no_room.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(file("new.json")));
+  EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
+}
+
+TEST_F(CommandLine, ADeviceIsWrittenToAndNotReplaced) {
+  write("q.vt", hit);
+  const Answer answer = run("replay q.vt --json /dev/stdout | cat");
+  EXPECT_THAT(answer.out, HasSubstr("\"false_negatives\": 0"));
+  EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
+}
+
+}  // namespace
+}  // namespace nearmiss
