@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t block_cases = 1000;
+constexpr std::uint64_t block_cases = 300;
 constexpr auto save_interval = std::chrono::seconds(1);
 
 /// Queries [first, last) of a family.

@@ -10,6 +10,10 @@
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
+
+/// How a parameter is printed in a test's name.
+void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
+
 namespace {
 
 class EveryFamily : public ::testing::TestWithParam<Family> {};
