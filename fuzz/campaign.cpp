@@ -55,7 +55,9 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjec
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan)
-      : plan_(plan), round_(plan.shard), rounds_a_wave_(1 + 4 * plan.jobs / plan.families.size()) {}
+      : plan_(plan),
+        round_(plan.shard),
+        rounds_a_wave_(1 + 4 * static_cast<std::uint64_t>(plan.jobs) / plan.families.size()) {}
 
   /// Empty when everything is done.
   std::vector<Block> next_wave() {

@@ -65,7 +65,7 @@ Timed decide_all(const Subject& subject, const Batch& batch) {
 [[noreturn]] void explain(const Subject& subject, const Batch& batch, const Error& error) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i) {
     try {
-      subject.decide(batch.queries[i]);
+      static_cast<void>(subject.decide(batch.queries[i]));
     } catch (const Error& own) {
       throw Error(std::string(own.what()) + " (" + batch.provenance(i) + ")");
     }

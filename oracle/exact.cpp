@@ -51,7 +51,7 @@ void add_roots(const Polynomial& p, std::vector<Time>& times) {
 /// Whether F has one sign on [0, 1] because its Bernstein coefficients (times 3) have: an exact and cheap
 /// reason for there being no root.
 bool one_sign(const Polynomial& F) {
-  const auto f = [&](int i) { return i <= F.degree() ? F[i] : Integer(0); };
+  const auto f = [&](int i) { return i <= F.degree() ? F[static_cast<unsigned>(i)] : Integer(0); };
   const Integer b0 = 3 * f(0);
   const Integer b1 = b0 + f(1);
   const Integer b2 = b1 + f(1) + f(2);

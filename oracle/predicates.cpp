@@ -39,7 +39,7 @@ std::array<Integer, 24> integers(const Query& query) {
     if (query.x[i] == 0) continue;
     const Parts p = parts(query.x[i]);
     result[i] = Integer(static_cast<long>(p.significand));
-    result[i] <<= p.exponent - smallest;
+    result[i] <<= static_cast<unsigned long>(p.exponent - smallest);
   }
   return result;
 }

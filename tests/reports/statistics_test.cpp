@@ -116,7 +116,7 @@ TEST(Statistics, SumsOverFamilies) {
 // Clopper and Pearson's bound solves P(X <= count) = 5 % for the binomial X; for 0 in n that is 1 -
 // 0.05^(1/n).
 TEST(Confidence, NoneSeenInMany) {
-  for (const std::uint64_t n : {1, 10, 1000, 1000000})
+  for (const std::uint64_t n : {1U, 10U, 1000U, 1000000U})
     EXPECT_NEAR(clopper_pearson_upper(0, n) / (1 - std::pow(0.05, 1.0 / static_cast<double>(n))), 1, 1e-6);
 }
 

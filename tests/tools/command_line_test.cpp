@@ -253,7 +253,8 @@ TEST_F(CommandLine, BadStores) {
 // --- what goes wrong while it works -----------------------------------------------------------------------
 
 TEST_F(CommandLine, AnInterruptSavesEverything) {
-  const Answer answer = run("fuzz --time 60s --db a.db", "timeout --preserve-status -s INT 5");
+  const Answer answer =
+      run("fuzz --family uniform --time 60s --db a.db", "timeout --preserve-status -s INT 5");
   EXPECT_EQ(answer.code, 130) << answer.error;
   EXPECT_THAT(answer.out, HasSubstr("no miss in"));
   EXPECT_EQ(run("report a.db -o report").code, 0);
@@ -261,7 +262,7 @@ TEST_F(CommandLine, AnInterruptSavesEverything) {
 }
 
 TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
-  const Answer answer = run("fuzz --time 60s --db a.db", "timeout -s KILL 8");
+  const Answer answer = run("fuzz --family uniform --time 60s --db a.db", "timeout -s KILL 8");
   EXPECT_EQ(answer.code, 137);
   EXPECT_EQ(run("report a.db -o report").code, 0);
   EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);

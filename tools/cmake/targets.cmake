@@ -15,9 +15,14 @@ if(NEARMISS_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+if(NEARMISS_LIBFUZZER)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage in all of our code
+endif()
+
 # nearmiss_options(TARGET): our own code compiles without a warning; includes are from the top, "folder/file.hpp".
 function(nearmiss_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)  # bools are joined by | where a branch would cost more
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
