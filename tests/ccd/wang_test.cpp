@@ -68,6 +68,26 @@ TEST_P(EveryWang, ReportsThePairThatIsAllZero) {
   for (const Kind kind : kinds) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
 }
 
+// B = 0 makes every threshold 0: each test by itself must accept equality.
+TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
+  const Tolerances<double> tol = paper_tolerances(0.0);
+  Moving<double> rest;
+  rest.xv.setZero();
+  EXPECT_TRUE(vertex_vertex(rest, tol));
+  EXPECT_TRUE(detail::near_edge(VertexEdge<double>{rest, rest, rest}, 0.0, tol));
+  EXPECT_EQ(solve_cubic(Cubic<double>{0, 0, 0, 0}, tol.mu).count, 1);
+  Pair<Kind::vertex_triangle, double> vt;
+  vt.p = vt.q = vt.r = rest;
+  Pair<Kind::edge_edge, double> ee;
+  ee.p = ee.q = ee.r = rest;
+  EXPECT_TRUE(within_reach(vt));
+  EXPECT_TRUE(within_reach(ee));
+  EXPECT_TRUE(Figure(vt, 0.0).well_shaped(tol));
+  EXPECT_TRUE(Figure(ee, 0.0).well_shaped(tol));
+  EXPECT_TRUE(Figure(vt, 0.0).inside());
+  EXPECT_TRUE(Figure(ee, 0.0).inside());
+}
+
 TEST_P(EveryWang, ReportsAPairThatIsOnePoint) {
   for (const Kind kind : kinds) EXPECT_TRUE(decide(moved(Query{.kind = kind}, 7)).hit);
 }
