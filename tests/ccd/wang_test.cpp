@@ -48,6 +48,16 @@ TEST_P(EveryWang, ReportsContactAtTheEnd) {
   EXPECT_TRUE(decide(falling_edge(1, 0)).hit);
 }
 
+// The cubic is below its threshold all the time, so t = 0, outside of the triangle, is its only root: t = 1
+// is tested by itself.
+TEST_P(EveryWang, TestsTheEndOfTheStepWhereTheCubicSeesOnlyItsStart) {
+  const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
+  const Verdict verdict =
+      decide(make_query(Kind::vertex_triangle, {{-1, 0.25, 0x1p-50}, o, a, b}, {{0.25, 0.25, 0}, o, a, b}));
+  EXPECT_EQ(verdict.stage, Stage::proximity);
+  EXPECT_EQ(verdict.time, 1);
+}
+
 TEST_P(EveryWang, ReportsTouchingInAVertexAndOnAnEdge) {
   EXPECT_TRUE(decide(falling_vertex(0, 0, 1, -1)).hit);
   EXPECT_TRUE(decide(falling_vertex(0.5, 0.5, 1, -1)).hit);
@@ -75,7 +85,9 @@ TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   rest.xv.setZero();
   EXPECT_TRUE(vertex_vertex(rest, tol));
   EXPECT_TRUE(detail::near_edge(VertexEdge<double>{rest, rest, rest}, 0.0, tol));
-  EXPECT_EQ(solve_cubic(Cubic<double>{0, 0, 0, 0}, tol.mu).count, 1);
+  const auto roots = solve_cubic(Cubic<double>{0, 0, 0, 0}, tol.mu);
+  ASSERT_EQ(roots.count, 1);
+  EXPECT_EQ(roots.values[0], 0);
   Pair<Kind::vertex_triangle, double> vt;
   vt.p = vt.q = vt.r = rest;
   Pair<Kind::edge_edge, double> ee;
