@@ -5,17 +5,24 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
+
+#include "tools/commands.hpp"
 
 namespace nearmiss::tools {
 
 namespace {
 
+// What a signal handler may touch is lock-free.
 std::atomic<bool> stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // what a signal handler may touch
+std::atomic<std::time_t> first_signal{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-extern "C" void on_signal(int signal) {
-  stop = true;
-  std::signal(signal, SIG_DFL);
+extern "C" void on_signal(int /*signal*/) {
+  constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
+  const std::time_t now = std::time(nullptr);
+  if (!stop.exchange(true)) first_signal = now;
+  if (now - first_signal >= patience) _exit(exit_interrupted);
 }
 
 constexpr auto interval = std::chrono::milliseconds(200);

@@ -7,7 +7,8 @@
 
 namespace nearmiss::tools {
 
-/// Set by SIGINT and SIGTERM from the first call on. A second signal ends the program at once.
+/// Set by SIGINT and SIGTERM from the first call on. Another signal two seconds later ends the program at
+/// once.
 const std::atomic<bool>& interrupted();
 
 /// One line on stderr that is written over again and again; nothing where stderr is not a terminal.
