@@ -81,6 +81,9 @@ std::vector<SubjectInfo> subjects();
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
+/// Throws Error that lists the known names.
+[[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
+
 /// The bound B of one pair (§4.1), in its unit of length; infinity beyond the largest double. The largest
 /// over a scene's pairs is the scene's.
 double pair_bound(const Query& query);

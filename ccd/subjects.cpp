@@ -121,9 +121,13 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::option
   for (const Entry& each : registry)
     if (each.info.name == name_or_path) return each.make(name_or_path, given_bound);
   if (name_or_path.find('/') != std::string_view::npos) return load_plugin(std::string(name_or_path));
-  std::string known;
-  for (const Entry& each : registry) known += (known.empty() ? "" : ", ") + std::string(each.info.name);
-  throw Error("unknown subject '" + std::string(name_or_path) + "', expected one of " + known +
+  refuse_subject(name_or_path, subjects());
+}
+
+void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {
+  std::string names;
+  for (const SubjectInfo& info : known) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  throw Error("unknown subject '" + std::string(name) + "', expected one of " + names +
               " or the path of a plug-in such as ./plugin.so");
 }
 

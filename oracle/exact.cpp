@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "oracle/box.hpp"
+#include "oracle/filter.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/predicates.hpp"
 
@@ -106,7 +107,13 @@ Enclosure enclose(const Time& t) {
 }  // namespace
 }  // namespace exact
 
-bool collides(const Query& query) { return boxes_meet(query) && exact::first_collision(query).has_value(); }
+bool collides_exactly(const Query& query) { return exact::first_collision(query).has_value(); }
+
+bool collides(const Query& query) {
+  if (!boxes_meet(query)) return false;
+  const FilterStage stage = filter(query);
+  return stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage);
+}
 
 std::optional<Enclosure> earliest_time(const Query& query) {
   if (!boxes_meet(query)) return std::nullopt;

@@ -17,6 +17,9 @@ struct Enclosure {
 /// degenerate, planar, huge and subnormal ones included.
 bool collides(const Query& query);
 
+/// The same by exact arithmetic alone, without the filters in front.
+bool collides_exactly(const Query& query);
+
 /// An enclosure of the earliest time at which they do, at most one ulp of 1 wide; nothing where they never
 /// do.
 std::optional<Enclosure> earliest_time(const Query& query);

@@ -12,6 +12,7 @@
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
+#include "oracle/subjects.hpp"
 
 namespace nearmiss::tools {
 
@@ -53,7 +54,7 @@ Subjects make_subjects(const std::vector<std::string>& names, std::optional<doub
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    made.push_back(make_subject(name, given_bound));
+    made.push_back(make_any_subject(name, given_bound));
     if (!seen.insert(made.back()->name()).second)
       throw Error(
           fmt::format("found two subjects named '{}', expected different names", made.back()->name()));

@@ -1,7 +1,7 @@
 // nearmiss subjects: which CCDs can be put on trial.
 #include <fmt/format.h>
 
-#include "ccd/subject.hpp"
+#include "oracle/subjects.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -11,7 +11,7 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
   command->footer(
       "\nA plug-in is named by its path, with a slash in it: ./plugin.so (see ccd/nearmiss_subject.h).");
   command->callback([] {
-    for (const SubjectInfo& subject : subjects()) fmt::print("{:<12} {}\n", subject.name, subject.about);
+    for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<12} {}\n", subject.name, subject.about);
   });
 }
 

@@ -1,8 +1,8 @@
 // nearmiss verdict: one subject's answers.
 #include <fmt/format.h>
 
-#include "ccd/subject.hpp"
 #include "corpus/query_text.hpp"
+#include "oracle/subjects.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 
@@ -17,7 +17,7 @@ struct Options {
 void run(const Options& options) {
   const Kind kind = parse_kind(options.kind, "--kind");
   const auto given = options.bound.empty() ? std::nullopt : std::optional(parse_bound(options.bound));
-  const auto subject = make_subject(options.subject, given);
+  const auto subject = make_any_subject(options.subject, given);
   read_queries(options.file, kind, [&](const Query& query) {
     const Verdict verdict = subject->decide(query);
     if (verdict.hit)

@@ -151,7 +151,7 @@ TEST_F(CommandLine, BenchWritesItsResults) {
 
 TEST_F(CommandLine, SubjectsAreListed) {
   const Answer answer = run("subjects");
-  for (const char* name : {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain "})
+  for (const char* name : {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact "})
     EXPECT_THAT(answer.out, HasSubstr(name));
 }
 
@@ -190,7 +190,7 @@ TEST_F(CommandLine, BadQueries) {
 
 TEST_F(CommandLine, BadNames) {
   write("q.vt", hit);
-  expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang"});
+  expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang", "exact"});
   expect_refused("replay q.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
   expect_refused("fuzz --cases 10 --family plantet --db new.db", {"unknown family 'plantet'", "planted"});
   expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"a family twice"});

@@ -1,0 +1,102 @@
+// Polynomials on [0, 1] in Bernstein form with a bound of their rounding errors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "oracle/double_word.hpp"
+
+namespace nearmiss::certified {
+
+/// The relative error of one sum, difference or product, rounding to nearest: u = 2^-53 for double, 2^-103 >=
+/// 5u² for a double word.
+template <class Real>
+inline constexpr double roundoff = 0x1p-53;
+template <>
+inline constexpr double roundoff<DoubleWord> = 0x1p-103;
+
+/// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 where that is not
+/// sure. A NaN or an infinite error makes nothing sure. (A double word's upper half is within a factor of 1 ±
+/// 2^-53 of it: `error` has room for that.)
+template <class Real, std::size_t n>
+int common_sign(const std::array<Real, n>& numbers, double error) {
+  bool positive = true;
+  bool negative = true;
+  for (const Real& x : numbers) {
+    positive &= static_cast<double>(x) > error;
+    negative &= static_cast<double>(x) < -error;
+  }
+  return positive ? 1 : negative ? -1 : 0;
+}
+
+/// A polynomial of degree n - 1 by its Bernstein coefficients, each within `error` of exact, and so is every
+/// value and every coefficient on a part of [0, 1] that the functions below compute.
+template <class Real, std::size_t n>
+struct Bernstein {
+  std::array<Real, n> b;
+  double error;
+
+  [[nodiscard]] double at(double t) const {
+    std::array<Real, n> row = b;
+    const Step step(t);
+    for (std::size_t left = n - 1; left > 0; --left) step.take(row, left);
+    return static_cast<double>(row[0]);
+  }
+
+  /// The coefficients on [lo, hi]: the polynomial is in their convex hull there. Coefficient i is the value
+  /// of the polar form at n - 1 - i times lo and i times hi, so each is n - 1 levels of de Casteljau from b.
+  [[nodiscard]] std::array<Real, n> on(double lo, double hi) const {
+    if (lo == 0 && hi == 1) return b;
+    const Step to_lo(lo);
+    const Step to_hi(hi);
+    std::array<Real, n> part;
+    if constexpr (n == 3) {
+      std::array<Real, n> low = b;
+      std::array<Real, n> high = b;
+      to_lo.take(low, 2);
+      to_hi.take(high, 2);
+      part = {to_lo.between(low[0], low[1]), to_hi.between(low[0], low[1]), to_hi.between(high[0], high[1])};
+    } else {
+      static_assert(n == 4);
+      std::array<Real, n> low = b;
+      std::array<Real, n> high = b;
+      to_lo.take(low, 3);
+      to_lo.take(low, 2);
+      to_hi.take(high, 3);
+      to_hi.take(high, 2);
+      part = {to_lo.between(low[0], low[1]), to_hi.between(low[0], low[1]), to_lo.between(high[0], high[1]),
+              to_hi.between(high[0], high[1])};
+    }
+    return part;
+  }
+
+  /// The sign that the polynomial certainly has on all of [lo, hi], or 0.
+  [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
+
+  /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, each
+  /// b_i within `error`: quicker, and as good where h is small.
+  [[nodiscard]] int sign_near(double t, double h) const {
+    double steepest = 0;
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      steepest = std::max(steepest, std::abs(static_cast<double>(b[i + 1]) - static_cast<double>(b[i])));
+    const double spread = 1.01 * (n - 1) * h * (steepest + 3 * error);
+    return common_sign(std::array<double, 1>{at(t)}, 1.01 * (error + spread));
+  }
+
+ private:
+  /// A step of de Casteljau at a time: s = 1 - t, products, sum.
+  struct Step {
+    Real t, s;
+
+    explicit Step(double time) : t(time), s(Real(1) - t) {}
+    [[nodiscard]] Real between(const Real& x, const Real& y) const { return s * x + t * y; }
+    /// Replaces row[0 .. count] by count values between neighbours.
+    void take(std::array<Real, n>& row, std::size_t count) const {
+      for (std::size_t i = 0; i < count; ++i) row[i] = between(row[i], row[i + 1]);
+    }
+  };
+};
+
+}  // namespace nearmiss::certified

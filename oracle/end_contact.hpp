@@ -1,0 +1,12 @@
+// Contact at t = 0 or t = 1, by exact predicates.
+#pragma once
+
+#include "ccd/query.hpp"
+
+namespace nearmiss::certified {
+
+/// Whether the figures of a query certainly touch at t = `time`, 0 or 1: exact where the triangle, or both
+/// edges together, have an area; false where they have none.
+bool touch_at_end(const Query& query, int time);
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,58 @@
+#include "oracle/filter.hpp"
+
+#include <cmath>
+
+#include "ccd/plane_culling.hpp"
+#include "oracle/end_contact.hpp"
+#include "oracle/search.hpp"
+
+namespace nearmiss {
+
+namespace certified {
+namespace {
+
+template <class Real>
+FilterStage search(const Query& query, const Bernstein<Real, 4>& F, const Patch<Real>& whole) {
+  return Search<Real>(query.kind, whole, whole, F, 0).run();
+}
+
+FilterStage search_in_double_words(const Query& query) {
+  const auto whole = whole_step<DoubleWord>(query);
+  const auto F = coplanarity(whole.a, whole.b, whole.c);
+  if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
+  return search(query, F, whole);
+}
+
+[[gnu::noinline]] FilterStage look_closer(const Query& query, const Patch<double>& whole,
+                                          const Bernstein<double, 4>& F) {
+  for (const int time : {0, 1})
+    if (!(std::abs(F.b[time == 0 ? 0 : 3]) > F.error) && touch_at_end(query, time))
+      return FilterStage::at_an_end;
+  const FilterStage stage = search(query, F, whole);
+  return stage == FilterStage::undecided ? search_in_double_words(query) : stage;
+}
+
+}  // namespace
+}  // namespace certified
+
+FilterStage filter(const Query& query) {
+  using namespace certified;
+  const bool separated = query.kind == Kind::vertex_triangle
+                             ? separated_by_plane<Kind::vertex_triangle>(query)
+                             : separated_by_plane<Kind::edge_edge>(query);
+  if (separated) return FilterStage::planes;
+  Patch<double> whole{0,
+                      1,
+                      difference<double>(query, 1, 0),
+                      difference<double>(query, 2, 0),
+                      difference<double>(query, 3, 0),
+                      {},
+                      {}};
+  const auto F = coplanarity(whole.a, whole.b, whole.c);
+  if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
+  whole.x21 = difference<double>(query, 2, 1);
+  whole.x31 = difference<double>(query, 3, 1);
+  return look_closer(query, whole, F);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,276 @@
+// A query over a part of the step: F and the weights as polynomials with certified errors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "ccd/query.hpp"
+#include "oracle/bernstein.hpp"
+
+// A query is decided in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
+//   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
+//   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
+//   W3 = (b - a) × (c - a) = W0 + W1 + W2.
+// Where F = 0, the figures meet only if, in every component, these agree in sign or are zero:
+//   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
+//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
+// For a meeting point makes each weight a number in [0, 1], and each W that number times N, N = 0 included.
+// So two of them with certainly opposite signs exclude a collision. If in one component all are certainly of
+// one sign, N is not zero there, and F = 0 is a collision: where F certainly changes its sign there is one.
+//
+// Rounding errors in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. Each
+// vector v comes with the largest magnitudes V of its components as computed, and bounds e_v of their
+// absolute errors.
+//   A product x y of two components misses by at most X e_y + Y e_x + e_x e_y from its factors.
+//   W_k, from at most four products (the middle Bernstein coefficient is half the sum of two differences of
+//   two): let w be the
+//     sum of the magnitudes of two, l that of their factors' misses. Rounding: product, difference, sum: 3 U
+//     w; halving is exact. Blossoms: s = 1 - t, product, sum: 3 a level, two levels, and s + t = 1 with both
+//     in [0, 1] keeps the result within the coefficients: 6.1 U (w + l). Together at most 9.2 U w + (1 + 6.1
+//     U) l; taken: 10 U w + 1.01 l.
+//   F, from W's sums and a third vector a: misses of the factors Σ (A_k l_k + e_a (w_k + l_k)) =: L;
+//   rounding: 3 of the sums,
+//     product 1, two additions 2, the sum of two dot products 1, a division by 3 (a product with 1/3 in
+//     double words) 2: 9 U M, M = Σ A_k w_k; blossoms: three levels, 9.1 U (M + L). Together at most 18.3 U M
+//     + (1 + 9.1 U) L; taken: 20 U M + 1.01 L.
+//   w, M, l, L are computed in double and too small by at most 12 u of themselves, u = 2^-53: covered by what
+//   is taken for double;
+//     for double words by 10 and 20 against 9.2 and 18.3, and 1.01.
+// Underflow: each product misses by at most 2^-1070 more, and a blossom has few: 2^-1060 (1 + Σ A_k) for F,
+// 2^-1060 for W. Overflow makes w or M infinite or NaN, since they are sums of the largest magnitudes (in
+// double words a coefficient may be NaN before): then no comparison holds.
+
+namespace nearmiss::certified {
+
+inline constexpr double underflow = 0x1p-1060;
+
+template <class Real>
+using Vec = std::array<Real, 3>;
+
+/// A vector that moves linearly over a part of the step.
+template <class Real>
+struct Motion {
+  Vec<Real> start, end;
+  Vec<double> magnitude;  ///< largest, by component, of both ends
+  bool rounded_once;  ///< every component is within a factor of 1 ± U of exact: then `error` is not given
+  Vec<double> error;  ///< of both ends, by component
+};
+
+template <class Real>
+Vec<double> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
+  Vec<double> m;
+  for (std::size_t k = 0; k < 3; ++k)
+    m[k] = std::max(std::abs(static_cast<double>(v[k])), std::abs(static_cast<double>(w[k])));
+  return m;
+}
+
+/// x_i - x_j over the whole step: rounded once in double, exact as double words.
+template <class Real>
+Motion<Real> difference(const Query& query, int i, int j) {
+  Motion<Real> motion;
+  for (int k = 0; k < 3; ++k) {
+    const auto n = static_cast<std::size_t>(k);
+    if constexpr (std::is_same_v<Real, double>) {
+      motion.start[n] = query.start(i)[k] - query.start(j)[k];
+      motion.end[n] = query.end(i)[k] - query.end(j)[k];
+    } else {
+      motion.start[n] = two_sum(query.start(i)[k], -query.start(j)[k]);
+      motion.end[n] = two_sum(query.end(i)[k], -query.end(j)[k]);
+    }
+  }
+  motion.magnitude = larger_magnitude(motion.start, motion.end);
+  motion.rounded_once = std::is_same_v<Real, double>;
+  if (!motion.rounded_once) motion.error = {0, 0, 0};
+  return motion;
+}
+
+/// The motion over [lo, hi] of its part of the step: 1 - t, products, sum: 3 roundings.
+template <class Real>
+Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
+  Motion<Real> part;
+  const auto at = [&](double t) {
+    const Real late(t);
+    const Real early = Real(1) - late;
+    Vec<Real> v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = early * whole.start[k] + late * whole.end[k];
+    return v;
+  };
+  part.start = at(lo);
+  part.end = at(hi);
+  part.magnitude = larger_magnitude(part.start, part.end);
+  part.rounded_once = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
+    part.error[k] = 1.01 * error + 4 * roundoff<Real> * whole.magnitude[k] + underflow;
+  }
+  return part;
+}
+
+/// The sum of the magnitudes of both products in component k of p × q, and what their factors' errors add to
+/// it.
+struct CrossBound {
+  double w, l;
+};
+
+template <class Real>
+CrossBound cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  const double w = p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i];
+  if (p.rounded_once && q.rounded_once) return {w, 2.01 * roundoff<Real> * w};
+  const auto miss = [&](std::size_t m, std::size_t n) {
+    return p.magnitude[m] * q.error[n] + q.magnitude[n] * p.error[m] + p.error[m] * q.error[n];
+  };
+  return {w, miss(i, j) + miss(j, i)};
+}
+
+template <class Real>
+Real cross_component(const Vec<Real>& v, const Vec<Real>& w, std::size_t k) {
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  return v[i] * w[j] - v[j] * w[i];
+}
+
+/// Component k of p × q.
+template <class Real>
+Bernstein<Real, 3> cross_component(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
+  const CrossBound bound = cross_bound(p, q, k);
+  return {{cross_component(p.start, q.start, k),
+           Real(0.5) * (cross_component(p.start, q.end, k) + cross_component(p.end, q.start, k)),
+           cross_component(p.end, q.end, k)},
+          10 * roundoff<Real> * bound.w + 1.01 * bound.l + underflow};
+}
+
+inline double third(double x) { return x / 3; }
+inline DoubleWord third(const DoubleWord& x) {
+  return x * DoubleWord{0x1.5555555555555p-2, 0x1.5555555555555p-56};  // 1/3 within 2^-108
+}
+
+/// F = a · (b × c).
+template <class Real>
+Bernstein<Real, 4> coplanarity(const Motion<Real>& a, const Motion<Real>& b, const Motion<Real>& c) {
+  Vec<Real> w0;
+  Vec<Real> w1;
+  Vec<Real> w2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    w0[k] = cross_component(b.start, c.start, k);
+    w1[k] = cross_component(b.start, c.end, k) + cross_component(b.end, c.start, k);
+    w2[k] = cross_component(b.end, c.end, k);
+  }
+  const auto dot = [](const Vec<Real>& v, const Vec<Real>& w) {
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+  };
+  double M = 0;
+  double L = 0;
+  double A = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CrossBound bound = cross_bound(b, c, k);
+    M += a.magnitude[k] * bound.w;
+    if (!a.rounded_once) L += a.magnitude[k] * bound.l + a.error[k] * (bound.w + bound.l);
+    A += a.magnitude[k];
+  }
+  if (a.rounded_once) L = 3.02 * roundoff<Real> * M;
+  return {{dot(a.start, w0), third(dot(a.end, w0) + dot(a.start, w1)),
+           third(dot(a.end, w1) + dot(a.start, w2)), dot(a.end, w2)},
+          20 * roundoff<Real> * M + 1.01 * L + underflow * (1 + A)};
+}
+
+/// A query over the part [begin, end] of the step.
+template <class Real>
+struct Patch {
+  double begin, end;
+  Motion<Real> a, b, c;   ///< x1 - x0, x2 - x0, x3 - x0
+  Motion<Real> x21, x31;  ///< x2 - x1 and x3 - x1, for the weight that has neither x0 (edge-edge)
+};
+
+template <class Real>
+Patch<Real> whole_step(const Query& query) {
+  return {0,
+          1,
+          difference<Real>(query, 1, 0),
+          difference<Real>(query, 2, 0),
+          difference<Real>(query, 3, 0),
+          difference<Real>(query, 2, 1),
+          difference<Real>(query, 3, 1)};
+}
+
+template <class Real>
+Patch<Real> part_of(const Patch<Real>& whole, double begin, double end) {
+  const auto part = [&](const Motion<Real>& motion) { return part_of(motion, begin, end); };
+  return {begin, end, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
+}
+
+/// The weights' quadratics in one component, with the signs in which they agree at a collision.
+template <class Real>
+struct Weights {
+  std::array<Bernstein<Real, 3>, 4> w;
+  std::size_t count;
+
+  Weights(Kind kind, const Patch<Real>& p, std::size_t k) : count(kind == Kind::vertex_triangle ? 3 : 4) {
+    w[0] = cross_component(p.b, p.c, k);
+    if (kind == Kind::vertex_triangle) {
+      w[1] = cross_component(p.c, p.a, k);
+      w[2] = cross_component(p.a, p.b, k);
+    } else {
+      w[1] = cross_component(p.a, p.c, k);
+      w[2] = cross_component(p.b, p.a, k);
+      w[3] = cross_component(p.x31, p.x21, k);
+    }
+  }
+
+  /// 1 where all certainly have one sign on [lo, hi], -1 where two certainly have opposite ones, else 0.
+  [[nodiscard]] int agreement_on(double lo, double hi) const {
+    return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
+  }
+  /// The same on [t - h, t + h].
+  [[nodiscard]] int agreement_near(double t, double h) const {
+    return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
+  }
+
+ private:
+  template <class Sign>
+  [[nodiscard]] int agreement(const Sign& sign_of) const {
+    bool positive = false;
+    bool negative = false;
+    bool all = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const int sign = sign_of(w[i]);
+      positive |= sign > 0;
+      negative |= sign < 0;
+      all &= sign != 0;
+    }
+    if (positive && negative) return -1;
+    return all ? 1 : 0;
+  }
+};
+
+/// The component in which the normal is largest near a time: a guess.
+template <class Real>
+std::size_t largest_component(Kind kind, const Patch<Real>& p, double t) {
+  const auto near = [&](const Motion<Real>& m) {
+    Vec<double> v;
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = (1 - t) * static_cast<double>(m.start[k]) + t * static_cast<double>(m.end[k]);
+    return v;
+  };
+  const Vec<double> q = kind == Kind::vertex_triangle ? near(p.x21) : near(p.a);
+  Vec<double> r = near(p.x31);
+  if (kind == Kind::edge_edge) {
+    const Vec<double> x21 = near(p.x21);
+    for (std::size_t k = 0; k < 3; ++k) r[k] -= x21[k];
+  }
+  std::size_t largest = 0;
+  double size = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double n = std::abs(cross_component(q, r, k));
+    if (n > size) {
+      size = n;
+      largest = k;
+    }
+  }
+  return largest;
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,162 @@
+// The search for the zeros of F in a part of the step, and for what the weights are there.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "ccd/cubic.hpp"
+#include "oracle/filter.hpp"
+#include "oracle/patch.hpp"
+
+namespace nearmiss::certified {
+
+struct Interval {
+  double lo, hi;
+};
+
+/// Goes through a patch: intervals are dropped where F has one sign or two weights are opposed, and split
+/// where it helps, until all are dropped, one holds a collision, or one cannot be told. What cannot be told
+/// is looked at again as a patch of its own, whose vectors, and so their errors, are smaller.
+template <class Real>
+class Search {
+ public:
+  Search(Kind kind, const Patch<Real>& whole, const Patch<Real>& patch, const Bernstein<Real, 4>& F,
+         int depth)
+      : kind_(kind), whole_(whole), patch_(patch), F_(F), depth_(depth) {
+    // The same cubic in powers of t: for guesses.
+    std::array<double, 4> f;
+    for (std::size_t i = 0; i < 4; ++i) f[i] = static_cast<double>(F.b[i]);
+    power_ = {f[3] - f[0] + 3 * (f[1] - f[2]), 3 * (f[0] + f[2] - 2 * f[1]), 3 * (f[1] - f[0]), f[0]};
+  }
+
+  /// weights (no collision in this part), sign_change (one), or undecided.
+  FilterStage run() {
+    push({0, 1});
+    for (int budget = 64; count_ > 0; --budget) {
+      if (budget == 0) return FilterStage::undecided;
+      const FilterStage stage = look(intervals_[--count_]);
+      if (stage != FilterStage::weights) return stage;
+    }
+    return FilterStage::weights;
+  }
+
+ private:
+  // Each of these answers `weights` where nothing is against going on.
+
+  FilterStage look(Interval interval) {  // by value: its place is taken by others
+    const auto [lo, hi] = interval;
+    const auto exact_f = F_.on(lo, hi);
+    if (common_sign(exact_f, F_.error) != 0) return FilterStage::weights;
+    std::array<double, 4> f;
+    for (std::size_t i = 0; i < 4; ++i) f[i] = static_cast<double>(exact_f[i]);
+
+    const bool left_known = std::abs(f[0]) > F_.error;
+    const bool right_known = std::abs(f[3]) > F_.error;
+    const bool changes = left_known && right_known && (f[0] < 0) != (f[3] < 0);
+    const double guess = lo + (hi - lo) * (changes ? f[0] / (f[0] - f[3]) : 0.5);
+    const Weights<Real>& weights = weights_near(guess);
+    const int agreement = weights.agreement_on(lo, hi);
+    if (agreement < 0) return FilterStage::weights;
+    if (changes) {
+      if (agreement > 0) return FilterStage::sign_change;
+      return look_around(interval, nearmiss::detail::refine_root(power_, lo, hi, f[0], f[3], F_.error), f[0],
+                         weights);
+    }
+
+    // Where F is within its error everywhere, no smaller interval tells more.
+    if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= F_.error; }))
+      return zoom(interval);
+    double split = guess;
+    if (!left_known && right_known) split = lo + (hi - lo) * beyond_error(f[1] - f[0]);
+    if (left_known && !right_known) split = hi - (hi - lo) * beyond_error(f[3] - f[2]);
+    if (!(lo < split && split < hi)) return FilterStage::undecided;
+    return go_on_beside(interval, {split, split});
+  }
+
+  /// The part of an interval behind which F exceeds its error, as the slope at its end has it.
+  [[nodiscard]] double beyond_error(double rise) const {
+    const double part = 8 * F_.error / std::abs(3 * rise);
+    return part < 0.25 ? part : 0.5;
+  }
+
+  /// F certainly changes its sign in the interval, near `root`.
+  FilterStage look_around(const Interval& interval, double root, double f_lo, const Weights<Real>& weights) {
+    double h = 4 * F_.error / std::abs(power_.slope(root)) + 0x1p-52 * root;
+    for (int widening = 0; widening < 4; ++widening, h *= 8) {
+      const Interval near{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
+      const double left = f_lo < 0 ? -F_.at(near.lo) : F_.at(near.lo);
+      const double right = f_lo < 0 ? F_.at(near.hi) : -F_.at(near.hi);
+      if (!(left > F_.error && right > F_.error)) continue;
+      const int agreement = weights.agreement_near(root, h);
+      if (agreement > 0) return FilterStage::sign_change;
+      if (agreement < 0) return go_on_beside(interval, widest_opposed(interval, root, near, weights));
+      const FilterStage closer = zoom(near);
+      return closer == FilterStage::weights ? go_on_beside(interval, near) : closer;
+    }
+    return zoom(interval);
+  }
+
+  /// The widest of some intervals around a root in which the weights are certainly opposed, as they are in
+  /// `near`.
+  Interval widest_opposed(const Interval& interval, double root, const Interval& near,
+                          const Weights<Real>& weights) const {
+    for (const double part : {0.25, 0x1p-5}) {
+      const double h = part * (interval.hi - interval.lo);
+      const Interval wide{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
+      if (wide.lo <= near.lo && near.hi <= wide.hi && weights.agreement_on(wide.lo, wide.hi) < 0) return wide;
+    }
+    return near;
+  }
+
+  /// The weights in the component in which the normal is largest near a time.
+  const Weights<Real>& weights_near(double t) {
+    const std::size_t k = largest_component(kind_, patch_, t);
+    if (!weights_ || component_ != k) weights_.emplace(kind_, patch_, k);
+    component_ = k;
+    return *weights_;
+  }
+
+  /// Goes on with what is left of an interval without its middle.
+  FilterStage go_on_beside(const Interval& interval, const Interval& middle) {
+    if (interval.lo < middle.lo && !push({interval.lo, middle.lo})) return FilterStage::undecided;
+    if (middle.hi < interval.hi && !push({middle.hi, interval.hi})) return FilterStage::undecided;
+    return FilterStage::weights;
+  }
+
+  /// The interval as a patch of its own, if that is much smaller than this one.
+  FilterStage zoom(const Interval& interval) const {
+    constexpr int deepest = 4;
+    constexpr double narrowest = 0x1p-46;
+    if (depth_ == deepest || interval.hi - interval.lo > 0.5) return FilterStage::undecided;
+    // Rounded outward by more than the three roundings of numbers up to 1: what is looked at beyond is in the
+    // step.
+    const double length = patch_.end - patch_.begin;
+    const double begin = std::max(patch_.begin, patch_.begin + interval.lo * length - 0x1p-51);
+    const double end = std::min(patch_.end, patch_.begin + interval.hi * length + 0x1p-51);
+    if (length <= narrowest) return FilterStage::undecided;
+    const Patch<Real> part = part_of(whole_, begin, end);
+    const auto F = coplanarity(part.a, part.b, part.c);
+    return Search(kind_, whole_, part, F, depth_ + 1).run();
+  }
+
+  bool push(const Interval& interval) {
+    if (count_ == intervals_.size()) return false;
+    intervals_[count_++] = interval;
+    return true;
+  }
+
+  Kind kind_;
+  const Patch<Real>& whole_;
+  const Patch<Real>& patch_;
+  const Bernstein<Real, 4>& F_;
+  int depth_;
+  Cubic<double> power_{};
+  std::optional<Weights<Real>> weights_;
+  std::size_t component_ = 0;
+  std::array<Interval, 64> intervals_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace nearmiss::certified

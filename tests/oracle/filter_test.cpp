@@ -1,0 +1,274 @@
+// The certified filter: its bounds hold against exact arithmetic, and it never answers wrongly.
+#include "oracle/filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/gmp.hpp>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "oracle/oracle.hpp"
+#include "oracle/patch.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using certified::Bernstein;
+using certified::DoubleWord;
+using certified::Motion;
+using certified::Patch;
+using certified::roundoff;
+using Rational = boost::multiprecision::mpq_rational;
+
+Rational exactly(double x) { return Rational(x); }
+Rational exactly(const DoubleWord& x) { return Rational(x.hi) + Rational(x.lo); }
+
+/// Numbers and queries that are hard on rounding: magnitudes far apart, cancellation, few bits and all bits.
+class Hard {
+ public:
+  explicit Hard(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(engine_); }
+  int integer(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
+
+  double number() {
+    switch (integer(0, 3)) {
+      case 0:
+        return integer(-4, 4);
+      case 1:
+        return uniform(-1, 1);
+      case 2:
+        return std::ldexp(uniform(-1, 1), integer(-60, 0));
+      default:
+        return 1 + std::ldexp(uniform(-1, 1), integer(-52, -20));
+    }
+  }
+
+  Query query() {
+    Query query{.kind = kinds[static_cast<std::size_t>(integer(0, 1))]};
+    const double flat = integer(0, 3) == 0 ? std::ldexp(1.0, integer(-80, 0)) : 1;
+    for (std::size_t i = 0; i < 24; ++i) query.x[i] = number() * (i % 3 == 2 ? flat : 1);
+    if (integer(0, 3) == 0) {  // nearly at rest
+      for (std::size_t i = 0; i < 12; ++i)
+        query.x[12 + i] = query.x[i] + std::ldexp(uniform(-1, 1), integer(-50, -1));
+    }
+    if (integer(0, 7) == 0) {
+      const double scale = std::ldexp(1.0, integer(-1000, 300));
+      for (double& c : query.x) c *= scale;
+    }
+    return query;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+double relative_error(const DoubleWord& computed, const Rational& exact) {
+  if (exact == 0) return exactly(computed) == 0 ? 0 : HUGE_VAL;
+  const Rational error = (exactly(computed) - exact) / exact;
+  return std::abs(error.convert_to<double>());
+}
+
+TEST(DoubleWord, OperationsAreWithinTheirBounds) {
+  Hard hard(1);
+  double worst_sum = 0;
+  double worst_product = 0;
+  const auto number = [&] {
+    const double high = std::ldexp(hard.number(), hard.integer(-40, 40));
+    return certified::two_sum(high, high * 0x1p-53 * hard.uniform(-1, 1));
+  };
+  for (int i = 0; i < 300000; ++i) {
+    const DoubleWord a = number();
+    DoubleWord b = number();
+    if (i % 3 == 0) b = DoubleWord(-a.hi * (1 + hard.integer(-3, 3) * 0x1p-52), b.lo * 0x1p-60);
+    b = certified::two_sum(b.hi, b.lo);
+    worst_sum = std::max(worst_sum, relative_error(a + b, exactly(a) + exactly(b)));
+    worst_product = std::max(worst_product, relative_error(a * b, exactly(a) * exactly(b)));
+  }
+  std::cout << "largest error / 2^-103: sum " << worst_sum * 0x1p103 << ", product "
+            << worst_product * 0x1p103 << '\n';
+  EXPECT_LT(worst_sum, roundoff<DoubleWord>);
+  EXPECT_LT(worst_product, roundoff<DoubleWord>);
+}
+
+// --- F and the weights ------------------------------------------------------------------------------------
+
+using ExactVector = std::array<Rational, 3>;
+
+/// x_i - x_j at a time.
+ExactVector exact_difference(const Query& query, int i, int j, double time) {
+  const Rational t(time);
+  ExactVector v;
+  for (int k = 0; k < 3; ++k) {
+    const Rational start = Rational(query.start(i)[k]) - Rational(query.start(j)[k]);
+    const Rational end = Rational(query.end(i)[k]) - Rational(query.end(j)[k]);
+    v[static_cast<std::size_t>(k)] = (1 - t) * start + t * end;
+  }
+  return v;
+}
+
+ExactVector cross(const ExactVector& v, const ExactVector& w) {
+  return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+}
+
+Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+
+/// The value of the polar form at so many times hi, else lo.
+template <std::size_t n>
+Rational exact_blossom(std::array<Rational, n> row, double lo, double hi, std::size_t times_hi) {
+  for (std::size_t level = 0; level < n - 1; ++level) {
+    const Rational t(level < times_hi ? hi : lo);
+    for (std::size_t i = 0; i + 1 < n - level; ++i) row[i] = (1 - t) * row[i] + t * row[i + 1];
+  }
+  return row[0];
+}
+
+/// The largest error / bound of the coefficients, of those on a random part, and of a value.
+template <class Real, std::size_t n>
+double error_over_bound(Hard& hard, const Bernstein<Real, n>& computed,
+                        const std::array<Rational, n>& exact) {
+  double worst = 0;
+  const auto compare = [&](const Real& value, const Rational& truth) {
+    const Rational ratio = abs(exactly(value) - truth) / Rational(computed.error);
+    worst = std::max(worst, ratio.convert_to<double>());
+  };
+  const double lo = hard.uniform(0, 1);
+  const double hi = hard.uniform(lo, 1);
+  const auto part = computed.on(lo, hi);
+  for (std::size_t i = 0; i < n; ++i) {
+    compare(computed.b[i], exact[i]);
+    compare(part[i], exact_blossom(exact, lo, hi, i));
+  }
+  if constexpr (std::is_same_v<Real, double>) compare(computed.at(lo), exact_blossom(exact, lo, lo, 0));
+
+  // Where a sign is claimed near a time it must be that of values there.
+  const double h = std::ldexp(hard.uniform(0, 1), hard.integer(-60, -1));
+  if (const int sign = computed.sign_near(lo, h); sign != 0) {
+    for (const double t : {std::max(0.0, lo - h), lo, std::min(1.0, lo + h)})
+      if (exact_blossom(exact, t, t, 0) * sign <= 0) worst = HUGE_VAL;
+  }
+  return worst;
+}
+
+template <class Real>
+double worst_of_query(Hard& hard, const Query& query, bool part) {
+  Patch<Real> patch = certified::whole_step<Real>(query);
+  if (part) {
+    const double begin = hard.uniform(0, 1);
+    patch = certified::part_of(patch, begin, std::min(1.0, begin + std::ldexp(1.0, hard.integer(-45, -1))));
+  }
+  const auto at_ends = [&](int i, int j) {
+    return std::array{exact_difference(query, i, j, patch.begin), exact_difference(query, i, j, patch.end)};
+  };
+  const auto a = at_ends(1, 0);
+  const auto b = at_ends(2, 0);
+  const auto c = at_ends(3, 0);
+  const auto F = [&](int i, int j, int k) {
+    const auto n = [](int index) { return static_cast<std::size_t>(index); };
+    return dot(a[n(i)], cross(b[n(j)], c[n(k)]));
+  };
+  const std::array<Rational, 4> exact_F{F(0, 0, 0), (F(1, 0, 0) + F(0, 1, 0) + F(0, 0, 1)) / 3,
+                                        (F(1, 1, 0) + F(1, 0, 1) + F(0, 1, 1)) / 3, F(1, 1, 1)};
+  double worst = error_over_bound(hard, certified::coplanarity(patch.a, patch.b, patch.c), exact_F);
+
+  const auto k = static_cast<std::size_t>(hard.integer(0, 2));
+  const certified::Weights<Real> weights(query.kind, patch, k);
+  const auto compare = [&](std::size_t which, const auto& v, const auto& w) {
+    const std::array<Rational, 3> exact{
+        cross(v[0], w[0])[k], (cross(v[0], w[1])[k] + cross(v[1], w[0])[k]) / 2, cross(v[1], w[1])[k]};
+    worst = std::max(worst, error_over_bound(hard, weights.w[which], exact));
+  };
+  compare(0, b, c);
+  if (query.kind == Kind::vertex_triangle) {
+    compare(1, c, a);
+    compare(2, a, b);
+  } else {
+    compare(1, a, c);
+    compare(2, b, a);
+    compare(3, at_ends(3, 1), at_ends(2, 1));
+  }
+  return worst;
+}
+
+template <class Real>
+void expect_errors_within_bounds(const char* name, bool part, int count) {
+  Hard hard(2);
+  double worst = 0;
+  for (int i = 0; i < count; ++i) worst = std::max(worst, worst_of_query<Real>(hard, hard.query(), part));
+  std::cout << name << ": largest error / bound " << worst << '\n';
+  EXPECT_LT(worst, 1);
+  EXPECT_GT(worst, 0);
+}
+
+TEST(Patch, ErrorsInDoubleAreWithinTheirBounds) {
+  expect_errors_within_bounds<double>("double", false, 40000);
+}
+TEST(Patch, ErrorsOfPartsInDoubleAreWithinTheirBounds) {
+  expect_errors_within_bounds<double>("double, part of the step", true, 40000);
+}
+TEST(Patch, ErrorsInDoubleWordsAreWithinTheirBounds) {
+  expect_errors_within_bounds<DoubleWord>("double words", false, 40000);
+}
+TEST(Patch, ErrorsOfPartsInDoubleWordsAreWithinTheirBounds) {
+  expect_errors_within_bounds<DoubleWord>("double words, part of the step", true, 40000);
+}
+
+// --- decisions --------------------------------------------------------------------------------------------
+
+void expect_right(const Query& query) {
+  const FilterStage stage = filter(query);
+  if (stage == FilterStage::undecided) return;
+  ASSERT_EQ(is_collision(stage), collides_exactly(query))
+      << short_name(query.kind) << " by stage " << static_cast<int>(stage);
+}
+
+TEST(Filter, NeverContradictsExactArithmetic) {
+  Hard hard(3);
+  for (int i = 0; i < 30000; ++i) expect_right(hard.query());
+}
+
+TEST(Filter, NeverContradictsExactArithmeticOnSmallIntegers) {
+  Hard hard(4);
+  for (int i = 0; i < 30000; ++i) {
+    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+    for (double& c : query.x) c = hard.integer(-3, 3);
+    expect_right(query);
+  }
+}
+
+TEST(Filter, DecidesPlainQueries) {
+  using testing::falling_edge;
+  using testing::falling_vertex;
+  EXPECT_EQ(filter(falling_vertex(0.25, 0.25, 1, -1)), FilterStage::sign_change);
+  EXPECT_EQ(filter(falling_edge(1, -2)), FilterStage::sign_change);
+  EXPECT_EQ(filter(falling_vertex(0.25, 0.25, 2, 1)), FilterStage::planes);
+  EXPECT_EQ(filter(falling_vertex(0.25, 0.25, 0, 1)), FilterStage::at_an_end);
+  EXPECT_EQ(filter(falling_vertex(0.25, 0.25, 1, 0)), FilterStage::at_an_end);
+  EXPECT_EQ(filter(falling_edge(0, 1)), FilterStage::at_an_end);
+}
+
+TEST(Filter, LeavesWhatTouchesOnlyToExactArithmetic) {
+  EXPECT_EQ(filter(testing::falling_vertex(0.5, 0.5, 1, -1)), FilterStage::undecided);
+  EXPECT_EQ(filter(Query{}), FilterStage::undecided);
+}
+
+TEST(Filter, OverflowMakesNothingSure) {
+  for (const double scale : {0x1p1023, 0x1p600, 0x1p345}) {
+    expect_right(testing::scaled(testing::falling_vertex(0.25, 0.25, 1, -1), scale));
+    expect_right(testing::scaled(testing::falling_edge(1, -1), scale));
+    expect_right(testing::scaled(testing::falling_vertex(0.75, 0.75, 1, -1), scale));
+  }
+}
+
+TEST(Filter, UnderflowMakesNothingSure) {
+  for (const double scale : {0x1p-1074, 0x1p-1060, 0x1p-500, 0x1p-360}) {
+    expect_right(testing::scaled(testing::falling_vertex(0.25, 0.25, 1, -1), scale));
+    expect_right(testing::scaled(testing::falling_edge(1, -1), scale));
+    expect_right(testing::scaled(testing::falling_vertex(0.75, 0.75, 1, -1), scale));
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,40 @@
+// The oracle as a subject.
+#include "oracle/subjects.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "ccd/error.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(ExactSubject, AnswersWithoutAnyTolerance) {
+  const auto exact = make_any_subject("exact");
+  EXPECT_TRUE(exact->decide(testing::falling_vertex(0.5, 0.5, 1, 0)).hit);
+  EXPECT_FALSE(exact->decide(testing::falling_vertex(0.5, 0.5, 1, 0x1p-1074)).hit);
+  EXPECT_TRUE(exact->decide(Query{}).hit);
+  EXPECT_EQ(exact->distance_bound(Query{}), 0);
+}
+
+TEST(ExactSubject, RefusesWhatIsNotFinite) {
+  Query query;
+  query.x[7] = std::numeric_limits<double>::infinity();
+  EXPECT_THAT([&] { static_cast<void>(make_any_subject("exact")->decide(query)); },
+              ThrowsMessage<Error>(HasSubstr("not finite")));
+}
+
+TEST(AllSubjects, AreThoseOfTheCcdAndTheExactOne) {
+  EXPECT_EQ(all_subjects().size(), subjects().size() + 1);
+  for (const SubjectInfo& info : all_subjects()) EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
+  EXPECT_THAT([] { make_any_subject("wong"); }, ThrowsMessage<Error>(HasSubstr("exact")));
+}
+
+}  // namespace
+}  // namespace nearmiss
