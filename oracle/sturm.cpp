@@ -1,0 +1,143 @@
+#include "oracle/sturm.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "oracle/rational_polynomial.hpp"
+
+namespace nearmiss {
+
+namespace sturm {
+namespace {
+
+/// A vector whose components are polynomials in t.
+using Vector = std::array<Polynomial, 3>;
+
+Vector operator-(const Vector& v, const Vector& w) { return {v[0] - w[0], v[1] - w[1], v[2] - w[2]}; }
+Polynomial dot(const Vector& v, const Vector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+Vector cross(const Vector& v, const Vector& w) {
+  return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+}
+
+Vector moving_point(const Query& query, int i) {
+  Vector x;
+  for (int k = 0; k < 3; ++k) {
+    const Rational start(query.start(i)[k]);
+    const Rational end(query.end(i)[k]);
+    x[static_cast<std::size_t>(k)] = Polynomial({start, end - start});
+  }
+  return x;
+}
+
+/// x lies on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is not
+/// positive.
+struct OnSegment {
+  Polynomial off_line, beyond;
+
+  OnSegment(const Vector& x, const Vector& a, const Vector& b) : beyond(dot(x - a, x - b)) {
+    const Vector c = cross(x - a, b - a);
+    off_line = dot(c, c);
+  }
+};
+
+/// The figures of a query. Where F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
+/// at least zero: x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on
+/// N; x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and (x2 - x0) × (x1 - x0) = β N
+/// with N = (x1 - x0) × (x3 - x2).
+struct Figures {
+  Polynomial F, area;
+  std::vector<Polynomial> weights;
+  std::vector<OnSegment> segments;
+
+  explicit Figures(const Query& query) {
+    const Vector x0 = moving_point(query, 0);
+    const Vector x1 = moving_point(query, 1);
+    const Vector x2 = moving_point(query, 2);
+    const Vector x3 = moving_point(query, 3);
+    if (query.kind == Kind::vertex_triangle) {
+      const Vector N = cross(x2 - x1, x3 - x1);
+      area = dot(N, N);
+      F = dot(x0 - x1, N);
+      weights = {dot(cross(x2 - x0, x3 - x0), N), dot(cross(x3 - x0, x1 - x0), N),
+                 dot(cross(x1 - x0, x2 - x0), N)};
+      segments = {{x0, x1, x2}, {x0, x2, x3}, {x0, x3, x1}};
+    } else {
+      const Vector N = cross(x1 - x0, x3 - x2);
+      area = dot(N, N);
+      F = dot(x2 - x0, N);
+      const Polynomial alpha = dot(cross(x2 - x0, x3 - x2), N);
+      const Polynomial beta = dot(cross(x2 - x0, x1 - x0), N);
+      weights = {alpha, area - alpha, beta, area - beta};
+      segments = {{x0, x2, x3}, {x1, x2, x3}, {x2, x0, x1}, {x3, x0, x1}};
+    }
+  }
+};
+
+enum class Meeting { none, inside, at_border };
+
+Meeting meeting_at(const Figures& figures, const Root& t) {
+  if (t.sign(figures.area) > 0) {
+    int least = 1;
+    for (const Polynomial& weight : figures.weights) {
+      least = std::min(least, t.sign(weight));
+      if (least < 0) return Meeting::none;
+    }
+    return least > 0 && !t.is_end() ? Meeting::inside : Meeting::at_border;
+  }
+  const bool any = std::any_of(figures.segments.begin(), figures.segments.end(), [&](const OnSegment& on) {
+    return t.sign(on.off_line) == 0 && t.sign(on.beyond) <= 0;
+  });
+  return any ? Meeting::at_border : Meeting::none;
+}
+
+/// How often t is a root of F.
+int multiplicity(const Polynomial& F, const Root& t) {
+  int m = 1;
+  for (Polynomial d = F.derivative(); !d.is_zero() && t.sign(d) == 0; d = d.derivative()) ++m;
+  return m;
+}
+
+/// F is zero identically: the set of colliding times is closed, and its least element is 0 or a root of one
+/// of the polynomials whose signs decide.
+bool collides_in_plane(const Figures& figures) {
+  std::vector<const Polynomial*> deciding{&figures.area};
+  for (const Polynomial& weight : figures.weights) deciding.push_back(&weight);
+  for (const OnSegment& on : figures.segments) {
+    deciding.push_back(&on.off_line);
+    deciding.push_back(&on.beyond);
+  }
+  if (meeting_at(figures, Root(Rational(0))) != Meeting::none) return true;
+  return std::any_of(deciding.begin(), deciding.end(), [&](const Polynomial* p) {
+    if (p->is_zero()) return false;
+    const auto roots = roots_in_unit_interval(*p);
+    return std::any_of(roots.begin(), roots.end(),
+                       [&](const Root& t) { return meeting_at(figures, t) != Meeting::none; });
+  });
+}
+
+}  // namespace
+}  // namespace sturm
+
+RootCount count_roots(const Query& query) {
+  using namespace sturm;
+  const Figures figures(query);
+  RootCount count;
+  if (figures.F.is_zero()) {
+    count.planar = true;
+    count.collision = collides_in_plane(figures);
+    count.on_boundary = count.collision;
+    return count;
+  }
+  for (const Root& t : roots_in_unit_interval(figures.F)) {
+    const Meeting meeting = meeting_at(figures, t);
+    if (meeting == Meeting::none) continue;
+    count.collision = true;
+    count.on_boundary |= meeting == Meeting::at_border;
+    ++count.distinct;
+    count.with_multiplicity += multiplicity(figures.F, t);
+  }
+  return count;
+}
+
+}  // namespace nearmiss

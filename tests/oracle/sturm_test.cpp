@@ -1,0 +1,70 @@
+// The second answer: roots counted, and the same truth as the first.
+#include "oracle/sturm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "oracle/oracle.hpp"
+#include "oracle/rational_polynomial.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using sturm::Polynomial;
+using sturm::Rational;
+
+TEST(RationalPolynomial, FindsEveryRootInTheUnitInterval) {
+  // t (t - 1) (2t - 1) (t - 2) (9t² - 2): roots 0, 1, 1/2 and √2/3 in [0, 1].
+  const Polynomial t({0, 1});
+  const Polynomial f =
+      t * (t - Polynomial({1})) * Polynomial({-1, 2}) * Polynomial({-2, 1}) * Polynomial({-2, 0, 9});
+  const auto roots = sturm::roots_in_unit_interval(f * f);
+  ASSERT_EQ(roots.size(), 4);
+  int below_half = 0;
+  for (const auto& root : roots) {
+    EXPECT_EQ(root.sign(f), 0);
+    below_half += root.sign(Polynomial({-1, 2})) < 0 ? 1 : 0;
+  }
+  EXPECT_EQ(below_half, 2);
+}
+
+TEST(RationalPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
+  // (t - 1/2)² - 2^-600
+  const Rational tiny = Rational(1) / (boost::multiprecision::mpz_int(1) << 600);
+  const auto roots = sturm::roots_in_unit_interval(Polynomial({Rational(1) / 4 - tiny, -1, 1}));
+  ASSERT_EQ(roots.size(), 2);
+  EXPECT_EQ(roots[0].sign(Polynomial({-1, 2})) * roots[1].sign(Polynomial({-1, 2})), -1);
+}
+
+TEST(CountRoots, OneTwoAndThree) {
+  EXPECT_EQ(count_roots(testing::falling_vertex(0.25, 0.25, 1, -1)).with_multiplicity, 1);
+  EXPECT_EQ(count_roots(testing::falling_vertex(0.25, 0.25, 2, 1)).with_multiplicity, 0);
+  EXPECT_TRUE(count_roots(testing::falling_edge(1, -2)).odd());
+  EXPECT_FALSE(count_roots(testing::falling_edge(1, -2)).on_boundary);
+}
+
+TEST(CountRoots, KnowsTheBoundary) {
+  EXPECT_TRUE(count_roots(testing::falling_vertex(0.25, 0.25, 0, 1)).on_boundary);
+  EXPECT_TRUE(count_roots(testing::falling_vertex(0.25, 0.25, 1, 0)).on_boundary);
+  EXPECT_TRUE(count_roots(testing::falling_vertex(0.5, 0.5, 1, -1)).on_boundary);
+  EXPECT_TRUE(count_roots(testing::falling_vertex(0, 0, 1, -1)).on_boundary);
+  EXPECT_TRUE(count_roots(Query{}).planar);
+}
+
+class Agreement : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Range, Agreement, ::testing::Values(1, 2, 3));
+
+TEST_P(Agreement, WithTheFirstAnswerOnSmallIntegers) {
+  std::mt19937_64 random(5);
+  std::uniform_int_distribution<int> coordinate(-GetParam(), GetParam());
+  for (int i = 0; i < 2000; ++i) {
+    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+    for (double& c : query.x) c = coordinate(random);
+    ASSERT_EQ(count_roots(query).collision, collides_exactly(query)) << "case " << i;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
