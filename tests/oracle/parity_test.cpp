@@ -1,0 +1,68 @@
+// The third answer, and all three together.
+#include "oracle/parity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "oracle/oracle.hpp"
+#include "oracle/sturm.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+TEST(RootParity, OddIsACollision) {
+  EXPECT_TRUE(root_parity(testing::falling_vertex(0.25, 0.25, 1, -1)).odd);
+  EXPECT_TRUE(root_parity(testing::falling_edge(1, -2)).odd);
+  EXPECT_FALSE(root_parity(testing::falling_vertex(0.25, 0.25, 2, 1)).collision());
+  EXPECT_FALSE(root_parity(testing::falling_vertex(0.75, 0.75, 1, -1)).collision());
+  EXPECT_FALSE(root_parity(testing::falling_edge(2, 1)).collision());
+}
+
+TEST(RootParity, TheBoundaryIsACollision) {
+  EXPECT_TRUE(root_parity(testing::falling_vertex(0.25, 0.25, 0, 1)).on_boundary);
+  EXPECT_TRUE(root_parity(testing::falling_vertex(0.5, 0.5, 1, -1)).on_boundary);
+  EXPECT_TRUE(root_parity(testing::falling_vertex(0, 0, 1, -1)).on_boundary);
+  EXPECT_TRUE(root_parity(testing::falling_edge(0, 1)).on_boundary);
+  EXPECT_TRUE(root_parity(Query{}).on_boundary);
+}
+
+// Through the triangle and back: F has two roots, both inside.
+TEST(RootParity, EvenIsMissed) {
+  const Query query =
+      testing::make_query(Kind::vertex_triangle, {{-0.375, -0.3125, 0.25}, {0, 0, 0}, {1, -1, 0}, {1, 0, 1}},
+                          {{1.125, 0.4375, 0.25}, {0, 0, 0}, {1, 1, 0}, {-1, 0, 1}});
+  EXPECT_TRUE(collides_exactly(query));
+  EXPECT_EQ(count_roots(query).distinct, 2);
+  EXPECT_FALSE(root_parity(query).collision());
+}
+
+/// The first answer is the second's; parity is that of the roots wherever the origin is not on the boundary.
+void expect_agreement(const Query& query) {
+  const RootCount count = count_roots(query);
+  ASSERT_EQ(collides_exactly(query), count.collision);
+  const RootParity parity = root_parity(query);
+  ASSERT_EQ(parity.on_boundary, count.on_boundary);
+  if (!parity.on_boundary) {
+    ASSERT_EQ(parity.odd, count.odd());
+  }
+}
+
+class ThreeAnswers : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Range, ThreeAnswers, ::testing::Values(1, 2, 3, 1000));
+
+TEST_P(ThreeAnswers, AgreeOnIntegers) {
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<int> coordinate(-GetParam(), GetParam());
+  for (int i = 0; i < 2000; ++i) {
+    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+    for (double& c : query.x) c = coordinate(random);
+    SCOPED_TRACE(i);
+    expect_agreement(query);
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
