@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "oracle/rational_polynomial.hpp"
+#include "oracle/integer_polynomial.hpp"
 
 namespace nearmiss {
 
@@ -20,14 +23,28 @@ Vector cross(const Vector& v, const Vector& w) {
   return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
 }
 
-Vector moving_point(const Query& query, int i) {
+/// x_i in units of 2^exponent, of which every coordinate of the query is a multiple.
+Vector moving_point(const Query& query, int i, int exponent) {
+  const auto integer = [&](double coordinate) {
+    int own = 0;
+    const double fraction = std::frexp(coordinate, &own);
+    const Integer significand(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
+    return coordinate == 0 ? Integer(0) : Integer(significand << static_cast<unsigned>(own - 53 - exponent));
+  };
   Vector x;
   for (int k = 0; k < 3; ++k) {
-    const Rational start(query.start(i)[k]);
-    const Rational end(query.end(i)[k]);
+    const Integer start = integer(query.start(i)[k]);
+    const Integer end = integer(query.end(i)[k]);
     x[static_cast<std::size_t>(k)] = Polynomial({start, end - start});
   }
   return x;
+}
+
+int common_exponent(const Query& query) {
+  int smallest = std::numeric_limits<int>::max();
+  for (const double c : query.x)
+    if (c != 0) smallest = std::min(smallest, std::ilogb(c) - 52);
+  return smallest;
 }
 
 /// x lies on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is not
@@ -51,10 +68,11 @@ struct Figures {
   std::vector<OnSegment> segments;
 
   explicit Figures(const Query& query) {
-    const Vector x0 = moving_point(query, 0);
-    const Vector x1 = moving_point(query, 1);
-    const Vector x2 = moving_point(query, 2);
-    const Vector x3 = moving_point(query, 3);
+    const int unit = common_exponent(query);
+    const Vector x0 = moving_point(query, 0, unit);
+    const Vector x1 = moving_point(query, 1, unit);
+    const Vector x2 = moving_point(query, 2, unit);
+    const Vector x3 = moving_point(query, 3, unit);
     if (query.kind == Kind::vertex_triangle) {
       const Vector N = cross(x2 - x1, x3 - x1);
       area = dot(N, N);
@@ -107,7 +125,7 @@ bool collides_in_plane(const Figures& figures) {
     deciding.push_back(&on.off_line);
     deciding.push_back(&on.beyond);
   }
-  if (meeting_at(figures, Root(Rational(0))) != Meeting::none) return true;
+  if (meeting_at(figures, Root(Dyadic{0, 0})) != Meeting::none) return true;
   return std::any_of(deciding.begin(), deciding.end(), [&](const Polynomial* p) {
     if (p->is_zero()) return false;
     const auto roots = roots_in_unit_interval(*p);

@@ -1,4 +1,4 @@
-// The second answer: roots counted by Sturm sequences over rational numbers.
+// The second answer: roots counted by Sturm sequences over the integers.
 #pragma once
 
 #include "ccd/query.hpp"

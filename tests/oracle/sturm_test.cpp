@@ -5,17 +5,17 @@
 
 #include <random>
 
+#include "oracle/integer_polynomial.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/rational_polynomial.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
 
+using sturm::Integer;
 using sturm::Polynomial;
-using sturm::Rational;
 
-TEST(RationalPolynomial, FindsEveryRootInTheUnitInterval) {
+TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
   // t (t - 1) (2t - 1) (t - 2) (9t² - 2): roots 0, 1, 1/2 and √2/3 in [0, 1].
   const Polynomial t({0, 1});
   const Polynomial f =
@@ -30,12 +30,22 @@ TEST(RationalPolynomial, FindsEveryRootInTheUnitInterval) {
   EXPECT_EQ(below_half, 2);
 }
 
-TEST(RationalPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
-  // (t - 1/2)² - 2^-600
-  const Rational tiny = Rational(1) / (boost::multiprecision::mpz_int(1) << 600);
-  const auto roots = sturm::roots_in_unit_interval(Polynomial({Rational(1) / 4 - tiny, -1, 1}));
+TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
+  // 2^602 ((t - 1/2)² - 2^-600)
+  const Integer scale = Integer(1) << 602;
+  const auto roots = sturm::roots_in_unit_interval(Polynomial({scale / 4 - 4, -scale, scale}));
   ASSERT_EQ(roots.size(), 2);
   EXPECT_EQ(roots[0].sign(Polynomial({-1, 2})) * roots[1].sign(Polynomial({-1, 2})), -1);
+}
+
+TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
+  // f = -(3t - 1)(t - 3): one root, 1/3, in [0, 1]; 1 - 4t is negative there.
+  const Polynomial f({-3, 10, -3});
+  const auto roots = sturm::roots_in_unit_interval(f);
+  ASSERT_EQ(roots.size(), 1);
+  EXPECT_EQ(roots[0].sign(Polynomial({1, -4})), -1);
+  EXPECT_EQ(roots[0].sign(Polynomial({-1, 3})), 0);
+  EXPECT_EQ(roots[0].sign(Polynomial({0, 0, 0, 0, 1})), 1);
 }
 
 TEST(CountRoots, OneTwoAndThree) {

@@ -1,0 +1,175 @@
+#include "oracle/integer_polynomial.hpp"
+
+#include <algorithm>
+
+namespace nearmiss::sturm {
+
+Polynomial::Polynomial(std::vector<Integer> coefficients) : c_(std::move(coefficients)) {
+  while (!c_.empty() && c_.back() == 0) c_.pop_back();
+}
+
+int Polynomial::sign_at(const Dyadic& t) const {
+  Integer value = 0;  // times 2^(exponent × degree)
+  unsigned shift = 0;
+  for (auto c = c_.rbegin(); c != c_.rend(); ++c) {
+    value = value * t.numerator + (*c << shift);
+    shift += t.exponent;
+  }
+  return value.sign();
+}
+
+Polynomial Polynomial::derivative() const {
+  std::vector<Integer> d;
+  for (std::size_t i = 1; i < c_.size(); ++i) d.emplace_back(c_[i] * i);
+  return Polynomial(std::move(d));
+}
+
+Polynomial Polynomial::operator+(const Polynomial& other) const {
+  std::vector<Integer> sum(std::max(c_.size(), other.c_.size()));
+  for (std::size_t i = 0; i < c_.size(); ++i) sum[i] += c_[i];
+  for (std::size_t i = 0; i < other.c_.size(); ++i) sum[i] += other.c_[i];
+  return Polynomial(std::move(sum));
+}
+
+Polynomial Polynomial::operator-() const {
+  std::vector<Integer> negative;
+  for (const Integer& c : c_) negative.emplace_back(-c);
+  return Polynomial(std::move(negative));
+}
+
+Polynomial Polynomial::operator-(const Polynomial& other) const { return *this + -other; }
+
+Polynomial Polynomial::operator*(const Polynomial& other) const {
+  if (is_zero() || other.is_zero()) return {};
+  std::vector<Integer> product(c_.size() + other.c_.size() - 1);
+  for (std::size_t i = 0; i < c_.size(); ++i)
+    for (std::size_t j = 0; j < other.c_.size(); ++j) product[i + j] += c_[i] * other.c_[j];
+  return Polynomial(std::move(product));
+}
+
+struct Polynomial::Division {
+  Polynomial quotient, remainder;
+};
+
+// Both are multiplied by the absolute value of the divisor's leading coefficient at every step, so signs
+// stay.
+Polynomial::Division Polynomial::divided_by(const Polynomial& other) const {
+  std::vector<Integer> rest = c_;
+  const std::size_t n = other.c_.size();
+  const Integer lead = abs(other.c_.back());
+  const int sign = other.c_.back().sign();
+  std::vector<Integer> quotient(rest.size() >= n ? rest.size() - n + 1 : 0);
+  for (std::size_t i = quotient.size(); i-- > 0;) {
+    const Integer top = rest[i + n - 1] * sign;
+    for (Integer& each : quotient) each *= lead;
+    quotient[i] = top;
+    for (Integer& each : rest) each *= lead;
+    for (std::size_t j = 0; j < n; ++j) rest[i + j] -= top * other.c_[j];
+  }
+  return {Polynomial(std::move(quotient)), Polynomial(std::move(rest))};
+}
+
+Polynomial Polynomial::primitive() const {
+  if (is_zero()) return {};
+  Integer common = 0;
+  for (const Integer& c : c_) common = gcd(common, c);
+  std::vector<Integer> divided;
+  for (const Integer& c : c_) divided.emplace_back(c / common);
+  return Polynomial(std::move(divided));
+}
+
+Polynomial Polynomial::remainder(const Polynomial& other) const {
+  return divided_by(other).remainder.primitive();
+}
+Polynomial Polynomial::quotient(const Polynomial& other) const {
+  return divided_by(other).quotient.primitive();
+}
+
+namespace {
+
+/// The signed remainder sequence of f and g, each up to a positive factor.
+std::vector<Polynomial> remainder_sequence(const Polynomial& f, const Polynomial& g) {
+  std::vector<Polynomial> sequence{f, g};
+  while (!sequence.back().is_zero())
+    sequence.push_back(-sequence[sequence.size() - 2].remainder(sequence.back()));
+  sequence.pop_back();
+  return sequence;
+}
+
+int sign_variations(const std::vector<Polynomial>& sequence, const Dyadic& t) {
+  int variations = 0;
+  int last = 0;
+  for (const Polynomial& p : sequence) {
+    const int sign = p.sign_at(t);
+    if (sign == 0) continue;
+    variations += last != 0 && sign != last ? 1 : 0;
+    last = sign;
+  }
+  return variations;
+}
+
+/// Tarski's query: the sum over the roots of f in (lo, hi) of the sign of g there; f is square-free and not
+/// zero at the ends. g counts modulo f only.
+int tarski_query(const Polynomial& f, const Polynomial& g, const Dyadic& lo, const Dyadic& hi) {
+  const auto sequence =
+      remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
+  return sign_variations(sequence, lo) - sign_variations(sequence, hi);
+}
+
+Polynomial square_free(const Polynomial& f) {
+  if (f.degree() < 1) return f;
+  return f.quotient(remainder_sequence(f, f.derivative()).back());
+}
+
+/// f without its simple root at t.
+Polynomial without_root(const Polynomial& f, const Dyadic& t) {
+  return f.quotient(Polynomial({-t.numerator, Integer(1) << t.exponent}));
+}
+
+Dyadic middle(const Dyadic& a, const Dyadic& b) {
+  const unsigned exponent = std::max(a.exponent, b.exponent);
+  return {(a.numerator << (exponent - a.exponent)) + (b.numerator << (exponent - b.exponent)), exponent + 1};
+}
+
+/// Adds the roots of a square-free f in (lo, hi), where it is not zero at the ends.
+void isolate(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, std::vector<Root>& roots) {
+  if (f.degree() < 1) return;
+  const int count = tarski_query(f, Polynomial({1}), lo, hi);
+  if (count == 0) return;
+  if (count == 1) {
+    roots.emplace_back(f, lo, hi);
+    return;
+  }
+  const Dyadic between = middle(lo, hi);
+  Polynomial rest = f;
+  if (f.sign_at(between) == 0) {
+    roots.emplace_back(between);
+    rest = without_root(f, between);
+  }
+  isolate(rest, lo, between, roots);
+  isolate(rest, between, hi, roots);
+}
+
+}  // namespace
+
+int Root::sign(const Polynomial& g) const {
+  if (is_dyadic_) return g.sign_at(lo_);
+  if (g.is_zero()) return 0;
+  return tarski_query(f_, g, lo_, hi_);
+}
+
+std::vector<Root> roots_in_unit_interval(const Polynomial& f) {
+  std::vector<Root> roots;
+  Polynomial rest = square_free(f);
+  const Dyadic zero{0, 0};
+  const Dyadic one{1, 0};
+  for (const Dyadic& end : {zero, one}) {
+    if (rest.sign_at(end) != 0) continue;
+    roots.emplace_back(end);
+    rest = without_root(rest, end);
+  }
+  isolate(rest, zero, one, roots);
+  return roots;
+}
+
+}  // namespace nearmiss::sturm
