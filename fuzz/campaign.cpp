@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t block_cases = 300;
+constexpr std::uint64_t block_cases = 100;
 constexpr auto save_interval = std::chrono::seconds(1);
 
 /// Queries [first, last) of a family.
@@ -57,7 +57,7 @@ class Rounds {
   explicit Rounds(const CampaignPlan& plan)
       : plan_(plan),
         round_(plan.shard),
-        rounds_a_wave_(1 + 4 * static_cast<std::uint64_t>(plan.jobs) / plan.families.size()) {}
+        rounds_a_wave_(1 + 16 * static_cast<std::uint64_t>(plan.jobs) / plan.families.size()) {}
 
   /// Empty when everything is done.
   std::vector<Block> next_wave() {

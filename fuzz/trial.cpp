@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -17,9 +18,23 @@ namespace {
 /// The oracle's answers to one query, each asked for at most once.
 class Truth {
  public:
-  explicit Truth(const Query& query) : query_(query), collision_(collides(query)) {}
+  explicit Truth(const Query& query) : query_(query), decision_(decide(query)) {}
 
-  [[nodiscard]] bool collision() const { return collision_; }
+  [[nodiscard]] bool collision() const { return decision_.collision; }
+
+  /// Counts the decision and, for some queries, compares it with the other answers; false where these
+  /// disagree.
+  [[nodiscard]] bool count(OracleCounts& counts) const {
+    ++counts.queries;
+    counts.collisions += collision() ? 1 : 0;
+    ++counts.by_stage[static_cast<std::size_t>(decision_.stage)];
+    if (decision_.stage != FilterStage::undecided && !is_sampled(query_)) return true;
+    const Answers answers = ask_all(query_);
+    ++counts.compared;
+    counts.compared_collisions += answers.exact ? 1 : 0;
+    counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
+    return answers.agree() && answers.exact == collision();
+  }
 
   /// Distance / bound of a query that is no collision.
   double ratio(double bound) {
@@ -40,7 +55,7 @@ class Truth {
   }
 
   const Query& query_;
-  bool collision_;
+  Decision decision_;
   bool measured_ = false;
   Enclosure distance_;
 };
@@ -107,6 +122,10 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch) {
     const auto find = [&](Finding::What what, const std::string& subject, double ratio) {
       result.findings.push_back({what, subject, batch.family, query, batch.provenance(i), ratio});
     };
+    if (!truth.count(result.statistics.oracle[{batch.kind, batch.family}])) {
+      ++result.statistics.oracle_disagreements;
+      find(Finding::What::oracle_disagreement, "", 0);
+    }
     if (!batch.truths.empty() && batch.truths[i].value_or(truth.collision()) != truth.collision()) {
       ++result.statistics.mismatches_with_recorded_truth;
       find(Finding::What::truth_mismatch, "", 0);

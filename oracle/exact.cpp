@@ -109,11 +109,13 @@ Enclosure enclose(const Time& t) {
 
 bool collides_exactly(const Query& query) { return exact::first_collision(query).has_value(); }
 
-bool collides(const Query& query) {
-  if (!boxes_meet(query)) return false;
+Decision decide(const Query& query) {
+  if (!boxes_meet(query)) return {false, FilterStage::boxes};
   const FilterStage stage = filter(query);
-  return stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage);
+  return {stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage), stage};
 }
+
+bool collides(const Query& query) { return decide(query).collision; }
 
 std::optional<Enclosure> earliest_time(const Query& query) {
   if (!boxes_meet(query)) return std::nullopt;

@@ -1,7 +1,9 @@
 // The certified filter in front of exact arithmetic: double arithmetic that never answers wrongly.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "ccd/query.hpp"
 
@@ -9,6 +11,7 @@ namespace nearmiss {
 
 /// What decided a query, or that nothing did.
 enum class FilterStage : std::uint8_t {
+  boxes,        ///< no: the swept boxes do not meet
   planes,       ///< no: a moving plane across an axis or a diagonal separates the primitives
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: wherever F may vanish, two weights have opposite signs
@@ -17,14 +20,19 @@ enum class FilterStage : std::uint8_t {
   undecided,    ///< exact arithmetic must decide
 };
 
-inline constexpr std::size_t filter_stage_count = 6;
+inline constexpr std::size_t filter_stage_count = 7;
+
+/// Names of the stages, in order, as they stand in files and reports.
+inline constexpr std::array<std::string_view, filter_stage_count> filter_stage_names{
+    "boxes", "planes", "one-sign", "weights", "sign-change", "at-an-end", "undecided"};
 
 /// Whether a stage means a collision; not for `undecided`.
 constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
 }
 
-/// Decides a query in double arithmetic with certified bounds, or leaves it undecided. Rounds to nearest.
+/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided.
+/// Rounds to nearest.
 FilterStage filter(const Query& query);
 
 }  // namespace nearmiss

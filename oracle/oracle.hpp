@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ccd/query.hpp"
+#include "oracle/filter.hpp"
 
 namespace nearmiss {
 
@@ -12,6 +13,15 @@ struct Enclosure {
   double lo = 0;
   double hi = 0;
 };
+
+/// The answer to a query, and how it was found.
+struct Decision {
+  bool collision = false;
+  FilterStage stage{};  ///< `undecided`: by exact arithmetic
+};
+
+/// Decides by the swept boxes, the certified filter, and, where these leave it undecided, exact arithmetic.
+Decision decide(const Query& query);
 
 /// Whether the two closed primitives share a point at some t in [0, 1], exactly, for every finite query:
 /// degenerate, planar, huge and subnormal ones included.

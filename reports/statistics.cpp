@@ -77,7 +77,17 @@ void Counts::merge(const Counts& other) {
   nanoseconds += other.nanoseconds;
 }
 
+void OracleCounts::merge(const OracleCounts& other) {
+  queries += other.queries;
+  collisions += other.collisions;
+  for (std::size_t i = 0; i < filter_stage_count; ++i) by_stage[i] += other.by_stage[i];
+  compared += other.compared;
+  compared_collisions += other.compared_collisions;
+  missed_by_parity += other.missed_by_parity;
+}
+
 void Statistics::merge(const Statistics& other) {
+  for (const auto& [key, each] : other.oracle) oracle[key].merge(each);
   for (const auto& [key, each] : other.counts) counts[key].merge(each);
   oracle_disagreements += other.oracle_disagreements;
   mismatches_with_recorded_truth += other.mismatches_with_recorded_truth;
@@ -87,6 +97,12 @@ std::map<Key, Counts> Statistics::by_subject_and_kind() const {
   std::map<Key, Counts> sums;
   for (const auto& [key, each] : counts) sums[{key.subject, key.kind, ""}].merge(each);
   return sums;
+}
+
+OracleCounts Statistics::oracle_total() const {
+  OracleCounts sum;
+  for (const auto& [key, each] : oracle) sum.merge(each);
+  return sum;
 }
 
 std::uint64_t Statistics::false_negatives() const {

@@ -12,6 +12,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
+#include "oracle/filter.hpp"
 
 namespace nearmiss {
 
@@ -95,16 +96,33 @@ struct Key {
   }
 };
 
+/// Counters of the oracle, for one kind and family.
+struct OracleCounts {
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;
+  std::array<std::uint64_t, filter_stage_count> by_stage{};  ///< what decided
+  std::uint64_t compared = 0;                                ///< asked of all three answers
+  std::uint64_t compared_collisions = 0;                     ///< of these
+  std::uint64_t missed_by_parity = 0;                        ///< of these: an even number of roots
+
+  void merge(const OracleCounts& other);
+
+  bool operator==(const OracleCounts&) const = default;
+};
+
 /// All counters of a campaign.
 struct Statistics {
   std::map<Key, Counts> counts;
-  std::uint64_t oracle_disagreements = 0;            ///< between the oracle's own answers
-  std::uint64_t mismatches_with_recorded_truth = 0;  ///< of the oracle with what a case says
+  std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
+  std::uint64_t oracle_disagreements = 0;                       ///< between the oracle's own answers
+  std::uint64_t mismatches_with_recorded_truth = 0;             ///< of the oracle with what a case says
 
   void merge(const Statistics& other);
 
   /// Counters summed over families: key.family is empty.
   [[nodiscard]] std::map<Key, Counts> by_subject_and_kind() const;
+  /// The oracle's counters summed over families and kinds.
+  [[nodiscard]] OracleCounts oracle_total() const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;
 

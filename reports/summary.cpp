@@ -43,6 +43,18 @@ ordered_json counts_json(const Counts& counts) {
   return json;
 }
 
+ordered_json oracle_json(const OracleCounts& counts) {
+  ordered_json json;
+  json["queries"] = counts.queries;
+  json["collisions"] = counts.collisions;
+  for (std::size_t i = 0; i < filter_stage_count; ++i)
+    json["decided_by"][std::string(filter_stage_names[i])] = counts.by_stage[i];
+  json["compared"] = counts.compared;
+  json["compared_collisions"] = counts.compared_collisions;
+  json["missed_by_parity"] = counts.missed_by_parity;
+  return json;
+}
+
 /// Text in columns: the first two to the left, the others to the right.
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
@@ -73,6 +85,9 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
   json["runs"] = campaign.runs;
   json["oracle"]["disagreements"] = campaign.statistics.oracle_disagreements;
   json["oracle"]["mismatches_with_recorded_truth"] = campaign.statistics.mismatches_with_recorded_truth;
+  for (const auto& [key, counts] : campaign.statistics.oracle)
+    json["oracle"]["families"][std::string(short_name(key.first))][key.second] = oracle_json(counts);
+  json["oracle"]["total"] = oracle_json(campaign.statistics.oracle_total());
   json["subjects"] = ordered_json::object();
   for (const auto& [key, counts] : campaign.statistics.by_subject_and_kind())
     json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(counts);
@@ -144,7 +159,16 @@ std::string summary_table(const Statistics& statistics) {
     verdicts += fmt::format("{} {}: {}\n", each.clean ? " ok " : "FAIL", each.subject, each.text);
   if (const std::string complaint = oracle_complaint(statistics); !complaint.empty())
     verdicts += fmt::format("FAIL oracle: {}\n", complaint);
-  return verdicts + "\n" + columns(rows) +
+  const OracleCounts oracle = statistics.oracle_total();
+  const std::string answers = fmt::format(
+      "oracle: {} queries, {} left to exact arithmetic by the filters; {} asked of all three answers: {}, "
+      "and {} of {} "
+      "collisions\nhave an even number of roots, which root parity cannot see\n",
+      with_separators(oracle.queries),
+      with_separators(oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)]),
+      with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
+      with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions));
+  return verdicts + "\n" + columns(rows) + "\n" + answers +
          "\n* upper 95 % confidence bound of the rate of misses among true collisions (Clopper-Pearson)\n";
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "corpus/query_text.hpp"
+#include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -16,12 +17,34 @@ struct Options {
   bool distance = false;
 };
 
+/// The oracle's own answers disagree: a defect of the oracle.
+class Disagreement : public std::exception {
+ public:
+  explicit Disagreement(const Query& query)
+      : what_(fmt::format("the oracle's answers disagree on {} {}", short_name(query.kind), to_line(query))) {
+  }
+  [[nodiscard]] const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  std::string what_;
+};
+
 std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
+/// The answer by one method; by all of them, the first one's, and Error where they disagree.
+bool collides_by(const std::string& method, const Query& query) {
+  if (method == "sturm") return count_roots(query).collision;
+  if (method == "parity") return root_parity(query).collision();
+  if (method == "exact") return collides(query);
+  const Answers answers = ask_all(query);
+  if (!answers.agree() || answers.exact != collides(query)) throw Disagreement(query);
+  return answers.exact;
+}
+
 std::string answer(const Query& query, const Options& options) {
-  std::string line = collides(query) ? "1" : "0";
+  std::string line = collides_by(options.method, query) ? "1" : "0";
   if (options.toi) {
     const auto time = earliest_time(query);
     line += time ? show(*time) : " inf inf";
@@ -32,13 +55,18 @@ std::string answer(const Query& query, const Options& options) {
 
 }  // namespace
 
-void add_oracle(CLI::App& app, int& /*exit_code*/) {
+void add_oracle(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "oracle", "Decide queries in exact arithmetic: a line each, 1 for a collision, 0 for none");
   add_kind_option(*command, options->kind);
-  command->add_option("--method", options->method, "exact: real roots as algebraic numbers, complete")
-      ->check(CLI::IsMember({"exact"}))
+  command
+      ->add_option(
+          "--method", options->method,
+          "exact: filters and real algebraic numbers, complete; sturm: roots counted by Sturm sequences, "
+          "complete; "
+          "parity: root parity, which takes an even number of roots for none; all: the three compared")
+      ->check(CLI::IsMember({"exact", "sturm", "parity", "all"}))
       ->capture_default_str();
   command->add_flag("--toi", options->toi,
                     "Add 'lo hi' around the earliest time of contact (inf inf where there is none)");
@@ -50,9 +78,14 @@ void add_oracle(CLI::App& app, int& /*exit_code*/) {
       "\nNumbers are decimal or C hex floats, separated by blanks or commas; '#' starts a comment.\n"
       "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss oracle --kind vt --toi");
-  command->callback([options] {
-    read_queries(options->file, parse_kind(options->kind, "--kind"),
-                 [&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
+  command->callback([options, &exit_code] {
+    try {
+      read_queries(options->file, parse_kind(options->kind, "--kind"),
+                   [&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
+    } catch (const Disagreement& disagreement) {
+      fmt::print(stderr, "nearmiss: {}\n", disagreement.what());
+      exit_code = exit_found;
+    }
   });
 }
 

@@ -104,6 +104,18 @@ function drawFarthest() {
   ], rows);
 }
 
+function drawOracle() {
+  const rows = [];
+  for (const [kind, families] of Object.entries(report.oracle.families ?? {}))
+    for (const [family, counts] of Object.entries(families)) rows.push({ kind, family, ...counts.decided_by, ...counts });
+  const stages = Object.keys(report.oracle.total.decided_by);
+  fillTable(element("oracle"), [
+    text("kind", "kind"), text("family", "family"), count("queries", "queries"), count("collisions", "collisions"),
+    ...stages.map((stage) => count(stage, stage)), count("asked of all three", "compared"),
+    count("collisions", "compared_collisions"), count("with even roots", "missed_by_parity"),
+  ], rows);
+}
+
 function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
@@ -256,6 +268,7 @@ drawHead();
 drawBaseline();
 drawCounts();
 element("by-family").addEventListener("change", drawCounts);
+drawOracle();
 drawFindings();
 drawFarthest();
 Promise.all([drawErrorTime(), drawDistances(), drawStages()])

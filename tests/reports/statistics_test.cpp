@@ -80,6 +80,12 @@ Statistics random_statistics(unsigned seed) {
     statistics.counts[key].timed_queries += 1;
     statistics.counts[key].nanoseconds += random() % 100;
   }
+  for (const Kind kind : kinds) {
+    OracleCounts& oracle = statistics.oracle[{kind, random() % 2 ? "f" : "g"}];
+    oracle.queries = random() % 100;
+    oracle.by_stage[random() % filter_stage_count] = random() % 100;
+    oracle.missed_by_parity = random() % 100;
+  }
   statistics.oracle_disagreements = random() % 10;
   statistics.mismatches_with_recorded_truth = random() % 10;
   return statistics;

@@ -31,6 +31,13 @@ Statistics some_statistics(const std::string& subject) {
              [] { return "uniform:1:3"; });
   counts.timed_queries = 2;
   counts.nanoseconds = 99;
+  OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
+  oracle.queries = 2;
+  oracle.collisions = 1;
+  oracle.by_stage[2] = 2;
+  oracle.compared = 1;
+  oracle.compared_collisions = 1;
+  oracle.missed_by_parity = 1;
   statistics.oracle_disagreements = 3;
   statistics.mismatches_with_recorded_truth = 4;
   return statistics;

@@ -1,0 +1,23 @@
+#include "oracle/agreement.hpp"
+
+#include <bit>
+#include <cstdint>
+
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+Answers ask_all(const Query& query) {
+  return {collides_exactly(query), count_roots(query), root_parity(query)};
+}
+
+bool is_sampled(const Query& query) {
+  std::uint64_t hash = static_cast<std::uint64_t>(query.kind);
+  for (const double c : query.x) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15;
+    hash ^= hash >> 32;
+  }
+  return hash % 64 == 0;
+}
+
+}  // namespace nearmiss

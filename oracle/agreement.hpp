@@ -1,0 +1,37 @@
+// The three answers side by side.
+#pragma once
+
+#include "ccd/query.hpp"
+#include "oracle/parity.hpp"
+#include "oracle/sturm.hpp"
+
+namespace nearmiss {
+
+/// What exact arithmetic says in three ways that share no code.
+struct Answers {
+  bool exact = false;
+  RootCount sturm;
+  RootParity parity;
+
+  /// exact and sturm must be the same; parity must be that of sturm's count, but where the origin is on the
+  /// boundary, which both must know.
+  [[nodiscard]] bool agree() const {
+    return exact == sturm.collision && parity.on_boundary == sturm.on_boundary &&
+           (parity.on_boundary || parity.odd == sturm.odd());
+  }
+
+  /// A collision that a root-parity CCD takes for none: an even number of roots.
+  [[nodiscard]] bool missed_by_parity() const { return exact && !parity.collision(); }
+};
+
+/// Asks all three.
+Answers ask_all(const Query& query);
+
+/// The same where the first answer is known already.
+Answers ask_others(const Query& query, bool exact);
+
+/// Whether a query belongs to the fixed fraction, one in 64 by a hash of its coordinates, that is always
+/// asked of all three.
+bool is_sampled(const Query& query);
+
+}  // namespace nearmiss
