@@ -28,8 +28,9 @@ class Truth {
     ++counts.queries;
     counts.collisions += collision() ? 1 : 0;
     ++counts.by_stage[static_cast<std::size_t>(decision_.stage)];
-    if (decision_.stage != FilterStage::undecided && !is_sampled(query_)) return true;
-    const Answers answers = ask_all(query_);
+    const bool by_exact_arithmetic = decision_.stage == FilterStage::undecided;
+    if (!by_exact_arithmetic && !is_sampled(query_)) return true;
+    const Answers answers = by_exact_arithmetic ? ask_others(query_, collision()) : ask_all(query_);
     ++counts.compared;
     counts.compared_collisions += answers.exact ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;

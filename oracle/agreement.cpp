@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-Answers ask_all(const Query& query) {
-  return {collides_exactly(query), count_roots(query), root_parity(query)};
-}
+Answers ask_all(const Query& query) { return ask_others(query, collides_exactly(query)); }
+
+Answers ask_others(const Query& query, bool exact) { return {exact, count_roots(query), root_parity(query)}; }
 
 bool is_sampled(const Query& query) {
   std::uint64_t hash = static_cast<std::uint64_t>(query.kind);
