@@ -87,6 +87,22 @@ std::vector<Time> candidate_times(const Predicates& predicates) {
   return times;
 }
 
+/// Whether there is a collision at all: t = 0 first, then the roots of one polynomial after the other.
+bool any_collision(const Query& query) {
+  const Predicates predicates(query);
+  const auto meets_at_root = [&](const Polynomial& p) {
+    std::vector<Time> roots;
+    add_roots(p, roots);
+    return std::any_of(roots.begin(), roots.end(), [&](const Time& t) { return meet_at(predicates, t); });
+  };
+  if (!is_zero(predicates.F)) return !one_sign(predicates.F) && meets_at_root(predicates.F);
+  const auto meets_at_any = [&](const Vector& v) { return std::any_of(v.begin(), v.end(), meets_at_root); };
+  return meet_at(predicates, Time(0)) || meets_at_any(predicates.N) ||
+         std::any_of(predicates.weights.begin(), predicates.weights.end(), meets_at_any) ||
+         std::any_of(predicates.segments.begin(), predicates.segments.end(),
+                     [&](const OnSegment& on) { return meets_at_any(on.cross) || meets_at_root(on.dot); });
+}
+
 std::optional<Time> first_collision(const Query& query) {
   const Predicates predicates(query);
   for (const Time& t : candidate_times(predicates))
@@ -107,7 +123,7 @@ Enclosure enclose(const Time& t) {
 }  // namespace
 }  // namespace exact
 
-bool collides_exactly(const Query& query) { return exact::first_collision(query).has_value(); }
+bool collides_exactly(const Query& query) { return exact::any_collision(query); }
 
 Decision decide(const Query& query) {
   if (!boxes_meet(query)) return {false, FilterStage::boxes};
