@@ -20,27 +20,32 @@
 // So two of them with certainly opposite signs exclude a collision. If in one component all are certainly of
 // one sign, N is not zero there, and F = 0 is a collision: where F certainly changes its sign there is one.
 //
-// Rounding errors in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. Each
-// vector v comes with the largest magnitudes V of its components as computed, and bounds e_v of their
-// absolute errors.
-//   A product x y of two components misses by at most X e_y + Y e_x + e_x e_y from its factors.
-//   W_k, from at most four products (the middle Bernstein coefficient is half the sum of two differences of
-//   two): let w be the
-//     sum of the magnitudes of two, l that of their factors' misses. Rounding: product, difference, sum: 3 U
-//     w; halving is exact. Blossoms: s = 1 - t, product, sum: 3 a level, two levels, and s + t = 1 with both
-//     in [0, 1] keeps the result within the coefficients: 6.1 U (w + l). Together at most 9.2 U w + (1 + 6.1
-//     U) l; taken: 10 U w + 1.01 l.
-//   F, from W's sums and a third vector a: misses of the factors Σ (A_k l_k + e_a (w_k + l_k)) =: L;
-//   rounding: 3 of the sums,
-//     product 1, two additions 2, the sum of two dot products 1, a division by 3 (a product with 1/3 in
-//     double words) 2: 9 U M, M = Σ A_k w_k; blossoms: three levels, 9.1 U (M + L). Together at most 18.3 U M
-//     + (1 + 9.1 U) L; taken: 20 U M + 1.01 L.
-//   w, M, l, L are computed in double and too small by at most 12 u of themselves, u = 2^-53: covered by what
-//   is taken for double;
-//     for double words by 10 and 20 against 9.2 and 18.3, and 1.01.
-// Underflow: each product misses by at most 2^-1070 more, and a blossom has few: 2^-1060 (1 + Σ A_k) for F,
-// 2^-1060 for W. Overflow makes w or M infinite or NaN, since they are sums of the largest magnitudes (in
-// double words a coefficient may be NaN before): then no comparison holds.
+// Rounding errors, in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. A
+// vector v comes with V, the largest magnitudes of its components as computed, and e_v, bounds of their
+// errors.
+//
+// - A product x y of two components misses by at most X e_y + Y e_x + e_x e_y because of its factors.
+//
+// - W_k is made of at most four products: the middle Bernstein coefficient is half the sum of two differences
+//   of two. Let w be the sum of the magnitudes of two, l that of their factors' misses. Rounding: product,
+//   difference, sum: 3 U w; halving is exact. A level of de Casteljau: s = 1 - t, product, sum: 3, and s + t
+//   = 1 with both in [0, 1] keeps the result within the coefficients; two levels: 6.1 U (w + l). Together at
+//   most 9.2 U w + (1 + 6.1 U) l; taken: 10 U w + 1.01 l.
+//
+// - F is made of such sums, without the halving, and a third vector a. Misses of the factors:
+//   L = Σ (A_k l_k + e_a (w_k + l_k)). Rounding: 3 in the sums, product 1, two additions 2, the sum of two
+//   dot products 1, a division by 3 (in double words a product with a rounded 1/3) 2: 9 U M with M = Σ A_k
+//   w_k. Three levels of de Casteljau: 9.1 U (M + L). Together at most 18.3 U M + (1 + 9.1 U) L; taken: 20 U
+//   M + 1.01 L.
+//
+// - w, l, M and L are computed in double and may be too small by 12 · 2^-53 of themselves: far less than what
+//   is taken too much.
+//
+// - Underflow: a product misses by at most 2^-1070 more, halving too, and there are few of them: for W
+//   2^-1060 is enough, for F 2^-1060 (1 + Σ A_k).
+//
+// - Overflow makes w or M infinite or NaN, since they are sums of the largest magnitudes (in double words a
+//   coefficient may be NaN before that): then no comparison holds.
 
 namespace nearmiss::certified {
 

@@ -30,13 +30,11 @@ struct OnSegment {
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they
-///  meet
-///    iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric ones
-///    times N: of x1, x2, x3 for a triangle (their sum is N); of x1 and x0 on the first edge, of x3 and x2 on
-///    the second one (pairwise sum N), from x20 = α x10 - β x32;
+///    meet iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric
+///    ones times N: of x1, x2, x3 for a triangle (their sum is N); of x1 and x0 on the first edge, of x3 and
+///    x2 on the second one (pairwise sum N), from x20 = α x10 - β x32;
 ///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
-///  does.
-///    Edges are then parallel or points: they meet iff an end point of one lies on the other.
+///    does. Edges are then parallel or points: they meet iff an end point of one lies on the other.
 struct Predicates {
   Polynomial F;
   Vector N;
