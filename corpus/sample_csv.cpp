@@ -4,8 +4,8 @@
 #include <gmpxx.h>
 
 #include <cmath>
-
 #include <istream>
+#include <utility>
 #include <vector>
 
 #include "ccd/error.hpp"
@@ -78,7 +78,7 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
       each.query.x[3 * row + k] = exact_quotient(words[2 * k], words[2 * k + 1], where);
     if (++row == rows) {
       row = 0;
-      sink(std::move(each));
+      sink(std::exchange(each, {}));
     }
   }
   if (row != 0) throw Error(fmt::format("{}:{}: found {} rows of a query, expected 8", file, number, row));
