@@ -19,9 +19,7 @@ constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 a false negative, a refuted bound or an oracle disagreement was found;\n"
     "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far saved.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace nearmiss::tools;
   CLI::App app(about, "nearmiss");
   app.require_subcommand(1);
@@ -39,14 +37,18 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     if (asked) return app.exit(error);
-    fmt::print(stderr, "nearmiss: {} (see nearmiss --help)\n", error.what());
-    return exit_bad_input;
-  } catch (const nearmiss::Error& error) {
-    fmt::print(stderr, "nearmiss: {}\n", error.what());
-    return exit_bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "nearmiss: {}\n", error.what());
-    return exit_bad_input;
+    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", error.what()));
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nearmiss: %s\n", error.what());
+    return nearmiss::tools::exit_bad_input;
+  }
 }
