@@ -81,6 +81,9 @@ std::vector<SubjectInfo> subjects();
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
+/// The same, but nothing for a name that is not known.
+std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
+
 /// Throws Error that lists the known names.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
 

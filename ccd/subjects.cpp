@@ -117,11 +117,17 @@ std::vector<SubjectInfo> subjects() {
   return infos;
 }
 
-std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
   for (const Entry& each : registry)
     if (each.info.name == name_or_path) return each.make(name_or_path, given_bound);
   if (name_or_path.find('/') != std::string_view::npos) return load_plugin(std::string(name_or_path));
-  refuse_subject(name_or_path, subjects());
+  return nullptr;
+}
+
+std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  auto subject = try_make_subject(name_or_path, given_bound);
+  if (!subject) refuse_subject(name_or_path, subjects());
+  return subject;
 }
 
 void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {

@@ -13,7 +13,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t block_cases = 100;
-constexpr auto save_interval = std::chrono::seconds(1);
+
+/// How many cases of the plan family number f has.
+std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
+  const std::uint64_t n = plan.families.size();
+  return plan.cases / n + (f < plan.cases % n ? 1 : 0);
+}
+
+/// How many cases there are in this shard; 0 where there is no end.
+std::uint64_t cases_of_shard(const CampaignPlan& plan) {
+  std::uint64_t sum = 0;
+  for (std::size_t f = 0; f < plan.families.size(); ++f) {
+    const std::uint64_t share = share_of(plan, f);
+    const std::uint64_t whole = share / block_cases;  // blocks 0 .. whole - 1, and then what is left
+    const std::uint64_t own = whole / plan.shards + (plan.shard < whole % plan.shards ? 1 : 0);
+    sum += own * block_cases + (whole % plan.shards == plan.shard ? share % block_cases : 0);
+  }
+  return sum;
+}
 
 /// Queries [first, last) of a family.
 struct Block {
@@ -23,13 +40,9 @@ struct Block {
 
 /// The block of family number f in a round; empty behind the family's last case.
 Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
-  const std::uint64_t n = plan.families.size();
   const std::uint64_t first = round * block_cases;
   std::uint64_t last = first + block_cases;
-  if (plan.cases != 0) {
-    const std::uint64_t share = plan.cases / n + (f < plan.cases % n ? 1 : 0);
-    last = std::clamp(share, first, last);
-  }
+  if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
   return {plan.families[f], first, last};
 }
 
@@ -69,18 +82,6 @@ class Rounds {
     return wave;
   }
 
-  /// How many cases there are in this shard; 0 where there is no end.
-  [[nodiscard]] std::uint64_t cases() const {
-    std::uint64_t sum = 0;
-    if (plan_.cases == 0) return sum;
-    std::vector<Block> blocks;
-    for (std::uint64_t round = plan_.shard; add_round(round, blocks); round += plan_.shards) {
-      for (const Block& block : blocks) sum += block.last - block.first;
-      blocks.clear();
-    }
-    return sum;
-  }
-
  private:
   bool add_round(std::uint64_t round, std::vector<Block>& blocks) const {
     const std::size_t before = blocks.size();
@@ -96,36 +97,26 @@ class Rounds {
 
 }  // namespace
 
-Statistics run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSave& save,
-                        const std::function<void(const CampaignProgress&)>& progress,
-                        const std::atomic<bool>& stop) {
+void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
+                  const std::atomic<bool>& stop) {
   const auto start = Clock::now();
   const auto is_over = [&] { return stop || (plan.time && Clock::now() - start >= *plan.time); };
-  TrialResult sum;
-  Rounds rounds(plan);
-  const std::uint64_t of = rounds.cases();
+  const std::uint64_t of = cases_of_shard(plan);
   std::uint64_t cases = 0;
-  auto last_save = start;
-
+  Rounds rounds(plan);
   for (auto wave = rounds.next_wave(); !wave.empty() && !is_over(); wave = rounds.next_wave()) {
     std::vector<TrialResult> results(wave.size());
     in_parallel(plan.jobs, wave.size(), [&](std::size_t i) {
       if (!stop) results[i] = try_block(plan, wave[i], subjects);
     });
     if (stop) break;  // a wave counts as a whole or not at all
+    TrialResult sum;
     for (std::size_t i = 0; i < wave.size(); ++i) {
       sum.merge(std::move(results[i]));
       cases += wave[i].last - wave[i].first;
     }
-    if (Clock::now() - last_save >= save_interval) {
-      save(sum.statistics, sum.findings);
-      sum.findings.clear();
-      last_save = Clock::now();
-    }
-    progress({cases, of, Clock::now() - start, sum.statistics});
+    sink(std::move(sum), {cases, of, Clock::now() - start});
   }
-  save(sum.statistics, sum.findings);
-  return sum.statistics;
 }
 
 }  // namespace nearmiss

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "fuzz/families.hpp"
@@ -26,22 +25,19 @@ struct CampaignPlan {
   std::uint64_t shards = 1;
 };
 
-/// What is known while a campaign runs.
+/// How far a campaign is.
 struct CampaignProgress {
   std::uint64_t cases = 0;  ///< done in this shard
   std::uint64_t of = 0;     ///< to be done in this shard; 0 where time decides
   std::chrono::duration<double> elapsed{};
-  const Statistics& statistics;
 };
 
-/// Takes the statistics so far and what was found since the last call; called about once a second and at the
-/// end. What it has taken is what stays if the campaign is interrupted.
-using CampaignSave = std::function<void(const Statistics&, std::span<const Finding>)>;
+/// Takes what some more blocks gave, in order; called every second or so.
+using CampaignSink = std::function<void(TrialResult&&, const CampaignProgress&)>;
 
 /// Runs a plan until it is done, its time is over or `stop` is set. Round k of a campaign is the k-th block
 /// of every family; shard i of n does the rounds k with k mod n = i.
-Statistics run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSave& save,
-                        const std::function<void(const CampaignProgress&)>& progress,
-                        const std::atomic<bool>& stop);
+void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
+                  const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

@@ -15,7 +15,7 @@ struct DoubleWord {
   double lo = 0;
 
   DoubleWord() = default;
-  DoubleWord(double value) : hi(value) {}  // NOLINT: a double is one
+  DoubleWord(double value) : hi(value) {}
   DoubleWord(double high, double low) : hi(high), lo(low) {}
 
   explicit operator double() const { return hi; }

@@ -61,51 +61,49 @@ bool one_sign(const Polynomial& F) {
   return s != CGAL::ZERO && CGAL::sign(b1) == s && CGAL::sign(b2) == s && CGAL::sign(b3) == s;
 }
 
-/// Times in [0, 1], ascending, of which the earliest collision is one, if there is any.
+/// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any; or it is t = 0.
 ///
-/// Where F is not identically zero these are its roots: only then are the points coplanar. Where it is, they
-/// are 0 and all roots of all predicate polynomials. For the set of colliding times is closed, so it has a
-/// least element t*; were t* neither 0 nor a root of a predicate that is not identically zero, no predicate
-/// would change its sign in a neighbourhood of t*, and there would be collisions before t*.
-std::vector<Time> candidate_times(const Predicates& predicates) {
-  std::vector<Time> times;
+/// Where F is not identically zero it is F alone: only then are the points coplanar. Where it is, they are all
+/// predicate polynomials. For the set of colliding times is closed, so it has a least element t*; were t*
+/// neither 0 nor a root of a predicate that is not identically zero, no predicate would change its sign in a
+/// neighbourhood of t*, and there would be collisions before t*.
+std::vector<const Polynomial*> deciding_polynomials(const Predicates& predicates) {
   if (!is_zero(predicates.F)) {
-    if (!one_sign(predicates.F)) add_roots(predicates.F, times);
-    return times;
+    if (one_sign(predicates.F)) return {};
+    return {&predicates.F};
   }
-  times.emplace_back(0);
-  const auto add_all = [&](const Vector& v) {
-    for (const Polynomial& p : v) add_roots(p, times);
+  std::vector<const Polynomial*> deciding;
+  const auto add = [&](const Vector& v) {
+    for (const Polynomial& p : v) deciding.push_back(&p);
   };
-  add_all(predicates.N);
-  for (const Vector& weight : predicates.weights) add_all(weight);
+  add(predicates.N);
+  for (const Vector& weight : predicates.weights) add(weight);
   for (const OnSegment& on : predicates.segments) {
-    add_all(on.cross);
-    add_roots(on.dot, times);
+    add(on.cross);
+    deciding.push_back(&on.dot);
   }
-  std::sort(times.begin(), times.end());
-  return times;
+  return deciding;
 }
 
 /// Whether there is a collision at all: t = 0 first, then the roots of one polynomial after the other.
 bool any_collision(const Query& query) {
   const Predicates predicates(query);
-  const auto meets_at_root = [&](const Polynomial& p) {
+  if (is_zero(predicates.F) && meet_at(predicates, Time(0))) return true;
+  const auto deciding = deciding_polynomials(predicates);
+  return std::any_of(deciding.begin(), deciding.end(), [&](const Polynomial* p) {
     std::vector<Time> roots;
-    add_roots(p, roots);
+    add_roots(*p, roots);
     return std::any_of(roots.begin(), roots.end(), [&](const Time& t) { return meet_at(predicates, t); });
-  };
-  if (!is_zero(predicates.F)) return !one_sign(predicates.F) && meets_at_root(predicates.F);
-  const auto meets_at_any = [&](const Vector& v) { return std::any_of(v.begin(), v.end(), meets_at_root); };
-  return meet_at(predicates, Time(0)) || meets_at_any(predicates.N) ||
-         std::any_of(predicates.weights.begin(), predicates.weights.end(), meets_at_any) ||
-         std::any_of(predicates.segments.begin(), predicates.segments.end(),
-                     [&](const OnSegment& on) { return meets_at_any(on.cross) || meets_at_root(on.dot); });
+  });
 }
 
 std::optional<Time> first_collision(const Query& query) {
   const Predicates predicates(query);
-  for (const Time& t : candidate_times(predicates))
+  std::vector<Time> times;
+  if (is_zero(predicates.F)) times.emplace_back(0);
+  for (const Polynomial* p : deciding_polynomials(predicates)) add_roots(*p, times);
+  std::sort(times.begin(), times.end());
+  for (const Time& t : times)
     if (meet_at(predicates, t)) return t;
   return std::nullopt;
 }

@@ -1,6 +1,5 @@
 #include "oracle/subjects.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "ccd/error.hpp"
@@ -43,12 +42,9 @@ std::vector<SubjectInfo> all_subjects() {
 
 std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path, std::optional<double> given_bound) {
   if (name_or_path == exact_info.name) return std::make_unique<Exact>();
-  const auto known = subjects();
-  const bool is_known =
-      std::any_of(known.begin(), known.end(), [&](const auto& info) { return info.name == name_or_path; });
-  if (!is_known && name_or_path.find('/') == std::string_view::npos)
-    refuse_subject(name_or_path, all_subjects());
-  return make_subject(name_or_path, given_bound);
+  auto subject = try_make_subject(name_or_path, given_bound);
+  if (!subject) refuse_subject(name_or_path, all_subjects());
+  return subject;
 }
 
 }  // namespace nearmiss

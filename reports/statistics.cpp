@@ -11,9 +11,13 @@ double Histogram::border(std::size_t i) {
 
 void Histogram::add(double ratio) {
   // The borders decide, not a logarithm, so that a ratio of 1 is never counted below the bound.
-  std::size_t bin = 0;
-  while (bin + 1 < bin_count && ratio >= border(bin + 1)) ++bin;
-  ++bins[bin];
+  static const auto inner_borders = [] {
+    std::array<double, bin_count - 1> borders{};
+    for (std::size_t i = 0; i < borders.size(); ++i) borders[i] = border(i + 1);
+    return borders;
+  }();
+  const auto above = std::upper_bound(inner_borders.begin(), inner_borders.end(), ratio);
+  ++bins[static_cast<std::size_t>(above - inner_borders.begin())];
 }
 
 void Histogram::merge(const Histogram& other) {

@@ -153,7 +153,7 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
-Store::Store(const fs::path& file, const RunInfo& run) {
+Store::Store(const fs::path& file, std::span<const RunInfo> runs) {
   if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
   try {
     database_ = std::make_unique<Database>(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
@@ -164,7 +164,7 @@ Store::Store(const fs::path& file, const RunInfo& run) {
     db.exec(
         fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}; INSERT INTO oracle VALUES (0, 0);",
                     schema_version, application_id));
-    write_runs(db, std::span(&run, 1));
+    write_runs(db, runs);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     fail(file, error);
@@ -271,22 +271,11 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
   const fs::path part = file.string() + ".part";
   fs::remove(part);
   try {
-    Store store(part, {});
+    Store store(part, campaign.runs);
     store.save(campaign.statistics, campaign.findings);
   } catch (...) {
     fs::remove(part);
     throw;
-  }
-  try {
-    // The store's own run stands for none: a merged file has those of its inputs.
-    SQLite::Database db(part.string(), SQLite::OPEN_READWRITE);
-    SQLite::Transaction transaction(db);
-    db.exec("DELETE FROM run");
-    write_runs(db, campaign.runs);
-    transaction.commit();
-  } catch (const SQLite::Exception& error) {
-    fs::remove(part);
-    fail(file, error);
   }
   fs::rename(part, file);
 }

@@ -15,7 +15,7 @@ namespace nearmiss {
 class Store {
  public:
   /// Makes a new file. Throws Error where there is one already or it cannot be made.
-  Store(const std::filesystem::path& file, const RunInfo& run);
+  Store(const std::filesystem::path& file, std::span<const RunInfo> runs);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();

@@ -35,19 +35,27 @@ void add_jobs_option(CLI::App& command, int& jobs) {
       ->type_name("J");
 }
 
-void add_kind_option(CLI::App& command, std::string& kind) {
+void add_bound_option(CLI::App& command, std::string& bound) {
+  command.add_option("--bound", bound, "Use this B for every pair, in place of each pair's own")
+      ->type_name("B");
+}
+
+void QueryInput::add_to(CLI::App& command) {
   command
       .add_option("--kind", kind, "vt: vertex x0 against triangle x1 x2 x3; ee: edge x0x1 against edge x2x3")
       ->required()
       ->check(CLI::IsMember({"vt", "ee"}));
+  command.add_option("FILE", file, "One query a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1")
+      ->capture_default_str();
 }
 
-void read_queries(const std::string& file, Kind kind, const std::function<void(const Query&)>& sink) {
+void QueryInput::read(const std::function<void(const Query&)>& sink) const {
+  const Kind of = parse_kind(kind, "--kind");
   const auto each = [&](const Case& read) { sink(read.query); };
-  if (file == "-") return read_query_lines(std::cin, kind, "stdin", each);
+  if (file == "-") return read_query_lines(std::cin, of, "stdin", each);
   std::ifstream in(file);
   if (!in) throw Error(fmt::format("{}: cannot be read", file));
-  read_query_lines(in, kind, file, each);
+  read_query_lines(in, of, file, each);
 }
 
 Subjects make_subjects(const std::vector<std::string>& names, std::optional<double> given_bound) {
@@ -99,7 +107,8 @@ std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text) {
   return {shard, shards};
 }
 
-double parse_bound(std::string_view text) {
+std::optional<double> parse_bound(std::string_view text) {
+  if (text.empty()) return std::nullopt;
   const double bound = parse_number(text, "--bound");
   if (!(bound > 0)) throw Error(fmt::format("--bound: found '{}', expected a positive number", text));
   return bound;

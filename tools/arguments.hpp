@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,11 +21,17 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 /// --jobs J, all cores where it is not given.
 void add_jobs_option(CLI::App& command, int& jobs);
 
-/// --kind vt|ee, required.
-void add_kind_option(CLI::App& command, std::string& kind);
+/// --bound B: one bound for every pair.
+void add_bound_option(CLI::App& command, std::string& bound);
 
-/// FILE|- with one query a line; opens it and passes every query on, in order. Throws Error.
-void read_queries(const std::string& file, Kind kind, const std::function<void(const Query&)>& sink);
+/// --kind vt|ee and FILE|-, one query a line.
+struct QueryInput {
+  std::string kind, file = "-";
+
+  void add_to(CLI::App& command);
+  /// Passes every query on, in order. Throws Error.
+  void read(const std::function<void(const Query&)>& sink) const;
+};
 
 /// The subjects by these names. Throws Error, also where two have the same name.
 Subjects make_subjects(const std::vector<std::string>& names,
@@ -39,7 +46,7 @@ std::chrono::duration<double> parse_duration(std::string_view text);
 /// "0/4" .. "3/4": this shard, and how many there are. Throws Error.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
 
-/// A positive finite number. Throws Error.
-double parse_bound(std::string_view text);
+/// A positive finite number; nothing for "". Throws Error.
+std::optional<double> parse_bound(std::string_view text);
 
 }  // namespace nearmiss::tools

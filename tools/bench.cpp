@@ -13,7 +13,6 @@
 #include "oracle/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
-#include "tools/terminal.hpp"
 
 namespace nearmiss::tools {
 

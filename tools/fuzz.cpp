@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "ccd/error.hpp"
 #include "fuzz/campaign.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
@@ -24,14 +23,14 @@ struct Options {
   RecordOptions record;
 };
 
-std::string show(const CampaignProgress& now) {
+std::string show(const CampaignProgress& now, const Statistics& statistics) {
   const double seconds = now.elapsed.count();
   const double rate = static_cast<double>(now.cases) / seconds;
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
   line += fmt::format(" cases, {:.0f}/s, {} false negatives, {} refuted bounds", rate,
-                      with_separators(now.statistics.false_negatives()),
-                      with_separators(now.statistics.refuted_bounds()));
+                      with_separators(statistics.false_negatives()),
+                      with_separators(statistics.refuted_bounds()));
   const std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
   return line + (now.of != 0 ? ", " + show_duration(left) + " left" : ", " + show_duration(now.elapsed));
 }
@@ -57,11 +56,9 @@ int run(const Options& options) {
     Progress progress;
     run_campaign(
         plan, subjects,
-        [&](const Statistics& statistics, std::span<const Finding> findings) {
-          record.replace(statistics, findings);
-        },
-        [&](const CampaignProgress& now) {
-          if (progress.due()) progress.show(show(now));
+        [&](TrialResult&& result, const CampaignProgress& now) {
+          record.add(std::move(result));
+          if (progress.due()) progress.show(show(now, record.statistics()));
         },
         stop);
   }

@@ -12,7 +12,8 @@ namespace nearmiss::tools {
 namespace {
 
 struct Options {
-  std::string kind, method = "exact", file = "-";
+  QueryInput input;
+  std::string method = "exact";
   bool toi = false;
   bool distance = false;
 };
@@ -59,7 +60,7 @@ void add_oracle(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "oracle", "Decide queries in exact arithmetic: a line each, 1 for a collision, 0 for none");
-  add_kind_option(*command, options->kind);
+  options->input.add_to(*command);
   command
       ->add_option(
           "--method", options->method,
@@ -71,17 +72,13 @@ void add_oracle(CLI::App& app, int& exit_code) {
   command->add_flag("--toi", options->toi,
                     "Add 'lo hi' around the earliest time of contact (inf inf where there is none)");
   command->add_flag("--distance", options->distance, "Add 'lo hi' around the smallest distance over [0, 1]");
-  command
-      ->add_option("FILE", options->file, "One query a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1")
-      ->capture_default_str();
   command->footer(
       "\nNumbers are decimal or C hex floats, separated by blanks or commas; '#' starts a comment.\n"
       "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss oracle --kind vt --toi");
   command->callback([options, &exit_code] {
     try {
-      read_queries(options->file, parse_kind(options->kind, "--kind"),
-                   [&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
+      options->input.read([&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
     } catch (const Disagreement& disagreement) {
       fmt::print(stderr, "nearmiss: {}\n", disagreement.what());
       exit_code = exit_found;

@@ -48,7 +48,7 @@ Record::Record(RecordOptions options, RunInfo run) : options_(std::move(options)
   const auto folder = options_.json.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
-  if (!options_.db.empty()) store_.emplace(options_.db, run_);
+  if (!options_.db.empty()) store_.emplace(options_.db, std::span(&run_, 1));
 }
 
 Record::~Record() {
@@ -62,12 +62,6 @@ void Record::add(TrialResult&& result) {
   statistics_.merge(result.statistics);
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(unsaved_));
   if (std::chrono::steady_clock::now() - last_save_ >= save_interval) save();
-}
-
-void Record::replace(const Statistics& statistics, std::span<const Finding> new_findings) {
-  statistics_ = statistics;
-  unsaved_.insert(unsaved_.end(), new_findings.begin(), new_findings.end());
-  save();
 }
 
 void Record::save() {

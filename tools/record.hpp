@@ -2,9 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,8 +36,6 @@ class Record {
 
   /// Adds a result to what is held; saved now and then.
   void add(TrialResult&& result);
-  /// Takes the statistics so far in place of those held, and new findings.
-  void replace(const Statistics& statistics, std::span<const Finding> new_findings);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
   /// Saves, writes the JSON file, prints the summary and the first findings, and gives the exit code.

@@ -33,8 +33,7 @@ std::string family_of(const std::string& name) {
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  const auto given = options.bound.empty() ? std::nullopt : std::optional(parse_bound(options.bound));
-  const Subjects subjects = make_subjects(options.subjects, given);
+  const Subjects subjects = make_subjects(options.subjects, parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // all is read once before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
@@ -68,8 +67,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
       ->required();
   add_subject_option(*command, options->subjects);
-  command->add_option("--bound", options->bound, "Use this B for every pair, in place of each pair's own")
-      ->type_name("B");
+  add_bound_option(*command, options->bound);
   add_jobs_option(*command, options->jobs);
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");

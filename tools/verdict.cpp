@@ -1,6 +1,8 @@
 // nearmiss verdict: one subject's answers.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "corpus/query_text.hpp"
 #include "oracle/subjects.hpp"
 #include "tools/arguments.hpp"
@@ -11,14 +13,13 @@ namespace nearmiss::tools {
 namespace {
 
 struct Options {
-  std::string kind, subject = "wang", bound, file = "-";
+  QueryInput input;
+  std::string subject = "wang", bound;
 };
 
 void run(const Options& options) {
-  const Kind kind = parse_kind(options.kind, "--kind");
-  const auto given = options.bound.empty() ? std::nullopt : std::optional(parse_bound(options.bound));
-  const auto subject = make_any_subject(options.subject, given);
-  read_queries(options.file, kind, [&](const Query& query) {
+  const auto subject = make_any_subject(options.subject, parse_bound(options.bound));
+  options.input.read([&](const Query& query) {
     const Verdict verdict = subject->decide(query);
     if (verdict.hit)
       fmt::print("1 {} {}\n", stage_names[static_cast<std::size_t>(verdict.stage)],
@@ -34,14 +35,10 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "verdict", "Decide queries by one subject: a line each, 0, or 1 with the accepting stage and the time");
-  add_kind_option(*command, options->kind);
+  options->input.add_to(*command);
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
-  command->add_option("--bound", options->bound, "Use this B for every pair, in place of each pair's own")
-      ->type_name("B");
-  command
-      ->add_option("FILE", options->file, "One query a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1")
-      ->capture_default_str();
+  add_bound_option(*command, options->bound);
   command->footer(
       "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss verdict --kind vt --subject wang");

@@ -25,14 +25,21 @@ Ran run(const CampaignPlan& plan, const std::atomic<bool>& stop = false) {
   subjects.push_back(make_subject("basic"));
   subjects.push_back(make_subject("wang"));
   Ran run;
-  run.statistics = run_campaign(
+  std::uint64_t cases = 0;
+  std::uint64_t of = 0;
+  run_campaign(
       plan, subjects,
-      [&](const Statistics& statistics, std::span<const Finding> findings) {
+      [&](TrialResult&& result, const CampaignProgress& now) {
         ++run.saves;
-        run.statistics = statistics;
-        run.findings.insert(run.findings.end(), findings.begin(), findings.end());
+        run.statistics.merge(result.statistics);
+        run.findings.insert(run.findings.end(), result.findings.begin(), result.findings.end());
+        cases = now.cases;
+        of = now.of;
       },
-      [](const CampaignProgress&) {}, stop);
+      stop);
+  if (plan.cases != 0) {
+    EXPECT_EQ(cases, of);  // what was announced is what was done
+  }
   for (auto& [key, counts] : run.statistics.counts) counts.nanoseconds = 0;  // the one thing that varies
   return run;
 }

@@ -50,7 +50,8 @@ Finding some_finding(const std::string& provenance) {
 TEST_F(StoreTest, GivesBackWhatWasSaved) {
   const Finding finding = some_finding("uniform:1:5");
   {
-    Store store(file("a.db"), {{"command", "fuzz"}, {"seed", "1"}});
+    const RunInfo run{{"command", "fuzz"}, {"seed", "1"}};
+    Store store(file("a.db"), std::span(&run, 1));
     store.save(some_statistics("wang"), {});
     store.save(some_statistics("wang"), std::span(&finding, 1));
   }
