@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "ccd/query.hpp"
 
@@ -11,26 +13,50 @@ namespace detail {
 
 // Whether one primitive is wholly on one side of the other in the given coordinate at t = 0 and, on that
 // same side, at t = 1. Every vertex difference is then of one sign at both ends, so, being linear, always;
-// and so is every convex combination of them: the primitives never meet.
+// and so is every convex combination of them: the primitives never meet. `coordinate(time, vertex)` is a
+// number, or many side by side, and so is the answer.
 template <Kind kind, class Coordinate>
-bool separated(const Query& query, const Coordinate& coordinate) {
-  bool above = true;
-  bool below = true;
-  for (const int time : {0, 12}) {
-    const double* x = query.x.data() + time;
-    const double s0 = coordinate(x);
-    const double s1 = coordinate(x + 3);
-    const double s2 = coordinate(x + 6);
-    const double s3 = coordinate(x + 9);
-    if constexpr (kind == Kind::vertex_triangle) {
-      above &= s0 > std::max(std::max(s1, s2), s3);
-      below &= s0 < std::min(std::min(s1, s2), s3);
-    } else {
-      above &= std::min(s0, s1) > std::max(s2, s3);
-      below &= std::max(s0, s1) < std::min(s2, s3);
-    }
-  }
+[[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
+  using std::max;
+  using std::min;
+  const auto extents = [&](std::size_t time) {  // of the first primitive and of the second
+    const auto s0 = coordinate(time, 0);
+    const auto s1 = coordinate(time, 1);
+    const auto s2 = coordinate(time, 2);
+    const auto s3 = coordinate(time, 3);
+    if constexpr (kind == Kind::vertex_triangle)
+      return std::array{s0, s0, min(min(s1, s2), s3), max(max(s1, s2), s3)};
+    else
+      return std::array{min(s0, s1), max(s0, s1), min(s2, s3), max(s2, s3)};
+  };
+  const auto start = extents(0);
+  const auto end = extents(1);
+  const auto above = (start[0] > start[3]) & (end[0] > end[3]);
+  const auto below = (start[1] < start[2]) & (end[1] < end[2]);
   return above | below;
+}
+
+/// Across the axes x, y, z; `x(time, vertex, k)` are the points.
+template <Kind kind, class Points>
+auto separated_across_axis(const Points& x) {
+  const auto axis = [&](std::size_t k) {
+    return separated<kind>([&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); });
+  };
+  return axis(0) | axis(1) | axis(2);
+}
+
+/// Across the diagonals x ± y, x ± z, y ± z.
+template <Kind kind, class Points>
+auto separated_across_diagonal(const Points& x) {
+  const auto sum = [&](std::size_t k, std::size_t l) {
+    return separated<kind>(
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) + x(time, vertex, l); });
+  };
+  const auto difference = [&](std::size_t k, std::size_t l) {
+    return separated<kind>(
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) - x(time, vertex, l); });
+  };
+  return sum(0, 1) | sum(0, 2) | sum(1, 2) | difference(0, 1) | difference(0, 2) | difference(1, 2);
 }
 
 }  // namespace detail
@@ -43,17 +69,10 @@ bool separated(const Query& query, const Coordinate& coordinate) {
 /// an infinite sum is above every finite one rightly, and not above another infinite one).
 template <Kind kind>
 bool separated_by_plane(const Query& query) {
-  const auto axis = [&](int k) {
-    return detail::separated<kind>(query, [k](const double* x) { return x[k]; });
+  const auto x = [&](std::size_t time, std::size_t vertex, std::size_t k) {
+    return query.x[12 * time + 3 * vertex + k];
   };
-  if (axis(0) | axis(1) | axis(2)) return true;
-  const auto sum = [&](int k, int l) {
-    return detail::separated<kind>(query, [k, l](const double* x) { return x[k] + x[l]; });
-  };
-  const auto difference = [&](int k, int l) {
-    return detail::separated<kind>(query, [k, l](const double* x) { return x[k] - x[l]; });
-  };
-  return sum(0, 1) | sum(0, 2) | sum(1, 2) | difference(0, 1) | difference(0, 2) | difference(1, 2);
+  return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
 }
 
 }  // namespace nearmiss

@@ -15,10 +15,10 @@ namespace nearmiss {
 
 namespace {
 
-/// The oracle's answers to one query, each asked for at most once.
+/// What the oracle says of one query, beyond its decision asked for at most once.
 class Truth {
  public:
-  explicit Truth(const Query& query) : query_(query), decision_(decide(query)) {}
+  Truth(const Query& query, const Decision& decision) : query_(query), decision_(decision) {}
 
   [[nodiscard]] bool collision() const { return decision_.collision; }
 
@@ -116,10 +116,12 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch) {
     counts.back()->nanoseconds += answers.back().nanoseconds;
   }
 
+  std::vector<Decision> decisions(batch.queries.size());
+  decide(batch.queries, decisions);
   const auto wang = make_subject("wang");  // the measure for subjects that claim no bound
   for (std::size_t i = 0; i < batch.queries.size(); ++i) {
     const Query& query = batch.queries[i];
-    Truth truth(query);
+    Truth truth(query, decisions[i]);
     const auto find = [&](Finding::What what, const std::string& subject, double ratio) {
       result.findings.push_back({what, subject, batch.family, query, batch.provenance(i), ratio});
     };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "oracle/double_word.hpp"
 
@@ -17,6 +18,18 @@ inline constexpr double roundoff = 0x1p-53;
 template <>
 inline constexpr double roundoff<DoubleWord> = 0x1p-103;
 
+/// What bounds, magnitudes and times are computed in: double, or a double for each of many lanes.
+template <class Real>
+struct BoundOf {
+  using Type = double;
+};
+template <class Real>
+using Bound = typename BoundOf<Real>::Type;
+
+/// A number as its bound's type has it.
+inline double approximate(double x) { return x; }
+inline double approximate(const DoubleWord& x) { return x.hi; }
+
 /// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 where that is not
 /// sure. A NaN or an infinite error makes nothing sure. (A double word's upper half is within a factor of 1 ±
 /// 2^-53 of it: `error` has room for that.)
@@ -25,8 +38,8 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
   bool positive = true;
   bool negative = true;
   for (const Real& x : numbers) {
-    positive &= static_cast<double>(x) > error;
-    negative &= static_cast<double>(x) < -error;
+    positive &= approximate(x) > error;
+    negative &= approximate(x) < -error;
   }
   return positive ? 1 : negative ? -1 : 0;
 }
@@ -35,20 +48,24 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
 /// value and every coefficient on a part of [0, 1] that the functions below compute.
 template <class Real, std::size_t n>
 struct Bernstein {
-  std::array<Real, n> b;
-  double error;
+  using Bound = certified::Bound<Real>;
 
-  [[nodiscard]] double at(double t) const {
+  std::array<Real, n> b;
+  Bound error;
+
+  [[nodiscard]] Bound at(const Bound& t) const {
     std::array<Real, n> row = b;
     const Step step(t);
     for (std::size_t left = n - 1; left > 0; --left) step.take(row, left);
-    return static_cast<double>(row[0]);
+    return approximate(row[0]);
   }
 
   /// The coefficients on [lo, hi]: the polynomial is in their convex hull there. Coefficient i is the value
   /// of the polar form at n - 1 - i times lo and i times hi, so each is n - 1 levels of de Casteljau from b.
-  [[nodiscard]] std::array<Real, n> on(double lo, double hi) const {
-    if (lo == 0 && hi == 1) return b;
+  [[nodiscard]] std::array<Real, n> on(const Bound& lo, const Bound& hi) const {
+    if constexpr (std::is_same_v<Bound, double>) {
+      if (lo == 0 && hi == 1) return b;
+    }
     const Step to_lo(lo);
     const Step to_hi(hi);
     std::array<Real, n> part;
@@ -78,11 +95,19 @@ struct Bernstein {
   /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, each
   /// b_i within `error`: quicker, and as good where h is small.
   [[nodiscard]] int sign_near(double t, double h) const {
-    double steepest = 0;
-    for (std::size_t i = 0; i + 1 < n; ++i)
-      steepest = std::max(steepest, std::abs(static_cast<double>(b[i + 1]) - static_cast<double>(b[i])));
-    const double spread = 1.01 * (n - 1) * h * (steepest + 3 * error);
-    return common_sign(std::array<double, 1>{at(t)}, 1.01 * (error + spread));
+    return common_sign(std::array<double, 1>{at(t)}, error_near(h));
+  }
+
+  /// What the value at t has to exceed for that. The ends of [t - h, t + h] in [0, 1] may have been rounded:
+  /// 2^-53 more.
+  [[nodiscard]] Bound error_near(const Bound& h) const {
+    using std::abs;
+    using std::max;
+    Bound steepest = abs(approximate(b[1]) - approximate(b[0]));
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      steepest = max(steepest, Bound(abs(approximate(b[i + 1]) - approximate(b[i]))));
+    const Bound spread = 1.01 * (n - 1) * (h + 0x1p-53) * (steepest + 3 * error);
+    return 1.01 * (error + spread);
   }
 
  private:
@@ -90,7 +115,7 @@ struct Bernstein {
   struct Step {
     Real t, s;
 
-    explicit Step(double time) : t(time), s(Real(1) - t) {}
+    explicit Step(const Bound& time) : t(time), s(Real(1) - t) {}
     [[nodiscard]] Real between(const Real& x, const Real& y) const { return s * x + t * y; }
     /// Replaces row[0 .. count] by count values between neighbours.
     void take(std::array<Real, n>& row, std::size_t count) const {

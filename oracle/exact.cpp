@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "oracle/box.hpp"
 #include "oracle/filter.hpp"
@@ -127,6 +128,16 @@ Decision decide(const Query& query) {
   if (!boxes_meet(query)) return {false, FilterStage::boxes};
   const FilterStage stage = filter(query);
   return {stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage), stage};
+}
+
+void decide(std::span<const Query> queries, std::span<Decision> decisions) {
+  std::vector<FilterStage> stages(queries.size());
+  filter(queries, stages);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const FilterStage stage = boxes_meet(queries[i]) ? stages[i] : FilterStage::boxes;
+    decisions[i] = {stage == FilterStage::undecided ? collides_exactly(queries[i]) : is_collision(stage),
+                    stage};
+  }
 }
 
 bool collides(const Query& query) { return decide(query).collision; }

@@ -37,6 +37,7 @@ FilterStage search_in_double_words(const Query& query) {
 
 FilterStage filter(const Query& query) {
   using namespace certified;
+  if (!is_finite(query)) return FilterStage::undecided;
   const bool separated = query.kind == Kind::vertex_triangle
                              ? separated_by_plane<Kind::vertex_triangle>(query)
                              : separated_by_plane<Kind::edge_edge>(query);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "ccd/query.hpp"
@@ -31,8 +32,20 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
 }
 
-/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided.
-/// Rounds to nearest.
+/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided, as it
+/// does where a coordinate is not finite. Rounds to nearest.
 FilterStage filter(const Query& query);
+
+/// Instruction sets of x86-64 processors by which many queries can be decided at once.
+enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
+
+/// Whether this machine has them.
+bool has(Instructions instructions);
+/// The widest ones that this machine has.
+Instructions widest_instructions();
+
+/// Decides many queries, of both kinds; the same answers whatever the instructions.
+void filter(std::span<const Query> queries, std::span<FilterStage> stages,
+            Instructions instructions = widest_instructions());
 
 }  // namespace nearmiss

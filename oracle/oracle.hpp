@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "ccd/query.hpp"
 #include "oracle/filter.hpp"
@@ -22,6 +23,10 @@ struct Decision {
 
 /// Decides by the swept boxes, the certified filter, and, where these leave it undecided, exact arithmetic.
 Decision decide(const Query& query);
+
+/// The same for many queries of both kinds, which the filter takes side by side. A stage may be another one than
+/// for a query alone, the answer may not.
+void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 /// Whether the two closed primitives share a point at some t in [0, 1], exactly, for every finite query:
 /// degenerate, planar, huge and subnormal ones included.

@@ -58,16 +58,17 @@ using Vec = std::array<Real, 3>;
 template <class Real>
 struct Motion {
   Vec<Real> start, end;
-  Vec<double> magnitude;  ///< largest, by component, of both ends
+  Vec<Bound<Real>> magnitude;  ///< largest, by component, of both ends
   bool rounded_once;  ///< every component is within a factor of 1 ± U of exact: then `error` is not given
-  Vec<double> error;  ///< of both ends, by component
+  Vec<Bound<Real>> error;  ///< of both ends, by component
 };
 
 template <class Real>
-Vec<double> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
-  Vec<double> m;
-  for (std::size_t k = 0; k < 3; ++k)
-    m[k] = std::max(std::abs(static_cast<double>(v[k])), std::abs(static_cast<double>(w[k])));
+Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
+  using std::abs;
+  using std::max;
+  Vec<Bound<Real>> m;
+  for (std::size_t k = 0; k < 3; ++k) m[k] = max(abs(approximate(v[k])), abs(approximate(w[k])));
   return m;
 }
 
@@ -115,15 +116,16 @@ Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
 
 /// The sum of the magnitudes of both products in component k of p × q, and what their factors' errors add to
 /// it.
+template <class Real>
 struct CrossBound {
-  double w, l;
+  Bound<Real> w, l;
 };
 
 template <class Real>
-CrossBound cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
+CrossBound<Real> cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
   const std::size_t i = (k + 1) % 3;
   const std::size_t j = (k + 2) % 3;
-  const double w = p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i];
+  const Bound<Real> w = p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i];
   if (p.rounded_once && q.rounded_once) return {w, 2.01 * roundoff<Real> * w};
   const auto miss = [&](std::size_t m, std::size_t n) {
     return p.magnitude[m] * q.error[n] + q.magnitude[n] * p.error[m] + p.error[m] * q.error[n];
@@ -141,14 +143,17 @@ Real cross_component(const Vec<Real>& v, const Vec<Real>& w, std::size_t k) {
 /// Component k of p × q.
 template <class Real>
 Bernstein<Real, 3> cross_component(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
-  const CrossBound bound = cross_bound(p, q, k);
+  const CrossBound<Real> bound = cross_bound(p, q, k);
   return {{cross_component(p.start, q.start, k),
            Real(0.5) * (cross_component(p.start, q.end, k) + cross_component(p.end, q.start, k)),
            cross_component(p.end, q.end, k)},
           10 * roundoff<Real> * bound.w + 1.01 * bound.l + underflow};
 }
 
-inline double third(double x) { return x / 3; }
+template <class Real>
+Real third(const Real& x) {
+  return x / 3;
+}
 inline DoubleWord third(const DoubleWord& x) {
   return x * DoubleWord{0x1.5555555555555p-2, 0x1.5555555555555p-56};  // 1/3 within 2^-108
 }
@@ -167,11 +172,11 @@ Bernstein<Real, 4> coplanarity(const Motion<Real>& a, const Motion<Real>& b, con
   const auto dot = [](const Vec<Real>& v, const Vec<Real>& w) {
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
   };
-  double M = 0;
-  double L = 0;
-  double A = 0;
+  Bound<Real> M = 0;
+  Bound<Real> L = 0;
+  Bound<Real> A = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const CrossBound bound = cross_bound(b, c, k);
+    const CrossBound<Real> bound = cross_bound(b, c, k);
     M += a.magnitude[k] * bound.w;
     if (!a.rounded_once) L += a.magnitude[k] * bound.l + a.error[k] * (bound.w + bound.l);
     A += a.magnitude[k];
@@ -256,8 +261,7 @@ template <class Real>
 std::size_t largest_component(Kind kind, const Patch<Real>& p, double t) {
   const auto near = [&](const Motion<Real>& m) {
     Vec<double> v;
-    for (std::size_t k = 0; k < 3; ++k)
-      v[k] = (1 - t) * static_cast<double>(m.start[k]) + t * static_cast<double>(m.end[k]);
+    for (std::size_t k = 0; k < 3; ++k) v[k] = (1 - t) * approximate(m.start[k]) + t * approximate(m.end[k]);
     return v;
   };
   const Vec<double> q = kind == Kind::vertex_triangle ? near(p.x21) : near(p.a);

@@ -27,7 +27,7 @@ class Search {
       : kind_(kind), whole_(whole), patch_(patch), F_(F), depth_(depth) {
     // The same cubic in powers of t: for guesses.
     std::array<double, 4> f;
-    for (std::size_t i = 0; i < 4; ++i) f[i] = static_cast<double>(F.b[i]);
+    for (std::size_t i = 0; i < 4; ++i) f[i] = approximate(F.b[i]);
     power_ = {f[3] - f[0] + 3 * (f[1] - f[2]), 3 * (f[0] + f[2] - 2 * f[1]), 3 * (f[1] - f[0]), f[0]};
   }
 
@@ -50,7 +50,7 @@ class Search {
     const auto exact_f = F_.on(lo, hi);
     if (common_sign(exact_f, F_.error) != 0) return FilterStage::weights;
     std::array<double, 4> f;
-    for (std::size_t i = 0; i < 4; ++i) f[i] = static_cast<double>(exact_f[i]);
+    for (std::size_t i = 0; i < 4; ++i) f[i] = approximate(exact_f[i]);
 
     const bool left_known = std::abs(f[0]) > F_.error;
     const bool right_known = std::abs(f[3]) > F_.error;

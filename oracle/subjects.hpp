@@ -14,7 +14,7 @@ namespace nearmiss {
 /// is no false positive at all: its distance bound is 0.
 std::vector<SubjectInfo> all_subjects();
 
-/// make_subject, and "exact".
+/// make_subject, "exact" and "exact-scalar".
 std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path,
                                           std::optional<double> given_bound = std::nullopt);
 

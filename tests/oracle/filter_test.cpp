@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <vector>
 
 #include "oracle/oracle.hpp"
 #include "oracle/patch.hpp"
@@ -252,6 +253,79 @@ TEST(Filter, DecidesPlainQueries) {
 TEST(Filter, LeavesWhatTouchesOnlyToExactArithmetic) {
   EXPECT_EQ(filter(testing::falling_vertex(0.5, 0.5, 1, -1)), FilterStage::undecided);
   EXPECT_EQ(filter(Query{}), FilterStage::undecided);
+}
+
+// --- many at once -----------------------------------------------------------------------------------------
+
+std::vector<FilterStage> filter_all(const std::vector<Query>& queries, Instructions instructions) {
+  std::vector<FilterStage> stages(queries.size());
+  filter(queries, stages, instructions);
+  return stages;
+}
+
+std::vector<Query> hard_queries(std::uint64_t seed, std::size_t count) {
+  Hard hard(seed);
+  std::vector<Query> queries(count);
+  for (Query& query : queries) query = hard.query();
+  return queries;
+}
+
+TEST(BatchFilter, AnswersAsTheFilterOfOneQuery) {
+  const auto queries = hard_queries(5, 200000);
+  const auto stages = filter_all(queries, widest_instructions());
+  std::size_t decided = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const FilterStage alone = filter(queries[i]);
+    if (stages[i] == FilterStage::undecided) {
+      EXPECT_EQ(alone, FilterStage::undecided);
+    }
+    if (alone == FilterStage::undecided || stages[i] == FilterStage::undecided) continue;
+    ++decided;
+    ASSERT_EQ(is_collision(stages[i]), is_collision(alone)) << i;
+  }
+  EXPECT_GT(decided, queries.size() / 2);
+}
+
+TEST(BatchFilter, NeverContradictsExactArithmetic) {
+  const auto queries = hard_queries(6, 30000);
+  const auto stages = filter_all(queries, widest_instructions());
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (stages[i] != FilterStage::undecided) {
+      ASSERT_EQ(is_collision(stages[i]), collides_exactly(queries[i])) << i;
+    }
+}
+
+TEST(BatchFilter, InstructionsChangeNothing) {
+  const auto queries = hard_queries(7, 100000);
+  const auto stages = filter_all(queries, Instructions::sse2);
+  for (const Instructions wider : {Instructions::avx2, Instructions::avx512})
+    if (has(wider)) {
+      EXPECT_EQ(filter_all(queries, wider), stages);
+    }
+}
+
+TEST(BatchFilter, TakesAnyNumberOfQueries) {
+  const auto queries = hard_queries(8, 300);
+  const auto stages = filter_all(queries, widest_instructions());
+  for (const std::size_t count : {0, 1, 7, 127, 128, 129, 300}) {
+    const std::vector<Query> some(queries.begin(), queries.begin() + static_cast<std::ptrdiff_t>(count));
+    EXPECT_EQ(filter_all(some, widest_instructions()),
+              std::vector(stages.begin(), stages.begin() + static_cast<std::ptrdiff_t>(count)));
+  }
+}
+
+TEST(Filter, LeavesWhatIsNotFinite) {
+  for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    std::vector<Query> queries;
+    for (std::size_t i = 0; i < 24; ++i) {
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, without its number i too
+      query.x[i] = c;
+      queries.push_back(query);
+      EXPECT_EQ(filter(query), FilterStage::undecided);
+    }
+    EXPECT_EQ(filter_all(queries, widest_instructions()),
+              std::vector(queries.size(), FilterStage::undecided));
+  }
 }
 
 TEST(Filter, OverflowMakesNothingSure) {

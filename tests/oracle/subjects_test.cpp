@@ -30,8 +30,8 @@ TEST(ExactSubject, RefusesWhatIsNotFinite) {
               ThrowsMessage<Error>(HasSubstr("not finite")));
 }
 
-TEST(AllSubjects, AreThoseOfTheCcdAndTheExactOne) {
-  EXPECT_EQ(all_subjects().size(), subjects().size() + 1);
+TEST(AllSubjects, AreThoseOfTheCcdAndTheExactOnes) {
+  EXPECT_EQ(all_subjects().size(), subjects().size() + 2);
   for (const SubjectInfo& info : all_subjects()) EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_THAT([] { make_any_subject("wong"); }, ThrowsMessage<Error>(HasSubstr("exact")));
 }
