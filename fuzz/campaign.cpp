@@ -59,7 +59,7 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjec
     batch.provenance = [&](std::size_t i) {
       return fmt::format("{}:{}:{}", block.family->name, plan.seed, first + 2 * i);
     };
-    if (!batch.queries.empty()) result.merge(hold_trial(subjects, batch));
+    if (!batch.queries.empty()) result.merge(hold_trial(subjects, batch, plan.comparison));
   }
   return result;
 }

@@ -20,6 +20,7 @@ struct CampaignPlan {
   std::uint64_t seed = 1;
   std::uint64_t cases = 0;  ///< in all, shared out evenly among the families; 0: until the time is over
   std::optional<std::chrono::duration<double>> time;
+  Comparison comparison;
   int jobs = 1;
   std::uint64_t shard = 0;  ///< this one of `shards`
   std::uint64_t shards = 1;

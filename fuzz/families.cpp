@@ -196,6 +196,13 @@ Query degenerate(Random& random, Kind kind) {
   return query;
 }
 
+/// Every coordinate an integer in -3 .. 3: coincidences of all sorts.
+Query small_integer(Random& random, Kind kind) {
+  Query query{.kind = kind};
+  for (double& c : query.x) c = random.integer(-3, 3);
+  return query;
+}
+
 constexpr std::array table{
     Family{"uniform", "start uniform in the unit cube, velocity in [-1, 1]^3: the paper's random test", false,
            uniform},
@@ -210,6 +217,8 @@ constexpr std::array table{
     Family{"small", "figures down to 1e-12 of their motion", false, small},
     Family{"sliver", "thin triangles and nearly parallel edges", false, sliver},
     Family{"planar", "everything stays in one plane: F is zero identically", false, planar},
+    Family{"small-integer", "coordinates are integers in -3 .. 3: touching, coplanar, coincident", false,
+           small_integer},
     Family{"degenerate", "small integers with coincident points and points at rest", false, degenerate},
 };
 

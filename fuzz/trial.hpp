@@ -1,6 +1,7 @@
 // A trial: subjects and the oracle decide the same queries, and their answers become statistics.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,10 +34,17 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
+/// Which queries all three answers of the oracle are asked about, beside those that its filter leaves undecided.
+struct Comparison {
+  std::uint64_t one_in = 64;  ///< so many, by a hash of the coordinates; at least 1
+  /// And where the filter decides, but would not with bounds of rounding errors 16 times as large.
+  bool near_bounds = false;
+};
+
 /// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, apart from the
 /// oracle. A false positive's distance is measured by the bound that the subject claims, or by that of wang
 /// for the same pair where it claims none; only a claimed bound can be refuted. Throws Error where a subject
 /// reports one, with the query's provenance.
-TrialResult hold_trial(const Subjects& subjects, const Batch& batch);
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
 
 }  // namespace nearmiss

@@ -10,8 +10,9 @@ constexpr std::size_t batch_queries = 1000;
 
 }  // namespace
 
-TrialStream::TrialStream(const Subjects& subjects, int jobs, const std::atomic<bool>& stop, Sink sink)
-    : subjects_(subjects), jobs_(jobs), stop_(stop), sink_(std::move(sink)) {}
+TrialStream::TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs,
+                         const std::atomic<bool>& stop, Sink sink)
+    : subjects_(subjects), comparison_(comparison), jobs_(jobs), stop_(stop), sink_(std::move(sink)) {}
 
 bool TrialStream::add(const std::string& family, const Query& query, std::optional<bool> truth,
                       std::string provenance) {
@@ -41,7 +42,7 @@ void TrialStream::hold_trials() {
   in_parallel(jobs_, full_.size(), [&](std::size_t i) {
     Pending& pending = full_[i];
     pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n]; };
-    if (!stop_) results[i] = hold_trial(subjects_, pending.batch);
+    if (!stop_) results[i] = hold_trial(subjects_, pending.batch, comparison_);
   });
   for (TrialResult& result : results) sink_(std::move(result));
   full_.clear();

@@ -20,7 +20,8 @@ class TrialStream {
   /// Takes the result of some batches, in order.
   using Sink = std::function<void(TrialResult&&)>;
 
-  TrialStream(const Subjects& subjects, int jobs, const std::atomic<bool>& stop, Sink sink);
+  TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs, const std::atomic<bool>& stop,
+              Sink sink);
 
   /// Takes a query; false once `stop` is set. Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth, std::string provenance);
@@ -38,6 +39,7 @@ class TrialStream {
   void hold_trials();
 
   const Subjects& subjects_;
+  Comparison comparison_;
   int jobs_;
   const std::atomic<bool>& stop_;
   Sink sink_;

@@ -11,13 +11,13 @@ Answers ask_all(const Query& query) { return ask_others(query, collides_exactly(
 
 Answers ask_others(const Query& query, bool exact) { return {exact, count_roots(query), root_parity(query)}; }
 
-bool is_sampled(const Query& query) {
+bool is_sampled(const Query& query, std::uint64_t one_in) {
   std::uint64_t hash = static_cast<std::uint64_t>(query.kind);
   for (const double c : query.x) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15;
     hash ^= hash >> 32;
   }
-  return hash % 64 == 0;
+  return hash % one_in == 0;
 }
 
 }  // namespace nearmiss

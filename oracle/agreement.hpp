@@ -1,6 +1,8 @@
 // The three answers side by side.
 #pragma once
 
+#include <cstdint>
+
 #include "ccd/query.hpp"
 #include "oracle/parity.hpp"
 #include "oracle/sturm.hpp"
@@ -30,8 +32,7 @@ Answers ask_all(const Query& query);
 /// The same where the first answer is known already.
 Answers ask_others(const Query& query, bool exact);
 
-/// Whether a query belongs to the fixed fraction, one in 64 by a hash of its coordinates, that is always
-/// asked of all three.
-bool is_sampled(const Query& query);
+/// Whether a query belongs to a fixed fraction, one in so many by a hash of its coordinates.
+bool is_sampled(const Query& query, std::uint64_t one_in);
 
 }  // namespace nearmiss

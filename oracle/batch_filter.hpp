@@ -23,6 +23,8 @@ namespace nearmiss::certified {
 template <int n, Kind kind>
 class BatchFilter {
  public:
+  explicit BatchFilter(double caution) : caution_(caution) {}
+
   /// Looks at those of the queries that are of its kind, at most batch_size; decides stages[i], which was
   /// `undecided`, or leaves it so.
   void run(const Query* queries, std::size_t count, FilterStage* stages, const Query* ahead) {
@@ -145,7 +147,8 @@ class BatchFilter {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const Patch<Real> p = patch(rows.pack(i));
-      const auto F = coplanarity(p.a, p.b, p.c);
+      auto F = coplanarity(p.a, p.b, p.c);
+      F.error = caution_ * F.error;
       const auto [positive, negative] = certain_signs(F.b, F.error);
       const Mask ends_known = (abs(F.b[0]) > F.error) & (abs(F.b[3]) > F.error);
       constexpr int one_sign = 1;
@@ -208,7 +211,7 @@ class BatchFilter {
           kind, {0, 1, turn(whole.a), turn(whole.b), turn(whole.c), turn(whole.x21), turn(whole.x31)}, 0);
       for (std::size_t w = 0; w < weight_count; ++w) {
         for (std::size_t c = 0; c < 3; ++c) weights.w[w].b[c].store(&W_[4 * w + c][i]);
-        weights.w[w].error.store(&W_[4 * w + 3][i]);
+        (caution_ * weights.w[w].error).store(&W_[4 * w + 3][i]);
       }
     }
   }
@@ -368,6 +371,7 @@ class BatchFilter {
     }
   }
 
+  double caution_;  ///< at least 1, the factor of all bounds
   const Query* queries_ = nullptr;
   const Query* ahead_ = nullptr;
   // By place in the list of the queries that are searched; a pack of lanes may reach beyond its end.
@@ -376,11 +380,12 @@ class BatchFilter {
 };
 
 template <int n>
-void filter_batch(const Query* queries, std::size_t count, FilterStage* stages, const Query* ahead) {
+void filter_batch(const Query* queries, std::size_t count, double caution, FilterStage* stages,
+                  const Query* ahead) {
   std::fill_n(stages, count, FilterStage::undecided);
-  BatchFilter<n, Kind::vertex_triangle> vertex_triangle;
+  BatchFilter<n, Kind::vertex_triangle> vertex_triangle(caution);
   vertex_triangle.run(queries, count, stages, ahead);
-  BatchFilter<n, Kind::edge_edge> edge_edge;
+  BatchFilter<n, Kind::edge_edge> edge_edge(caution);
   edge_edge.run(queries, count, stages, ahead);
 }
 

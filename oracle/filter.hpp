@@ -48,4 +48,8 @@ Instructions widest_instructions();
 void filter(std::span<const Query> queries, std::span<FilterStage> stages,
             Instructions instructions = widest_instructions());
 
+/// The same with all bounds of rounding errors so many times as large as they are, caution >= 1, and by double
+/// arithmetic alone: what it decides is not near its bounds.
+void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
+
 }  // namespace nearmiss

@@ -85,6 +85,7 @@ void OracleCounts::merge(const OracleCounts& other) {
   queries += other.queries;
   collisions += other.collisions;
   for (std::size_t i = 0; i < filter_stage_count; ++i) by_stage[i] += other.by_stage[i];
+  near_bounds += other.near_bounds;
   compared += other.compared;
   compared_collisions += other.compared_collisions;
   missed_by_parity += other.missed_by_parity;

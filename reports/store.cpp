@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int schema_version = 2;
+constexpr int schema_version = 3;
 constexpr int application_id = 0x6e656172;  // "near"
 
 constexpr const char* schema = R"sql(
@@ -31,7 +31,7 @@ constexpr const char* schema = R"sql(
     PRIMARY KEY (subject, kind, family)) STRICT;
   CREATE TABLE oracle_statistics (
     kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL, queries INTEGER NOT NULL,
-    collisions INTEGER NOT NULL, by_stage TEXT NOT NULL, compared INTEGER NOT NULL,
+    collisions INTEGER NOT NULL, by_stage TEXT NOT NULL, near_bounds INTEGER NOT NULL, compared INTEGER NOT NULL,
     compared_collisions INTEGER NOT NULL, missed_by_parity INTEGER NOT NULL, PRIMARY KEY (kind, family)) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
   CREATE TABLE finding (
@@ -77,16 +77,17 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     insert.exec();
     insert.reset();
   }
-  SQLite::Statement by_family(db, "INSERT OR REPLACE INTO oracle_statistics VALUES (?,?,?,?,?,?,?,?)");
+  SQLite::Statement by_family(db, "INSERT OR REPLACE INTO oracle_statistics VALUES (?,?,?,?,?,?,?,?,?)");
   for (const auto& [key, c] : statistics.oracle) {
     by_family.bind(1, std::string(short_name(key.first)));
     by_family.bind(2, key.second);
     by_family.bind(3, stored(c.queries));
     by_family.bind(4, stored(c.collisions));
     by_family.bind(5, json(c.by_stage).dump());
-    by_family.bind(6, stored(c.compared));
-    by_family.bind(7, stored(c.compared_collisions));
-    by_family.bind(8, stored(c.missed_by_parity));
+    by_family.bind(6, stored(c.near_bounds));
+    by_family.bind(7, stored(c.compared));
+    by_family.bind(8, stored(c.compared_collisions));
+    by_family.bind(9, stored(c.missed_by_parity));
     by_family.exec();
     by_family.reset();
   }
@@ -222,9 +223,10 @@ Campaign load_campaign(const fs::path& file) {
       c.queries = count(by_family.getColumn(2));
       c.collisions = count(by_family.getColumn(3));
       json::parse(by_family.getColumn(4).getString()).get_to(c.by_stage);
-      c.compared = count(by_family.getColumn(5));
-      c.compared_collisions = count(by_family.getColumn(6));
-      c.missed_by_parity = count(by_family.getColumn(7));
+      c.near_bounds = count(by_family.getColumn(5));
+      c.compared = count(by_family.getColumn(6));
+      c.compared_collisions = count(by_family.getColumn(7));
+      c.missed_by_parity = count(by_family.getColumn(8));
     }
 
     SQLite::Statement oracle(db, "SELECT disagreements, truth_mismatches FROM oracle");

@@ -49,6 +49,7 @@ ordered_json oracle_json(const OracleCounts& counts) {
   json["collisions"] = counts.collisions;
   for (std::size_t i = 0; i < filter_stage_count; ++i)
     json["decided_by"][std::string(filter_stage_names[i])] = counts.by_stage[i];
+  json["near_bounds"] = counts.near_bounds;
   json["compared"] = counts.compared;
   json["compared_collisions"] = counts.compared_collisions;
   json["missed_by_parity"] = counts.missed_by_parity;
@@ -161,11 +162,13 @@ std::string summary_table(const Statistics& statistics) {
     verdicts += fmt::format("FAIL oracle: {}\n", complaint);
   const OracleCounts oracle = statistics.oracle_total();
   const std::string answers = fmt::format(
-      "oracle: {} queries, {} left to exact arithmetic by the filters; {} asked of all three answers: {}, "
-      "and {} of {} "
-      "collisions\nhave an even number of roots, which root parity cannot see\n",
+      "oracle: {} queries, {} left to exact arithmetic by the filters{}; {} asked of all three answers: {}, "
+      "and {} of {} collisions\nhave an even number of roots, which root parity cannot see\n",
       with_separators(oracle.queries),
       with_separators(oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)]),
+      oracle.near_bounds == 0
+          ? ""
+          : fmt::format(", {} decided near their bounds", with_separators(oracle.near_bounds)),
       with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
       with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions));
   return verdicts + "\n" + columns(rows) + "\n" + answers +

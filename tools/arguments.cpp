@@ -35,6 +35,19 @@ void add_jobs_option(CLI::App& command, int& jobs) {
       ->type_name("J");
 }
 
+void add_comparison_options(CLI::App& command, Comparison& comparison) {
+  command
+      .add_option(
+          "--compare", comparison.one_in,
+          "Ask all three answers of the oracle about one query in N, beside those that its filter leaves "
+          "undecided; 1: about all")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_flag("--compare-near-bounds", comparison.near_bounds,
+                   "And where the filter would not decide with bounds of rounding errors 16 times as large");
+}
+
 void add_bound_option(CLI::App& command, std::string& bound) {
   command.add_option("--bound", bound, "Use this B for every pair, in place of each pair's own")
       ->type_name("B");

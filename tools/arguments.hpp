@@ -21,6 +21,9 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 /// --jobs J, all cores where it is not given.
 void add_jobs_option(CLI::App& command, int& jobs);
 
+/// --compare N and --compare-near-bounds
+void add_comparison_options(CLI::App& command, Comparison& comparison);
+
 /// --bound B: one bound for every pair.
 void add_bound_option(CLI::App& command, std::string& bound);
 

@@ -19,6 +19,7 @@ struct Options {
   std::uint64_t cases = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
+  Comparison comparison;
   int jobs = 1;
   RecordOptions record;
 };
@@ -43,6 +44,7 @@ int run(const Options& options) {
   plan.seed = options.seed;
   plan.cases = options.cases;
   if (!options.time.empty()) plan.time = parse_duration(options.time);
+  plan.comparison = options.comparison;
   plan.jobs = options.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
@@ -85,13 +87,14 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
       ->capture_default_str()
       ->type_name("S");
+  add_comparison_options(*command, options->comparison);
   add_jobs_option(*command, options->jobs);
   command->add_option("--shard", options->shard, "Do part I of N of the campaign, 0 <= I < N")
       ->capture_default_str()
       ->type_name("I/N");
   options->record.add_to(*command);
   std::string known;
-  for (const Family& family : families()) known += fmt::format("\n  {:<13} {}", family.name, family.about);
+  for (const Family& family : families()) known += fmt::format("\n  {:<14} {}", family.name, family.about);
   command->footer(
       "\nFamilies:" + known +
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "

@@ -19,6 +19,7 @@ struct Options {
   std::vector<fs::path> paths;
   std::vector<std::string> subjects{"wang"};
   std::string bound;
+  Comparison comparison;
   int jobs = 1;
   RecordOptions record;
 };
@@ -42,7 +43,7 @@ int run(const Options& options) {
   {
     Progress progress;
     std::uint64_t count = 0;
-    TrialStream stream(subjects, options.jobs, stop,
+    TrialStream stream(subjects, options.comparison, options.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
@@ -68,6 +69,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->required();
   add_subject_option(*command, options->subjects);
   add_bound_option(*command, options->bound);
+  add_comparison_options(*command, options->comparison);
   add_jobs_option(*command, options->jobs);
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");

@@ -22,6 +22,7 @@ struct Options {
   std::filesystem::path start, end;
   std::vector<std::string> subjects{"basic", "wang"};
   std::string bound = "pair";
+  Comparison comparison;
   int jobs = 1;
   RecordOptions record;
 };
@@ -52,7 +53,7 @@ int run(const Options& options) {
   std::map<Kind, std::uint64_t> candidates;
   {
     Progress progress;
-    TrialStream stream(subjects, options.jobs, stop,
+    TrialStream stream(subjects, options.comparison, options.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });
     find_candidates(mesh, [&](const Candidate& candidate) {
       if (stop) return;
@@ -94,6 +95,7 @@ void add_scene(CLI::App& app, int& exit_code) {
                    "The bound B: each pair's own, the largest of the scene's pairs, or a number")
       ->capture_default_str()
       ->type_name("pair|scene|B");
+  add_comparison_options(*command, options->comparison);
   add_jobs_option(*command, options->jobs);
   options->record.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });

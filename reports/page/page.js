@@ -111,7 +111,7 @@ function drawOracle() {
   const stages = Object.keys(report.oracle.total.decided_by);
   fillTable(element("oracle"), [
     text("kind", "kind"), text("family", "family"), count("queries", "queries"), count("collisions", "collisions"),
-    ...stages.map((stage) => count(stage, stage)), count("asked of all three", "compared"),
+    ...stages.map((stage) => count(stage, stage)), count("near bounds", "near_bounds"), count("asked of all three", "compared"),
     count("collisions", "compared_collisions"), count("with even roots", "missed_by_parity"),
   ], rows);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
+#include "fuzz/families.hpp"
 #include "fuzz/trial_stream.hpp"
 #include "tests/queries.hpp"
 
@@ -112,11 +113,38 @@ TEST(Trial, AnErrorOfASubjectNamesTheQuery) {
               ThrowsMessage<Error>(HasSubstr("choosy: refused (query 2)")));
 }
 
+TEST(Trial, ComparesTheAnswersOfTheOracleAsAsked) {
+  const auto counts = [](const Batch& batch, const Comparison& comparison) {
+    return hold_trial({}, batch, comparison).statistics.oracle_total();
+  };
+  const auto some_of = [](const char* family) {
+    Batch batch;
+    batch.provenance = [](std::size_t) { return ""; };
+    for (std::uint64_t i = 0; i < 10000; i += 2)
+      batch.queries.push_back(make_query(find_family(family), 1, i));
+    return batch;
+  };
+  const OracleCounts few = counts(some_of("uniform"), {.one_in = 100});
+  EXPECT_GT(few.compared, 25);
+  EXPECT_LT(few.compared, 100);
+  EXPECT_EQ(counts(batch(), {.one_in = 1}).compared, 2);
+
+  constexpr std::uint64_t next_to_none = std::uint64_t{1} << 62;
+  const OracleCounts far = counts(some_of("uniform"), {.one_in = next_to_none, .near_bounds = true});
+  EXPECT_EQ(far.near_bounds, 0);
+  EXPECT_EQ(far.compared, 0);
+  const OracleCounts near = counts(some_of("planted-ulp"), {.one_in = next_to_none, .near_bounds = true});
+  EXPECT_GT(near.near_bounds, 100);
+  EXPECT_EQ(near.compared,
+            near.near_bounds + near.by_stage[static_cast<std::size_t>(FilterStage::undecided)]);
+  EXPECT_EQ(counts(some_of("planted-ulp"), {}).near_bounds, 0);  // not asked for
+}
+
 TEST(TrialStream, DecidesEverythingInOrder) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{false};
   TrialResult sum;
-  TrialStream stream(subjects, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   constexpr int count = 12345;
   for (int i = 0; i < count; ++i)
     stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt, std::to_string(i));
@@ -131,7 +159,7 @@ TEST(TrialStream, DecidesNothingOnceItIsToStop) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{true};
   TrialResult sum;
-  TrialStream stream(subjects, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, ""));
   stream.finish();
   EXPECT_TRUE(sum.statistics.counts.empty());

@@ -58,13 +58,13 @@ async function showsFindings(browser) {
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
   await page.check("#by-family");
-  assert.equal(await count(page, "#counts tbody tr"), 44); // 2 subjects, 2 kinds, 11 families
+  assert.equal(await count(page, "#counts tbody tr"), 48); // 2 subjects, 2 kinds, 12 families
   const column = (n) => page.locator(`#counts tbody tr td:nth-child(${n})`).allTextContents();
   await page.click("#counts th:has-text('false positives')");
   const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
   assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
 
-  assert.equal(await count(page, "#oracle tbody tr"), 22); // 2 kinds, 11 families
+  assert.equal(await count(page, "#oracle tbody tr"), 24); // 2 kinds, 11 families
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);

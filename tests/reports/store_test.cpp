@@ -35,6 +35,7 @@ Statistics some_statistics(const std::string& subject) {
   oracle.queries = 2;
   oracle.collisions = 1;
   oracle.by_stage[2] = 2;
+  oracle.near_bounds = 2;
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
