@@ -1,19 +1,14 @@
 // The polynomials in t whose signs decide whether the figures of a query meet at a time.
 #pragma once
 
-#include <CGAL/Algebraic_kernel_d_1.h>
-#include <CGAL/Gmpz.h>
-
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "ccd/query.hpp"
+#include "oracle/polynomial.hpp"
 
 namespace nearmiss::exact {
-
-using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
-using Integer = Kernel::Coefficient;
-using Polynomial = Kernel::Polynomial_1;
 
 /// A vector that moves: each component a polynomial in t.
 using Vector = std::array<Polynomial, 3>;
@@ -25,8 +20,8 @@ struct OnSegment {
   Polynomial dot;
 };
 
-/// Everything that decides a query, as polynomials with integer coefficients (degree 3 for F, 2 for others).
-/// The coordinates are the query's, times one power of two that makes all 24 of them integers.
+/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are asked for. The
+/// coordinates are the query's, times one power of two that makes the largest about 1.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they
@@ -35,13 +30,18 @@ struct OnSegment {
 ///    x2 on the second one (pairwise sum N), from x20 = α x10 - β x32;
 ///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
 ///    does. Edges are then parallel or points: they meet iff an end point of one lies on the other.
-struct Predicates {
-  Polynomial F;
-  Vector N;
-  std::vector<Vector> weights;
-  std::vector<OnSegment> segments;
-
+class Predicates {
+ public:
   explicit Predicates(const Query& query);
+
+  [[nodiscard]] Polynomial F() const;
+  [[nodiscard]] Polynomial N(std::size_t k) const;
+  [[nodiscard]] std::vector<Polynomial> weights(std::size_t k) const;
+  [[nodiscard]] std::vector<OnSegment> segments() const;
+
+ private:
+  Kind kind_;
+  std::array<Vector, 4> x_;
 };
 
 }  // namespace nearmiss::exact

@@ -64,7 +64,7 @@ async function showsFindings(browser) {
   const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
   assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
 
-  assert.equal(await count(page, "#oracle tbody tr"), 24); // 2 kinds, 11 families
+  assert.equal(await count(page, "#oracle tbody tr"), 24); // 2 kinds, 12 families
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);

@@ -1,0 +1,277 @@
+#include "oracle/root.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace nearmiss::exact {
+
+namespace {
+
+/// How well double knows where something is in an interval, if it is well conditioned.
+constexpr double around = 0x1p-44;
+
+/// The numbers, not all zero, in double, times a power of two that brings the largest near 1.
+std::vector<double> in_proportion(std::vector<Number> numbers) {
+  std::vector<double> result(numbers.size());
+  for (;;) {
+    std::transform(numbers.begin(), numbers.end(), result.begin(),
+                   [](const Number& x) { return CGAL::to_double(x); });
+    double largest = 0;
+    for (const double x : result) largest = std::max(largest, std::abs(x));
+    if (largest > 0x1p-500 && largest < 0x1p500) return result;
+    const Number scale(largest < 1 ? 0x1p800 : 0x1p-800);
+    for (Number& x : numbers) x = x * scale;
+  }
+}
+
+/// Bernstein coefficients of those times binomial coefficients.
+std::vector<double> bernstein(const std::vector<Number>& coefficients) {
+  std::vector<double> b = in_proportion(coefficients);
+  const auto n = static_cast<double>(b.size() - 1);
+  double binomial = 1;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b[i] /= binomial;
+    binomial *= (n - static_cast<double>(i)) / static_cast<double>(i + 1);
+  }
+  return b;
+}
+
+/// Value and slope of a polynomial at s, by its Bernstein coefficients.
+std::pair<double, double> value_and_slope(std::vector<double> b, double s) {
+  const auto degree = static_cast<double>(b.size() - 1);
+  double slope = 0;
+  for (std::size_t left = b.size() - 1; left > 0; --left) {
+    if (left == 1) slope = degree * (b[1] - b[0]);
+    for (std::size_t i = 0; i < left; ++i) b[i] += s * (b[i + 1] - b[i]);
+  }
+  return {b[0], slope};
+}
+
+/// Newton's method, until it stands still: by halves only where two roots are close.
+double newton(const std::vector<double>& b, double s) {
+  for (int i = 0; i < 60; ++i) {
+    const auto [value, slope] = value_and_slope(b, s);
+    if (value == 0) break;
+    const double next = std::clamp(s - value / slope, 0.0, 1.0);
+    if (std::isnan(next)) return 0.5;
+    const bool stands = std::abs(next - s) < 0x1p-48;
+    s = next;
+    if (stands) break;
+  }
+  return s;
+}
+
+/// x / y, or a number whose size tells no more than that it is large.
+double ratio(const Number& x, const Number& y) {
+  const std::vector<double> both = in_proportion({x, y});
+  return std::clamp(both[0] / both[1], -0x1p60, 0x1p60);
+}
+
+/// lo + part (hi - lo).
+Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
+
+/// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero at 0
+/// and 1.
+int count_roots_inside(const Polynomial& p) {
+  std::vector<Polynomial> chain{p, p.derivative()};
+  while (chain.back().degree() > 0)
+    chain.push_back(Polynomial() - divide(chain[chain.size() - 2], chain.back()).remainder);
+  const auto changes_at = [&](const Number& t) {
+    std::vector<Number> values;
+    for (const Polynomial& each : chain) values.push_back(each(t));
+    return sign_changes(values);
+  };
+  return changes_at(0) - changes_at(1);
+}
+
+/// The roots in (0, 1) of a polynomial that has no multiple ones and is not zero at 0 and 1, ascending; or one of
+/// them that was come across as a number.
+struct Isolated {
+  std::vector<Root> roots;
+  std::optional<Number> number;
+};
+
+/// Cuts the interval until every part has at most one root: in turn beside a guess of an extremum, which two
+/// close roots have between them, and in the middle.
+Isolated isolate(const std::shared_ptr<const Polynomial>& p) {
+  struct Part {
+    Number lo, hi;
+    bool guess;
+  };
+  Isolated isolated;
+  std::optional<std::size_t> missing;     // counted where there may be several
+  std::vector<Part> parts{{0, 1, true}};  // the lowest one last
+  while (!parts.empty() && missing != 0) {
+    const Part part = std::move(parts.back());
+    parts.pop_back();
+    const OnInterval on(*p, part.lo, part.hi);
+    const int changes = on.changes();
+    if (changes == 1) {
+      isolated.roots.emplace_back(p, part.lo, part.hi);
+      if (missing) --*missing;
+    }
+    if (changes < 2) continue;
+    if (!missing) missing = count_roots_inside(*p);
+    const double extremum = part.guess ? on.guess_extremum() : 0.5;
+    const double around_it = part.guess ? around : 0;
+    Number hi = part.hi;
+    for (const double at : {extremum + around_it, extremum - around_it}) {
+      if (!(at > 0 && at < 1)) continue;
+      const Number lo = between(part.lo, part.hi, at);
+      if (hi <= lo) continue;
+      if (p->sign_at(lo) == 0) return {{}, lo};
+      parts.push_back({lo, hi, !part.guess});
+      hi = lo;
+    }
+    parts.push_back({part.lo, hi, !part.guess});
+  }
+  return isolated;
+}
+
+}  // namespace
+
+OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
+  // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i (1 +
+  // x)^(n - i).
+  std::vector<int> power{1};
+  for (std::size_t i = p.coefficients().size(); i > 0; --i) {
+    if (i < p.coefficients().size()) {
+      c_.emplace_back(0);
+      power.push_back(0);
+      for (std::size_t k = c_.size(); k > 0; --k) {
+        c_[k - 1] = c_[k - 1] * lo;
+        if (k > 1) c_[k - 1] = c_[k - 1] + c_[k - 2] * hi;
+        if (k > 1) power[k - 1] += power[k - 2];
+      }
+    } else {
+      c_.emplace_back(0);
+    }
+    for (std::size_t k = 0; k < c_.size(); ++k) c_[k] = c_[k] + p.coefficients()[i - 1] * Number(power[k]);
+  }
+}
+
+int OnInterval::only_sign() const {
+  if (changes() > 0) return 0;
+  for (const Number& c : c_)
+    if (const int s = sign(c); s != 0) return s;
+  return 0;
+}
+
+double OnInterval::guess_root() const {
+  const std::vector<double> b = bernstein(c_);
+  return newton(b, b.front() / (b.front() - b.back()));
+}
+
+double OnInterval::guess_extremum() const {
+  std::vector<double> slope = bernstein(c_);
+  for (std::size_t i = 0; i + 1 < slope.size(); ++i) slope[i] = slope[i + 1] - slope[i];
+  slope.pop_back();
+  return newton(slope, 0.5);
+}
+
+Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
+    : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(p_->sign_at(lo)) {}
+
+/// Keeps the part that has the root, `at` in the interval.
+void Root::cut(const Number& at) {
+  const int side = p_->sign_at(at);
+  if (side == 0)
+    *this = Root(at);
+  else
+    (side == sign_at_lo_ ? lo_ : hi_) = at;
+}
+
+void Root::refine() {
+  if (is_number()) return;
+  ++refinements_;
+  const Number lo = lo_;
+  const Number width = hi_ - lo_;
+  // In a small interval p is nearly linear: steps along the chord give the root's digits, some at a time.
+  Number guess = lo + Number(OnInterval(*p_, lo_, hi_).guess_root()) * width;
+  Number unit = width;
+  const Number rise = (*p_)(hi_) - (*p_)(lo_);
+  Number magnifier = 1;
+  for (int i = 1; i < chord_steps_; ++i) {
+    unit = unit * Number(around);
+    magnifier = magnifier * Number(1 / around);
+    guess = guess - unit * Number(ratio((*p_)(guess)*magnifier, rise));
+  }
+  const Number radius = unit * Number(8 * around);
+  for (const Number& at : {guess - radius, guess + radius})
+    if (!is_number() && lo_ < at && at < hi_) cut(at);
+  const bool found = hi_ - lo_ <= Number(2) * radius;
+  chord_steps_ = found ? std::min(2 * chord_steps_, 64) : 1;
+  if (Number(2) * (hi_ - lo_) > width) cut(between(lo_, hi_, 0.5));
+}
+
+/// A divisor of p has a root where p's only one is, a simple one, if and only if its sign changes there.
+bool Root::is_root_of(const Polynomial& q) const {
+  const Polynomial common = greatest_common_divisor(*p_, q);
+  return common.degree() > 0 && common.sign_at(lo_) != common.sign_at(hi_);
+}
+
+int Root::sign_of(const Polynomial& q) {
+  if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
+  constexpr int patience = 2;  // of a sign that is not zero, twice 44 bits nearly always tell
+  for (bool can_be_zero = true;;) {
+    if (is_number()) return q.sign_at(lo_);
+    if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
+    if (can_be_zero && refinements_ >= patience) {
+      if (is_root_of(q)) return 0;
+      can_be_zero = false;
+    }
+    refine();
+  }
+}
+
+bool Root::is(const Number& number) const {
+  if (is_number()) return lo_ == number;
+  return lo_ < number && number < hi_ && p_->sign_at(number) == 0;
+}
+
+bool Root::is_same(const Root& other) const {
+  if (other.is_number()) return is(other.lo_);
+  if (is_number()) return other.is(lo_);
+  // Each polynomial has at most one root where both intervals are, and none at the ends of its own.
+  const Number& lo = std::max(lo_, other.lo_);
+  const Number& hi = std::min(hi_, other.hi_);
+  if (hi <= lo) return false;
+  const Polynomial common = greatest_common_divisor(*p_, *other.p_);
+  return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
+}
+
+bool Root::is_below(Root& other) {
+  if (is_same(other)) return false;
+  while (hi_ > other.lo_ && other.hi_ > lo_) {
+    refine();
+    other.refine();
+  }
+  return hi_ <= other.lo_;
+}
+
+std::vector<Root> roots_in_step(const Polynomial& p) {
+  auto rest = std::make_shared<const Polynomial>(square_free(p));
+  std::vector<Root> numbers;
+  const auto take_out = [&](const Number& root) {
+    numbers.emplace_back(root);
+    rest = std::make_shared<const Polynomial>(divide(*rest, Polynomial({-root, Number(1)})).quotient);
+  };
+  for (const Number& end : {Number(0), Number(1)})
+    if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
+  std::vector<Root> roots;
+  while (rest->degree() > 0) {
+    Isolated isolated = isolate(rest);
+    if (!isolated.number) {
+      roots = std::move(isolated.roots);
+      break;
+    }
+    take_out(*isolated.number);
+  }
+  for (Root& number : numbers)
+    roots.insert(std::find_if(roots.begin(), roots.end(), [&](Root& root) { return number.is_below(root); }),
+                 number);
+  return roots;
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,170 @@
+// Roots of polynomials and signs at them, beside CGAL's algebraic kernel.
+#include "oracle/root.hpp"
+
+#include <CGAL/Algebraic_kernel_d_1.h>
+#include <CGAL/Gmpz.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace nearmiss::exact {
+namespace {
+
+Polynomial polynomial(const std::vector<double>& coefficients) {
+  return Polynomial(std::vector<Number>(coefficients.begin(), coefficients.end()));
+}
+
+TEST(Polynomial, DividesWithARemainder) {
+  const Polynomial p = polynomial({5, -3, 0, 2});
+  const Polynomial q = polynomial({1, -4});
+  const Division d = divide(p, q);
+  EXPECT_LT(d.remainder.degree(), q.degree());
+  const Polynomial scaled = d.quotient * q + d.remainder;  // c p, c > 0
+  EXPECT_EQ(sign(scaled.leading()), sign(p.leading()));
+  EXPECT_TRUE((Polynomial({p.leading()}) * scaled - Polynomial({scaled.leading()}) * p).is_zero());
+}
+
+TEST(Polynomial, WithoutMultipleFactorsHasTheSameRoots) {
+  const Polynomial p = polynomial({-1, 2});
+  const Polynomial q = polynomial({-1, 3});
+  EXPECT_EQ(square_free(p * p * q).degree(), 2);
+  EXPECT_EQ(square_free(p * p * q).sign_at(Number(0.5)), 0);
+}
+
+TEST(Root, FindsRootsOfEverySort) {
+  EXPECT_TRUE(roots_in_step(polynomial({})).empty());
+  EXPECT_TRUE(roots_in_step(polynomial({3})).empty());
+  EXPECT_TRUE(roots_in_step(polynomial({1, 0, 1})).empty());
+  EXPECT_TRUE(roots_in_step(polynomial({-2, 1})).empty());
+  auto ends = roots_in_step(polynomial({0, 1, -1}));
+  ASSERT_EQ(ends.size(), 2);
+  EXPECT_TRUE(ends[0].is(0));
+  EXPECT_TRUE(ends[1].is(1));
+  auto triple = roots_in_step(polynomial({-1, 3}) * polynomial({-1, 3}) * polynomial({-1, 3}));
+  ASSERT_EQ(triple.size(), 1);
+  EXPECT_EQ(triple[0].sign_of(polynomial({-1, 3})), 0);
+  EXPECT_EQ(triple[0].sign_of(polynomial({-1, 3.0000001})), 1);
+}
+
+TEST(Root, PartsCloseRoots) {
+  for (const int exponent : {-20, -200, -1000}) {
+    const double gap = std::ldexp(1.0, exponent);
+    const Number middle = Number(1) + Number(gap);  // three times the root
+    const Polynomial p = polynomial({-1, 3}) * Polynomial({-middle, Number(3)}) * polynomial({-1, 1.5});
+    auto roots = roots_in_step(p);
+    ASSERT_EQ(roots.size(), 3) << exponent;
+    EXPECT_EQ(roots[0].sign_of(Polynomial({-middle, Number(3)})), -1);
+    EXPECT_EQ(roots[0].sign_of(polynomial({-1, 3})), 0);
+    EXPECT_EQ(roots[1].sign_of(polynomial({-1, 3})), 1);
+    EXPECT_TRUE(roots[0].is_below(roots[1]));
+    EXPECT_FALSE(roots[1].is_below(roots[0]));
+    EXPECT_FALSE(roots[1].is_below(roots[1]));
+    // Beside 0 and beside 1.
+    ASSERT_EQ(roots_in_step(Polynomial({-Number(gap), Number(3)}) * polynomial({1, -1})).size(), 2);
+    ASSERT_EQ(roots_in_step(Polynomial({Number(gap) - Number(1), Number(1)}) * polynomial({-1, 1})).size(),
+              2);
+    ASSERT_EQ(roots_in_step(Polynomial({-Number(gap) - Number(1), Number(1)})).size(), 0);
+  }
+}
+
+TEST(Root, BecomesAsNarrowAsOneLikes) {
+  auto roots = roots_in_step(polynomial({-0.5, 0, 1}));
+  ASSERT_EQ(roots.size(), 1);
+  Number least = 1;
+  for (int i = 0; i < 30; ++i) least = least * Number(0x1p-100);
+  while (roots[0].hi() - roots[0].lo() > least) roots[0].refine();
+  EXPECT_LT(roots[0].lo() * roots[0].lo(), Number(0.5));
+  EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
+}
+
+// --- beside CGAL ------------------------------------------------------------------------------------------
+
+using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
+using Reference = Kernel::Polynomial_1;
+
+/// A polynomial with coefficients that are integers.
+struct Both {
+  Polynomial here;
+  Reference there;
+};
+
+class Integers {
+ public:
+  /// A product of factors with small coefficients, some of them more than once, or a factor and a small change.
+  Both polynomial(int degree) {
+    Both p{Polynomial({Number(1)}), Reference(1)};
+    while (p.here.degree() < degree) {
+      const Both factor = this->factor(between(1, degree - p.here.degree()));
+      for (int times = between(1, 2); times > 0 && p.here.degree() + factor.here.degree() <= degree; --times)
+        p = {p.here * factor.here, p.there * factor.there};
+      if (p.here.is_zero()) return p;
+    }
+    if (between(0, 3) == 0) {
+      const int scale = between(1, 1 << 20);
+      p = {p.here * Polynomial({Number(scale)}) + Polynomial({Number(1)}), p.there * scale + 1};
+    }
+    return p;
+  }
+
+  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
+
+ private:
+  Both factor(int degree) {
+    std::vector<Number> here;
+    std::vector<CGAL::Gmpz> there;
+    for (int i = 0; i <= degree; ++i) {
+      const int c = i == degree ? between(1, 9) : between(-9, 9);
+      here.emplace_back(c);
+      there.emplace_back(c);
+    }
+    return {Polynomial(here), Reference(there.begin(), there.end())};
+  }
+
+  std::mt19937 engine_{1};
+};
+
+TEST(Root, AgreesWithTheAlgebraicKernel) {
+  Integers integers;
+  const Kernel kernel;
+  std::size_t found = 0;
+  std::size_t zeros = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Both p = integers.polynomial(integers.between(1, 6));
+    std::vector<Kernel::Algebraic_real_1> reference;
+    kernel.solve_1_object()(p.there, false, std::back_inserter(reference));
+    std::erase_if(reference, [](const auto& t) {
+      return t < Kernel::Algebraic_real_1(0) || t > Kernel::Algebraic_real_1(1);
+    });
+    auto roots = roots_in_step(p.here);
+    ASSERT_EQ(roots.size(), reference.size()) << p.there;
+    found += roots.size();
+    const Both q = integers.polynomial(integers.between(1, 3));
+    const Both both{q.here * p.here, q.there * p.there};
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+      const int expected = kernel.sign_at_1_object()(q.there, reference[k]);
+      ASSERT_EQ(roots[k].sign_of(q.here), expected) << p.there << " and " << q.there;
+      zeros += expected == 0 ? 1 : 0;
+      if (k > 0) {
+        ASSERT_TRUE(roots[k - 1].is_below(roots[k]));
+      }
+    }
+    // Roots of another polynomial, in order among these.
+    std::vector<Kernel::Algebraic_real_1> others;
+    kernel.solve_1_object()(both.there, false, std::back_inserter(others));
+    std::erase_if(others, [](const auto& t) {
+      return t < Kernel::Algebraic_real_1(0) || t > Kernel::Algebraic_real_1(1);
+    });
+    auto other_roots = roots_in_step(both.here);
+    ASSERT_EQ(other_roots.size(), others.size());
+    for (std::size_t k = 0; k < roots.size(); ++k)
+      for (std::size_t l = 0; l < others.size(); ++l)
+        ASSERT_EQ(roots[k].is_below(other_roots[l]), reference[k] < others[l]);
+  }
+  EXPECT_GT(found, 150);
+  EXPECT_GT(zeros, 1);
+}
+
+}  // namespace
+}  // namespace nearmiss::exact
