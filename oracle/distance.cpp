@@ -1,4 +1,5 @@
-// Certified enclosure of the smallest distance over [0, 1]: branch and bound over time.
+// Certified enclosure of the smallest distance over [0, 1]: branch and bound over time in interval arithmetic, and
+// exact comparisons where that cannot tell.
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "oracle/closest.hpp"
 #include "oracle/oracle.hpp"
+#include "oracle/proximity.hpp"
 
 namespace nearmiss {
 
@@ -163,7 +165,7 @@ struct Stretch {
 /// Refines an enclosure of the smallest distance, in the differences' unit, until `enough(lo, hi)` or until
 /// it cannot be refined any more.
 Enclosure refine(const Differences& differences, const std::function<bool(double, double)>& enough) {
-  constexpr int most_splits = 20000;
+  constexpr int most_splits = 1000;
   Moment start = look(differences, 0);
   Moment end = look(differences, 1);
   double hi = std::min(start.upper, end.upper);
@@ -197,10 +199,6 @@ Enclosure scale(const Enclosure& value, int exponent) {
 
 }  // namespace
 
-Enclosure minimum_distance(const Query& query, double relative_width) {
-  return collides(query) ? Enclosure{0, 0} : closest_approach(query, relative_width);
-}
-
 Enclosure closest_approach(const Query& query, double relative_width) {
   const Interval::Protector protector;
   const Differences differences(query);
@@ -208,14 +206,32 @@ Enclosure closest_approach(const Query& query, double relative_width) {
   return scale(refine(differences, enough), differences.exponent());
 }
 
+Enclosure minimum_distance(const Query& query, double relative_width) {
+  if (collides(query)) return {0, 0};
+  Enclosure distance = closest_approach(query, relative_width);
+  // What intervals leave is halved exactly, in proportion: the geometric mean, lo = 0 taken for the smallest number.
+  while (distance.hi - distance.lo > relative_width * distance.hi) {
+    const double lo = std::max(distance.lo, std::numeric_limits<double>::denorm_min());
+    const double middle =
+        std::sqrt(lo) * std::sqrt(std::min(distance.hi, std::numeric_limits<double>::max()));
+    if (!(distance.lo < middle && middle < distance.hi)) break;
+    (comes_within(query, middle) ? distance.hi : distance.lo) = middle;
+  }
+  return distance;
+}
+
 bool distance_exceeds(const Query& query, double bound) {
-  if (std::isinf(bound) || collides(query)) return false;
-  const Interval::Protector protector;
-  const Differences differences(query);
-  const Enclosure border = scale({bound, bound}, -differences.exponent());
-  const Enclosure distance =
-      refine(differences, [&](double lo, double hi) { return lo > border.hi || hi <= border.lo; });
-  return distance.lo > border.hi;
+  if (std::isinf(bound)) return false;
+  {
+    const Interval::Protector protector;
+    const Differences differences(query);
+    const Enclosure border = scale({bound, bound}, -differences.exponent());
+    const Enclosure distance =
+        refine(differences, [&](double lo, double hi) { return lo > border.hi || hi <= border.lo; });
+    if (distance.lo > border.hi) return true;
+    if (distance.hi <= border.lo) return false;
+  }
+  return !comes_within(query, bound);
 }
 
 }  // namespace nearmiss

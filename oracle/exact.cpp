@@ -1,6 +1,7 @@
 // The complete exact decision: signs of polynomials at real roots of polynomials.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "oracle/box.hpp"
@@ -85,13 +86,26 @@ std::optional<Root> first_collision(const Query& query) {
   return first;
 }
 
-/// Doubles around a time in [0, 1], at most 2^-52 apart; the time itself where it is a double.
-Enclosure enclose(Root t) {
-  while (t.hi() - t.lo() > Number(0x1p-60)) t.refine();
-  const double middle = CGAL::to_double((t.lo() + t.hi()) * Number(0.5));
-  if (t.is(Number(middle))) return {middle, middle};
-  // Both ends are rounded outward, by at most 2^-53 each.
-  return {std::max(0.0, CGAL::to_interval(t.lo()).first), std::min(1.0, CGAL::to_interval(t.hi()).second)};
+/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself where it is a
+/// double.
+Enclosure enclose(Root t, double width) {
+  for (;; t.refine()) {
+    const double lo = std::max(0.0, CGAL::to_interval(t.lo()).first);
+    const double hi = std::min(1.0, CGAL::to_interval(t.hi()).second);
+    const double next = std::nextafter(lo, 2.0);
+    if (next < hi && std::nextafter(next, 2.0) < hi && hi - lo > width) continue;
+    for (const double each : {lo, next, hi})
+      if (t.is(Number(each))) return {each, each};
+    if (next >= hi || hi - lo <= width) return {lo, hi};
+  }
+}
+
+std::string to_text(const std::optional<CGAL::Gmpq>& rational) {
+  if (!rational) return {};
+  std::ostringstream text;
+  text << rational->numerator();
+  if (rational->denominator() != 1) text << '/' << rational->denominator();
+  return text.str();
 }
 
 }  // namespace
@@ -117,11 +131,13 @@ void decide(std::span<const Query> queries, std::span<Decision> decisions) {
 
 bool collides(const Query& query) { return decide(query).collision; }
 
-std::optional<Enclosure> earliest_time(const Query& query) {
+std::optional<ContactTime> earliest_time(const Query& query, double width) {
   if (!boxes_meet(query)) return std::nullopt;
-  const auto t = exact::first_collision(query);
+  if (const FilterStage stage = filter(query); stage != FilterStage::undecided && !is_collision(stage))
+    return std::nullopt;
+  auto t = exact::first_collision(query);
   if (!t) return std::nullopt;
-  return exact::enclose(*t);
+  return ContactTime{exact::enclose(*t, width), exact::to_text(t->as_rational())};
 }
 
 }  // namespace nearmiss

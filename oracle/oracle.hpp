@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "ccd/query.hpp"
 #include "oracle/filter.hpp"
@@ -35,20 +36,25 @@ bool collides(const Query& query);
 /// The same by exact arithmetic alone, without the filters in front.
 bool collides_exactly(const Query& query);
 
-/// An enclosure of the earliest time at which they do, at most one ulp of 1 wide; nothing where they never
-/// do.
-std::optional<Enclosure> earliest_time(const Query& query);
+/// When two primitives first share a point.
+struct ContactTime {
+  Enclosure enclosure;   ///< one number where the time is a double
+  std::string rational;  ///< the time itself, "p/q" or "p" in lowest terms, where it is rational; else empty
+};
 
-/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi
-/// where double intervals can tell: not where the distance is below about 2^-45 of the largest coordinate; lo
-/// may be 0 there.
+/// The earliest time at which they do; nothing where they never do. Its enclosure is at most `width` wide, or as
+/// narrow as doubles can be.
+std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
+
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi, or they
+/// are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// The same without the exact decision in front: lo is 0 for a collision, but hi need not be.
+/// The same by interval arithmetic alone: lo is 0 for a collision, but hi need not be. It is as narrow where double
+/// intervals can tell: not where the distance is below about 2^-45 of the largest coordinate.
 Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
 
-/// Whether the smallest distance over [0, 1] is certainly above the bound (closer to it than double intervals
-/// can tell, about 2^-45 of the largest coordinate, it is not).
+/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.
 bool distance_exceeds(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -45,12 +45,25 @@ Polynomial operator*(const Polynomial& p, const Polynomial& q) {
   return Polynomial(std::move(product));
 }
 
+namespace {
+
+/// The remainder of c p by q, where c is |the leading coefficient of q|^(1 + the difference of degrees).
+Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
+  const Division division = divide(p, q);
+  const Polynomial factor({sign(q.leading()) > 0 ? q.leading() : -q.leading()});
+  Polynomial remainder = division.remainder;
+  for (int i = division.steps; i <= p.degree() - q.degree(); ++i) remainder = factor * remainder;
+  return remainder;
+}
+
+}  // namespace
+
 Division divide(const Polynomial& p, const Polynomial& q) {
-  Division division{{}, p};
-  auto& [quotient, remainder] = division;
+  Division division{{}, p, 0};
+  auto& [quotient, remainder, steps] = division;
   const int side = sign(q.leading());
   const Polynomial factor({side > 0 ? q.leading() : -q.leading()});
-  while (remainder.degree() >= q.degree()) {
+  for (; remainder.degree() >= q.degree(); ++steps) {
     std::vector<Number> term(static_cast<std::size_t>(remainder.degree() - q.degree()) + 1);
     term.back() = side > 0 ? remainder.leading() : -remainder.leading();
     const Polynomial step(std::move(term));
@@ -60,9 +73,37 @@ Division divide(const Polynomial& p, const Polynomial& q) {
   return division;
 }
 
-Polynomial greatest_common_divisor(Polynomial p, Polynomial q) {
-  while (!q.is_zero()) p = std::exchange(q, divide(p, q).remainder);
-  return p;
+std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
+  // Subresultants, but for their signs: what they can be divided by is known, and they stay as short as determinants
+  // of p's and q's coefficients are.
+  std::vector<Polynomial> sequence{p, q};
+  Number g = 1;
+  Number h = 1;
+  for (;;) {
+    const Polynomial& a = sequence[sequence.size() - 2];
+    const Polynomial& b = sequence.back();
+    const int steps = a.degree() - b.degree();
+    const Number lead = sign(b.leading()) > 0 ? b.leading() : -b.leading();
+    const Polynomial remainder = pseudo_remainder(a, b);
+    if (remainder.is_zero()) return sequence;
+    Number factor = -g;
+    for (int i = 0; i < steps; ++i) factor = factor * h;
+    std::vector<Number> next = remainder.coefficients();
+    for (Number& c : next) c = c / factor;
+    g = lead;
+    Number power = 1;
+    for (int i = 0; i < steps; ++i) power = power * g;
+    for (int i = 1; i < steps; ++i) power = power / h;
+    if (steps > 0) h = power;
+    sequence.emplace_back(std::move(next));
+    if (sequence.back().degree() == 0) return sequence;
+  }
+}
+
+Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
+  if (p.is_zero()) return q;
+  if (q.is_zero()) return p;
+  return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
 }
 
 Polynomial square_free(const Polynomial& p) {

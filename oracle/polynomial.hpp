@@ -38,14 +38,19 @@ class Polynomial {
   std::vector<Number> a_;
 };
 
-/// The quotient and the remainder of c p by q, q not zero, for some c > 0.
+/// The quotient and the remainder of c p by q, q not zero, for c = |the leading coefficient of q|^steps.
 struct Division {
   Polynomial quotient, remainder;
+  int steps;
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
+/// p, q, and on from them: each is the negative remainder of the two before it, times something positive. The last
+/// one is their greatest common divisor. p's degree is not below q's, q is not zero.
+std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
+
 /// A greatest common divisor, not both zero; its factor means nothing.
-Polynomial greatest_common_divisor(Polynomial p, Polynomial q);
+Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
 /// p, not zero, without its multiple factors.
 Polynomial square_free(const Polynomial& p);

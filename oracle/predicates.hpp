@@ -6,12 +6,9 @@
 #include <vector>
 
 #include "ccd/query.hpp"
-#include "oracle/polynomial.hpp"
+#include "oracle/moving.hpp"
 
 namespace nearmiss::exact {
-
-/// A vector that moves: each component a polynomial in t.
-using Vector = std::array<Polynomial, 3>;
 
 /// The point x lies on the closed segment (a, b) iff every component of `cross` = (x - a) × (b - a) is zero
 /// and `dot` = (x - a) · (x - b) is not positive; also where a = b.

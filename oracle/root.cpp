@@ -74,9 +74,7 @@ Number between(const Number& lo, const Number& hi, double part) { return lo + Nu
 /// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero at 0
 /// and 1.
 int count_roots_inside(const Polynomial& p) {
-  std::vector<Polynomial> chain{p, p.derivative()};
-  while (chain.back().degree() > 0)
-    chain.push_back(Polynomial() - divide(chain[chain.size() - 2], chain.back()).remainder);
+  const std::vector<Polynomial> chain = remainders(p, p.derivative());
   const auto changes_at = [&](const Number& t) {
     std::vector<Number> values;
     for (const Polynomial& each : chain) values.push_back(each(t));
@@ -228,6 +226,29 @@ int Root::sign_of(const Polynomial& q) {
 bool Root::is(const Number& number) const {
   if (is_number()) return lo_ == number;
   return lo_ < number && number < hi_ && p_->sign_at(number) == 0;
+}
+
+std::optional<CGAL::Gmpq> Root::as_rational() {
+  using CGAL::Gmpq;
+  using CGAL::Gmpz;
+  if (is_number()) return Gmpq(lo_);
+  // With coefficients times a power of two that makes them integers, the denominator divides the leading one.
+  Gmpz multiple = 1;
+  for (const Number& a : p_->coefficients()) multiple = std::max(multiple, Gmpq(a).denominator());
+  const Gmpz denominator = (Gmpq(p_->leading()) * Gmpq(multiple)).numerator();
+  const Gmpq size = CGAL::abs(Gmpq(denominator));
+  while (!is_number() && size * Gmpq(hi_ - lo_) >= 1) refine();
+  if (is_number()) return Gmpq(lo_);
+  // There is at most one multiple of 1 / size in the open interval.
+  const Gmpq lowest = size * Gmpq(lo_);
+  Gmpz above;
+  mpz_fdiv_q(above.mpz(), lowest.numerator().mpz(), lowest.denominator().mpz());
+  const Gmpq t = Gmpq(above + 1) / size;
+  Gmpq value = 0;
+  for (int i = p_->degree(); i >= 0; --i)
+    value = value * t + Gmpq(p_->coefficients()[static_cast<std::size_t>(i)]);
+  if (t < Gmpq(hi_) && CGAL::is_zero(value)) return t;
+  return std::nullopt;
 }
 
 bool Root::is_same(const Root& other) const {

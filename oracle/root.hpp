@@ -1,8 +1,11 @@
 // Real roots of polynomials in [0, 1], and signs of polynomials at them.
 #pragma once
 
+#include <CGAL/Gmpq.h>
+
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +49,8 @@ class Root {
   void refine();
   /// Whether the root is this number.
   [[nodiscard]] bool is(const Number& number) const;
+  /// The root, if it is rational: looks for it as far as a fraction with the leading coefficient as denominator.
+  std::optional<CGAL::Gmpq> as_rational();
   /// Whether this root is smaller than the other one.
   bool is_below(Root& other);
 

@@ -15,6 +15,8 @@ struct Options {
   QueryInput input;
   std::string method = "exact";
   bool toi = false;
+  bool rational = false;
+  double width = 0;
   bool distance = false;
 };
 
@@ -46,9 +48,11 @@ bool collides_by(const std::string& method, const Query& query) {
 
 std::string answer(const Query& query, const Options& options) {
   std::string line = collides_by(options.method, query) ? "1" : "0";
-  if (options.toi) {
-    const auto time = earliest_time(query);
-    line += time ? show(*time) : " inf inf";
+  if (options.toi || options.rational) {
+    const auto time = earliest_time(query, options.width);
+    line += time ? show(time->enclosure) : " inf inf";
+    if (options.rational)
+      line += !time ? " -" : time->rational.empty() ? " irrational" : " " + time->rational;
   }
   if (options.distance) line += show(minimum_distance(query));
   return line;
@@ -71,6 +75,12 @@ void add_oracle(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--toi", options->toi,
                     "Add 'lo hi' around the earliest time of contact (inf inf where there is none)");
+  command->add_option("--width", options->width, "Width of these, as narrow as doubles can be where 0")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("W");
+  command->add_flag("--rational", options->rational,
+                    "Add --toi and the time as a fraction, or 'irrational' ('-' where there is none)");
   command->add_flag("--distance", options->distance, "Add 'lo hi' around the smallest distance over [0, 1]");
   command->footer(
       "\nNumbers are decimal or C hex floats, separated by blanks or commas; '#' starts a comment.\n"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "oracle/oracle.hpp"
+#include "oracle/proximity.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -21,8 +22,8 @@ void expect_encloses(const Query& query, double distance) {
   EXPECT_LE(d.lo, distance);
   EXPECT_GE(d.hi, distance);
   EXPECT_LE(d.hi - d.lo, 1e-3 * d.hi);
-  EXPECT_FALSE(distance_exceeds(query, distance * (1 + 1e-9)));
-  EXPECT_TRUE(distance_exceeds(query, distance * (1 - 1e-9)));
+  EXPECT_FALSE(distance_exceeds(query, distance));  // as exact as the numbers in these tests
+  EXPECT_TRUE(distance_exceeds(query, std::nextafter(distance, 0)));
 }
 
 TEST(Distance, VertexAboveATriangleAtRest) { expect_encloses(falling_vertex(0.25, 0.25, 3, 3), 3); }
@@ -59,6 +60,32 @@ TEST(Distance, ScalesFromTinyToHuge) {
 
 TEST(Distance, NothingExceedsAnInfiniteBound) {
   EXPECT_FALSE(distance_exceeds(falling_vertex(0.25, 0.25, 3, 2), std::numeric_limits<double>::infinity()));
+}
+
+TEST(Distance, IsKnownFarBelowWhatIntervalsCanTell) {
+  // A vertex 2^-200 above a triangle of size 1; and one that passes an edge so near.
+  expect_encloses(falling_vertex(0.25, 0.25, 1, 0x1p-200), 0x1p-200);
+  expect_encloses(falling_vertex(-0x1p-200, 0.5, 1, -1), 0x1p-200);
+  const Enclosure least = minimum_distance(falling_vertex(0.25, 0.25, 1, 0x1p-1074));
+  EXPECT_LE(least.lo, 0x1p-1074);
+  EXPECT_GE(least.hi, 0x1p-1074);
+  EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // doubles are no nearer to each other
+}
+
+TEST(ComesWithin, AgreesWithTheEnclosuresOfIntervals) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 400; ++i) {
+    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+    for (double& c : query.x) c = i < 200 ? coordinate(random) : static_cast<double>(random() % 7) - 3;
+    EXPECT_EQ(comes_within(query, 0), collides(query));
+    if (collides(query)) continue;
+    const Enclosure d = closest_approach(query, 1e-9);
+    EXPECT_TRUE(comes_within(query, d.hi));
+    if (d.lo > 0) {
+      EXPECT_FALSE(comes_within(query, d.lo * (1 - 1e-15)));
+    }
+  }
 }
 
 /// Distance of segment points or of vertex and triangle points over a grid of time and place: an upper bound.

@@ -119,26 +119,44 @@ TEST(EarliestTime, IsExactWhereItIsADouble) {
   for (const double t : {0.0, 0.25, 0.5, 1.0}) {
     const auto time = earliest_time(falling_vertex(0.25, 0.25, t, t - 1));
     ASSERT_TRUE(time);
-    EXPECT_EQ(time->lo, t);
-    EXPECT_EQ(time->hi, t);
+    EXPECT_EQ(time->enclosure.lo, t);
+    EXPECT_EQ(time->enclosure.hi, t);
   }
 }
 
-TEST(EarliestTime, EnclosesAnIrrationalRootTightly) {
+TEST(EarliestTime, EnclosesARationalTimeThatIsNoDoubleAndNamesIt) {
   // The vertex sinks by 3 while it starts 1 above: t = 1/3, no double.
   const auto third = earliest_time(falling_vertex(0.25, 0.25, 1, -2));
   ASSERT_TRUE(third);
-  EXPECT_LT(third->lo, third->hi);
-  EXPECT_LE(third->hi - third->lo, std::numeric_limits<double>::epsilon());
-  EXPECT_LE(third->lo, 1.0 / 3);
-  EXPECT_GE(third->hi, 1.0 / 3);
+  EXPECT_EQ(third->rational, "1/3");
+  EXPECT_EQ(third->enclosure.lo, 1.0 / 3);  // rounded down
+  EXPECT_EQ(third->enclosure.hi, std::nextafter(1.0 / 3, 1));
+}
+
+TEST(EarliestTime, EnclosesAnIrrationalTime) {
+  // The vertex is at height 1 - t and the triangle's corner x3, below it, at 2 t² - ... : a square root.
+  Query query = falling_vertex(0, 0.5, 1, 0);
+  query.set_start(3, {0, 1, 0});
+  query.set_end(3, {0, 2, 1});
+  const auto time = earliest_time(query);
+  ASSERT_TRUE(time);
+  EXPECT_TRUE(time->rational.empty());
+  EXPECT_EQ(std::nextafter(time->enclosure.lo, 1), time->enclosure.hi);
+  // (1 - t) (1 + t) = t / 2
+  const double t = (std::sqrt(17.0) - 1) / 4;
+  EXPECT_NEAR(time->enclosure.lo, t, 1e-15);
+  const auto wide = earliest_time(query, 1e-3);
+  EXPECT_LE(wide->enclosure.lo, time->enclosure.lo);
+  EXPECT_GE(wide->enclosure.hi, time->enclosure.hi);
+  EXPECT_LE(wide->enclosure.hi - wide->enclosure.lo, 1e-3);
 }
 
 TEST(EarliestTime, IsTheFirstOfSeveral) {
   // Planar motion along y = 1/4: the vertex is inside from x = 0, t = 1/4, on.
   const auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
   ASSERT_TRUE(time);
-  EXPECT_EQ(time->lo, 0.25);
+  EXPECT_EQ(time->enclosure.lo, 0.25);
+  EXPECT_EQ(time->rational, "1/4");
 }
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }

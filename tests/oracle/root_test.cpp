@@ -16,6 +16,27 @@ Polynomial polynomial(const std::vector<double>& coefficients) {
   return Polynomial(std::vector<Number>(coefficients.begin(), coefficients.end()));
 }
 
+TEST(Number, DividesWhatItCanWithoutRemainder) {
+  std::mt19937_64 random(2);
+  const auto number = [&] {
+    Number x = 1;
+    for (std::uint64_t i = random() % 5; i < 5; ++i)
+      x = x * Number(
+                  std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 300) - 150)) +
+          Number(static_cast<double>(random() % 3));
+    return x;
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const Number a = number();
+    const Number b = number();
+    const Number product = a * b;
+    if (CGAL::is_zero(b)) continue;
+    const Number quotient = product / b;
+    ASSERT_EQ(quotient, a);
+    ASSERT_TRUE(quotient.is_canonical());
+  }
+}
+
 TEST(Polynomial, DividesWithARemainder) {
   const Polynomial p = polynomial({5, -3, 0, 2});
   const Polynomial q = polynomial({1, -4});
@@ -67,6 +88,16 @@ TEST(Root, PartsCloseRoots) {
               2);
     ASSERT_EQ(roots_in_step(Polynomial({-Number(gap) - Number(1), Number(1)})).size(), 0);
   }
+}
+
+TEST(Root, KnowsWhetherItIsRational) {
+  auto roots = roots_in_step(polynomial({-1, 7}) * polynomial({-2, 3}) * polynomial({-0.5, 0, 1}) *
+                             polynomial({-1, 4}));
+  ASSERT_EQ(roots.size(), 4);
+  EXPECT_EQ(roots[0].as_rational(), CGAL::Gmpq(1, 7));
+  EXPECT_EQ(roots[1].as_rational(), CGAL::Gmpq(1, 4));
+  EXPECT_EQ(roots[2].as_rational(), CGAL::Gmpq(2, 3));
+  EXPECT_FALSE(roots[3].as_rational());
 }
 
 TEST(Root, BecomesAsNarrowAsOneLikes) {
