@@ -86,14 +86,23 @@ std::optional<Root> first_collision(const Query& query) {
   return first;
 }
 
+/// The largest double that is not above x, x in [0, 1].
+double rounded_down(const Number& x) {
+  double d = CGAL::to_double(x);
+  while (Number(d) > x) d = std::nextafter(d, -1.0);
+  while (Number(std::nextafter(d, 2.0)) <= x) d = std::nextafter(d, 2.0);
+  return d;
+}
+
 /// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself where it is a
 /// double.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
-    const double lo = std::max(0.0, CGAL::to_interval(t.lo()).first);
-    const double hi = std::min(1.0, CGAL::to_interval(t.hi()).second);
+    const double lo = rounded_down(t.lo());
+    const double last = rounded_down(t.hi());
+    const double hi = Number(last) < t.hi() ? std::nextafter(last, 2.0) : last;
     const double next = std::nextafter(lo, 2.0);
-    if (next < hi && std::nextafter(next, 2.0) < hi && hi - lo > width) continue;
+    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;  // two doubles between them
     for (const double each : {lo, next, hi})
       if (t.is(Number(each))) return {each, each};
     if (next >= hi || hi - lo <= width) return {lo, hi};

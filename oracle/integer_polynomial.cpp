@@ -126,28 +126,55 @@ Polynomial without_root(const Polynomial& f, const Dyadic& t) {
   return f.quotient(Polynomial({-t.numerator, Integer(1) << t.exponent}));
 }
 
-Dyadic middle(const Dyadic& a, const Dyadic& b) {
+/// The integer e with 2^e <= x < 2^(e + 1), of x > 0.
+int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - static_cast<int>(x.exponent); }
+
+Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
+
+/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes where these are far apart, so that
+/// roots close to 0 are reached soon; else in the middle.
+Dyadic between(const Dyadic& a, const Dyadic& b) {
+  const int high = magnitude(b);
+  if (a.numerator == 0) return power_of_half(high > -1 ? 1 : -2 * high);
+  const int low = magnitude(a);
+  if (high - low > 1) return power_of_half(-(low + high) / 2);  // rounded up: below b, above a
   const unsigned exponent = std::max(a.exponent, b.exponent);
   return {(a.numerator << (exponent - a.exponent)) + (b.numerator << (exponent - b.exponent)), exponent + 1};
 }
 
-/// Adds the roots of a square-free f in (lo, hi), where it is not zero at the ends.
-void isolate(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, std::vector<Root>& roots) {
+/// A square-free polynomial with its Sturm sequence.
+struct Sequence {
+  Polynomial f;
+  std::vector<Polynomial> sturm;
+
+  explicit Sequence(Polynomial square_free)
+      : f(std::move(square_free)), sturm(remainder_sequence(f, f.derivative())) {}
+
+  [[nodiscard]] int count_roots(const Dyadic& lo, const Dyadic& hi) const {
+    return sign_variations(sturm, lo) - sign_variations(sturm, hi);
+  }
+};
+
+/// Adds the roots of f in (lo, hi), where it is not zero at the ends.
+void isolate(const Sequence& sequence, const Dyadic& lo, const Dyadic& hi, std::vector<Root>& roots) {
+  const Polynomial& f = sequence.f;
   if (f.degree() < 1) return;
-  const int count = tarski_query(f, Polynomial({1}), lo, hi);
+  const int count = sequence.count_roots(lo, hi);
   if (count == 0) return;
   if (count == 1) {
     roots.emplace_back(f, lo, hi);
     return;
   }
-  const Dyadic between = middle(lo, hi);
-  Polynomial rest = f;
-  if (f.sign_at(between) == 0) {
-    roots.emplace_back(between);
-    rest = without_root(f, between);
+  const Dyadic division = between(lo, hi);
+  if (f.sign_at(division) == 0) {
+    roots.emplace_back(division);
+    const Sequence rest(without_root(f, division));
+    isolate(rest, lo, division, roots);
+    isolate(rest, division, hi, roots);
+  } else {
+    isolate(sequence, lo, division, roots);
+    isolate(sequence, division, hi, roots);
   }
-  isolate(rest, lo, between, roots);
-  isolate(rest, between, hi, roots);
 }
 
 }  // namespace
@@ -168,7 +195,7 @@ std::vector<Root> roots_in_unit_interval(const Polynomial& f) {
     roots.emplace_back(end);
     rest = without_root(rest, end);
   }
-  isolate(rest, zero, one, roots);
+  isolate(Sequence(rest), zero, one, roots);
   return roots;
 }
 

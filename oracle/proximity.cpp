@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "oracle/moving.hpp"
+#include "oracle/oracle.hpp"
 #include "oracle/root.hpp"
 
 namespace nearmiss {
@@ -110,6 +111,7 @@ class Pairs {
 }  // namespace exact
 
 bool comes_within(const Query& query, double bound) {
+  if (bound == 0) return collides(query);
   using namespace exact;
   const Pairs pairs(query, bound);
   const auto is_near = [&](Root& t) {

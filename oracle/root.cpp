@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace nearmiss::exact {
@@ -48,20 +49,6 @@ std::pair<double, double> value_and_slope(std::vector<double> b, double s) {
   return {b[0], slope};
 }
 
-/// Newton's method, until it stands still: by halves only where two roots are close.
-double newton(const std::vector<double>& b, double s) {
-  for (int i = 0; i < 60; ++i) {
-    const auto [value, slope] = value_and_slope(b, s);
-    if (value == 0) break;
-    const double next = std::clamp(s - value / slope, 0.0, 1.0);
-    if (std::isnan(next)) return 0.5;
-    const bool stands = std::abs(next - s) < 0x1p-48;
-    s = next;
-    if (stands) break;
-  }
-  return s;
-}
-
 /// x / y, or a number whose size tells no more than that it is large.
 double ratio(const Number& x, const Number& y) {
   const std::vector<double> both = in_proportion({x, y});
@@ -83,24 +70,26 @@ int count_roots_inside(const Polynomial& p) {
   return changes_at(0) - changes_at(1);
 }
 
-/// The roots in (0, 1) of a polynomial that has no multiple ones and is not zero at 0 and 1, ascending; or one of
-/// them that was come across as a number.
+/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was come across as
+/// a number; or neither, where they were not found.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
+  bool found = true;
 };
 
-/// Cuts the interval until every part has at most one root: in turn beside a guess of an extremum, which two
-/// close roots have between them, and in the middle.
-Isolated isolate(const std::shared_ptr<const Polynomial>& p) {
+/// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an extremum,
+/// which two close roots have between them, and in the middle. Gives up after so many cuts. The number of roots,
+/// where it is known, spares a search for what is none, such as a pair of close complex roots.
+Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
+                 std::optional<std::size_t> missing) {
   struct Part {
     Number lo, hi;
     bool guess;
   };
   Isolated isolated;
-  std::optional<std::size_t> missing;     // counted where there may be several
   std::vector<Part> parts{{0, 1, true}};  // the lowest one last
-  while (!parts.empty() && missing != 0) {
+  for (int cuts = 0; !parts.empty() && missing != 0;) {
     const Part part = std::move(parts.back());
     parts.pop_back();
     const OnInterval on(*p, part.lo, part.hi);
@@ -110,7 +99,7 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p) {
       if (missing) --*missing;
     }
     if (changes < 2) continue;
-    if (!missing) missing = count_roots_inside(*p);
+    if (++cuts > most_cuts) return {{}, {}, false};
     const double extremum = part.guess ? on.guess_extremum() : 0.5;
     const double around_it = part.guess ? around : 0;
     Number hi = part.hi;
@@ -156,16 +145,34 @@ int OnInterval::only_sign() const {
   return 0;
 }
 
-double OnInterval::guess_root() const {
+double OnInterval::guess_root(int sign_at_lo) const {
   const std::vector<double> b = bernstein(c_);
-  return newton(b, b.front() / (b.front() - b.back()));
+  double lo = 0;
+  double hi = 1;
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    const double value = value_and_slope(b, middle).first;
+    ((value > 0) - (value < 0) == sign_at_lo ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
 }
 
 double OnInterval::guess_extremum() const {
   std::vector<double> slope = bernstein(c_);
   for (std::size_t i = 0; i + 1 < slope.size(); ++i) slope[i] = slope[i + 1] - slope[i];
   slope.pop_back();
-  return newton(slope, 0.5);
+  double s = 0.5;
+  for (int i = 0; i < 60;
+       ++i) {  // Newton's method, which comes nearer only by halves where two roots are close
+    const auto [value, rise] = value_and_slope(slope, s);
+    if (value == 0) break;
+    const double next = std::clamp(s - value / rise, 0.0, 1.0);
+    if (std::isnan(next)) return 0.5;
+    const bool stands = std::abs(next - s) < 0x1p-48;
+    s = next;
+    if (stands) break;
+  }
+  return s;
 }
 
 Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
@@ -186,7 +193,7 @@ void Root::refine() {
   const Number lo = lo_;
   const Number width = hi_ - lo_;
   // In a small interval p is nearly linear: steps along the chord give the root's digits, some at a time.
-  Number guess = lo + Number(OnInterval(*p_, lo_, hi_).guess_root()) * width;
+  Number guess = lo + Number(OnInterval(*p_, lo_, hi_).guess_root(sign_at_lo_)) * width;
   Number unit = width;
   const Number rise = (*p_)(hi_) - (*p_)(lo_);
   Number magnifier = 1;
@@ -272,22 +279,30 @@ bool Root::is_below(Root& other) {
 }
 
 std::vector<Root> roots_in_step(const Polynomial& p) {
-  auto rest = std::make_shared<const Polynomial>(square_free(p));
+  auto rest = std::make_shared<const Polynomial>(p);
   std::vector<Root> numbers;
   const auto take_out = [&](const Number& root) {
     numbers.emplace_back(root);
-    rest = std::make_shared<const Polynomial>(divide(*rest, Polynomial({-root, Number(1)})).quotient);
+    while (rest->degree() > 0 && rest->sign_at(root) == 0)
+      rest = std::make_shared<const Polynomial>(divide(*rest, Polynomial({-root, Number(1)})).quotient);
   };
   for (const Number& end : {Number(0), Number(1)})
     if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
+  // First without any effort; where a few cuts do not part the roots, some may be multiple ones.
+  constexpr int few = 12;
   std::vector<Root> roots;
-  while (rest->degree() > 0) {
-    Isolated isolated = isolate(rest);
-    if (!isolated.number) {
+  for (bool is_simple = false; rest->degree() > 0;) {
+    Isolated isolated = is_simple ? isolate(rest, std::numeric_limits<int>::max(), count_roots_inside(*rest))
+                                  : isolate(rest, few, std::nullopt);
+    if (isolated.number) {
+      take_out(*isolated.number);
+    } else if (isolated.found) {
       roots = std::move(isolated.roots);
       break;
+    } else {
+      rest = std::make_shared<const Polynomial>(square_free(*rest));
+      is_simple = true;
     }
-    take_out(*isolated.number);
   }
   for (Root& number : numbers)
     roots.insert(std::find_if(roots.begin(), roots.end(), [&](Root& root) { return number.is_below(root); }),

@@ -24,8 +24,9 @@ class OnInterval {
   /// The sign on the open interval, where the coefficients tell; else 0.
   [[nodiscard]] int only_sign() const;
 
-  /// Guesses where in (0, 1) of the interval there may be a root or an extremum; anywhere there, 0.5 too.
-  [[nodiscard]] double guess_root() const;
+  /// Guesses where in [0, 1] of the interval the only root is, given the sign at the lower end.
+  [[nodiscard]] double guess_root(int sign_at_lo) const;
+  /// Guesses where in [0, 1] of the interval there may be an extremum.
   [[nodiscard]] double guess_extremum() const;
 
  private:
@@ -36,7 +37,7 @@ class OnInterval {
 class Root {
  public:
   explicit Root(const Number& number) : lo_(number), hi_(number) {}
-  /// The only root of p, which has no multiple ones, in (lo, hi); p is not zero at the ends.
+  /// The only root of p in (lo, hi), a simple one; p is not zero at the ends.
   Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi);
 
   /// lo <= the root <= hi; equal where the root is that number, else the root is neither.

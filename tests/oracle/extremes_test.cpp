@@ -1,0 +1,151 @@
+// Coordinates of all magnitudes, and roots of all sorts: the filter and the three answers say the same.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "oracle/agreement.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+/// Everything that the oracle says of a query fits together.
+void expect_consistent(const Query& query) {
+  const bool collision = decide(query).collision;
+  const Answers answers = ask_all(query);
+  EXPECT_TRUE(answers.agree());
+  EXPECT_EQ(answers.exact, collision);
+  std::vector<Decision> decisions(1);
+  decide(std::vector<Query>{query}, decisions);
+  EXPECT_EQ(decisions[0].collision, collision);
+  const auto time = earliest_time(query);
+  EXPECT_EQ(time.has_value(), collision);
+  if (time) {
+    EXPECT_LE(0, time->enclosure.lo);
+    EXPECT_LE(time->enclosure.hi, 1);
+    EXPECT_LE(time->enclosure.hi, std::nextafter(time->enclosure.lo, 2));
+  }
+}
+
+void expect_collision(const Query& query, bool collision) {
+  EXPECT_EQ(collides(query), collision);
+  expect_consistent(query);
+}
+
+/// Queries whose coordinates are what `coordinate` makes.
+void expect_consistency(int count, const std::function<double(std::mt19937_64&)>& coordinate) {
+  std::mt19937_64 random(1);
+  int collisions = 0;
+  for (int i = 0; i < count; ++i) {
+    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+    for (double& c : query.x) c = coordinate(random);
+    SCOPED_TRACE(i);
+    expect_consistent(query);
+    collisions += collides(query) ? 1 : 0;
+  }
+  EXPECT_GT(collisions, 0);
+  EXPECT_LT(collisions, count);
+}
+
+int integer(std::mt19937_64& random, int lo, int hi) {
+  return std::uniform_int_distribution<int>(lo, hi)(random);
+}
+
+TEST(Extremes, EveryExponentInOneQuery) {
+  expect_consistency(200, [](auto& random) {
+    return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(random), integer(random, -1074, 1023));
+  });
+}
+
+TEST(Extremes, TheSmallestBesideTheLargest) {
+  expect_consistency(200, [](auto& random) {
+    const double size = integer(random, 0, 1) == 0 ? smallest : largest;
+    return integer(random, -1, 1) * size;
+  });
+}
+
+TEST(Extremes, RootsCloserThanDoublesAre) {
+  for (const int exponent : {-60, -201, -500}) {
+    expect_consistency(300, [&](auto& random) {
+      const int size = integer(random, 0, 3);
+      return integer(random, -2, 2) + (size == 0 ? std::ldexp(1.0, exponent) * integer(random, -2, 2) : 0.0);
+    });
+    expect_consistency(300, [&](auto& random) {
+      return integer(random, -2, 2) * std::ldexp(1.0, integer(random, 0, 3) == 0 ? exponent : 0);
+    });
+  }
+}
+
+TEST(Extremes, ContactNextToTheEndsOfTheStep) {
+  for (const double gap : {0x1p-60, 0x1p-201, 0x1p-1000, smallest}) {
+    expect_collision(falling_vertex(0.25, 0.25, gap, -1), true);
+    expect_collision(falling_vertex(0.25, 0.25, gap, 1), false);
+    expect_collision(falling_vertex(0.25, 0.25, 1, -gap), true);
+    expect_collision(falling_vertex(0.25, 0.25, 1, gap), false);
+    expect_collision(falling_edge(gap, -1), true);
+    expect_collision(falling_edge(1, gap), false);
+    expect_collision(falling_vertex(-gap, 0.5, 1, -1), false);  // beside an edge
+    expect_collision(falling_vertex(gap, 0.5, 1, -1), true);
+  }
+}
+
+TEST(Extremes, DifferencesThatOverflow) {
+  const double m = largest;
+  const Query through = make_query(Kind::vertex_triangle, {{0, 0, m}, {-m, -m, 0}, {m, -m, 0}, {0, m, 0}},
+                                   {{0, 0, -m}, {-m, -m, 0}, {m, -m, 0}, {0, m, 0}});
+  expect_collision(through, true);
+  EXPECT_EQ(earliest_time(through)->rational, "1/2");
+  expect_collision(make_query(Kind::edge_edge, {{-m, 0, m}, {m, 0, m}, {0, -m, -m}, {0, m, -m}},
+                              {{-m, 0, -m}, {m, 0, -m}, {0, -m, m}, {0, m, m}}),
+                   true);
+  expect_collision(make_query(Kind::edge_edge, {{-m, 0, m}, {m, 0, m}, {0, -m, -m}, {0, m, -m}},
+                              {{-m, 0, m}, {m, 0, m}, {0, -m, -m}, {0, m, -m}}),
+                   false);
+}
+
+TEST(Extremes, AllCoordinatesEqual) {
+  for (const double c : {0.0, -0.0, 1.0, smallest, largest, -largest})
+    for (const Kind kind : kinds) {
+      Query query{.kind = kind};
+      query.x.fill(c);
+      expect_collision(query, true);
+      EXPECT_EQ(earliest_time(query)->enclosure.hi, 0);
+    }
+}
+
+TEST(Extremes, RootsOfEveryMultiplicity) {
+  // The vertex and the triangle's plane through (0, 0, 0): F is a multiple of the vertex's height over the plane. All
+  // three of a, b, c vanish at t = 1/2: F = k (t - 1/2)³.
+  const Query triple = make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+                                  {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  expect_collision(triple, true);
+  EXPECT_EQ(count_roots(triple).with_multiplicity, 3);
+  EXPECT_EQ(earliest_time(triple)->rational, "1/2");
+  // The same a little later than the vertex is gone.
+  Query missed = triple;
+  for (int k = 0; k < 3; ++k) missed.x[static_cast<std::size_t>(12 + k)] = 1;
+  expect_consistent(missed);
+  // At t = 0 and at t = 1.
+  const Query at_start = make_query(Kind::vertex_triangle, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+                                    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  expect_collision(at_start, true);
+  EXPECT_EQ(earliest_time(at_start)->rational, "0");
+  const Query at_end = make_query(Kind::vertex_triangle, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                  {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+  expect_collision(at_end, true);
+  EXPECT_EQ(earliest_time(at_end)->rational, "1");
+}
+
+}  // namespace
+}  // namespace nearmiss
