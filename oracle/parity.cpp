@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -207,8 +208,19 @@ Vector difference(const Query& query, int i, int j, int time) {
 }
 
 /// The images of the faces. A triangle is a patch with a side of length 0.
+/// A power of two times which every coordinate is an integer: rationals are then quick, and no sign changes.
+Number integer_scale(const Query& query) {
+  int exponent = 0;
+  for (const double c : query.x)
+    if (c != 0) exponent = std::max(exponent, 52 - std::ilogb(c));
+  CGAL::Gmpz power = 1;
+  power <<= static_cast<unsigned long>(exponent);
+  return power;
+}
+
 std::vector<Patch> boundary(const Query& query) {
-  const auto f = [&](int i, int j, int time) { return difference(query, i, j, time); };
+  const Number scale = integer_scale(query);
+  const auto f = [&](int i, int j, int time) { return scale * difference(query, i, j, time); };
   std::vector<Patch> faces;
   const auto add_side = [&](int i, int j, int k,
                             int l) {  // the difference x_i - x_j moves to x_k - x_l along the side
