@@ -46,14 +46,14 @@ class Pairs {
     squared_bound_ = Polynomial({b * b});
     const auto x = moving_points(query, scale);
     if (query.kind == Kind::vertex_triangle) {
-      for (const std::size_t i : {1, 2, 3}) {
+      for (std::size_t i = 1; i < 4; ++i) {
         add_vertices(x[0], x[i]);
         add_vertex_and_edge(x[0], x[i], x[i % 3 + 1]);
       }
       add_vertex_and_triangle(x);
     } else {
-      for (const std::size_t i : {0, 1}) {
-        for (const std::size_t j : {2, 3}) add_vertices(x[i], x[j]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 2; j < 4; ++j) add_vertices(x[i], x[j]);
         add_vertex_and_edge(x[i], x[2], x[3]);
         add_vertex_and_edge(x[i + 2], x[0], x[1]);
       }
@@ -87,7 +87,7 @@ class Pairs {
   void add_vertex_and_triangle(const std::array<Vector, 4>& x) {
     const Vector N = cross(x[2] - x[1], x[3] - x[1]);
     std::vector<Polynomial> outside;
-    for (const std::size_t i : {1, 2, 3}) outside.push_back(dot(N, cross(x[0] - x[i], x[i % 3 + 1] - x[i])));
+    for (std::size_t i = 1; i < 4; ++i) outside.push_back(dot(N, cross(x[0] - x[i], x[i % 3 + 1] - x[i])));
     add_with_normal(dot(x[0] - x[1], N), dot(N, N), std::move(outside));
   }
 

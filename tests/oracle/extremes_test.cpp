@@ -1,10 +1,14 @@
 // Coordinates of all magnitudes, and roots of all sorts: the filter and the three answers say the same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <iostream>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
@@ -20,9 +24,26 @@ using testing::make_query;
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
+/// The slowest decision, for information.
+class Slowest {
+ public:
+  [[nodiscard]] double milliseconds() const { return milliseconds_; }
+
+  bool decide(const Query& query) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool collision = nearmiss::decide(query).collision;
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    milliseconds_ = std::max(milliseconds_, time.count());
+    return collision;
+  }
+
+ private:
+  double milliseconds_ = 0;
+};
+
 /// Everything that the oracle says of a query fits together.
-void expect_consistent(const Query& query) {
-  const bool collision = decide(query).collision;
+void expect_consistent(const Query& query, Slowest& slowest) {
+  const bool collision = slowest.decide(query);
   const Answers answers = ask_all(query);
   EXPECT_TRUE(answers.agree());
   EXPECT_EQ(answers.exact, collision);
@@ -40,20 +61,23 @@ void expect_consistent(const Query& query) {
 
 void expect_collision(const Query& query, bool collision) {
   EXPECT_EQ(collides(query), collision);
-  expect_consistent(query);
+  Slowest slowest;
+  expect_consistent(query, slowest);
 }
 
 /// Queries whose coordinates are what `coordinate` makes.
 void expect_consistency(int count, const std::function<double(std::mt19937_64&)>& coordinate) {
   std::mt19937_64 random(1);
+  Slowest slowest;
   int collisions = 0;
   for (int i = 0; i < count; ++i) {
     Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
     for (double& c : query.x) c = coordinate(random);
     SCOPED_TRACE(i);
-    expect_consistent(query);
+    expect_consistent(query, slowest);
     collisions += collides(query) ? 1 : 0;
   }
+  std::cout << "slowest decision: " << slowest.milliseconds() << " ms\n";
   EXPECT_GT(collisions, 0);
   EXPECT_LT(collisions, count);
 }
@@ -135,7 +159,8 @@ TEST(Extremes, RootsOfEveryMultiplicity) {
   // The same a little later than the vertex is gone.
   Query missed = triple;
   for (int k = 0; k < 3; ++k) missed.x[static_cast<std::size_t>(12 + k)] = 1;
-  expect_consistent(missed);
+  Slowest slowest;
+  expect_consistent(missed, slowest);
   // At t = 0 and at t = 1.
   const Query at_start = make_query(Kind::vertex_triangle, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
                                     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <iostream>
@@ -307,7 +308,7 @@ TEST(BatchFilter, InstructionsChangeNothing) {
 TEST(BatchFilter, TakesAnyNumberOfQueries) {
   const auto queries = hard_queries(8, 300);
   const auto stages = filter_all(queries, widest_instructions());
-  for (const std::size_t count : {0, 1, 7, 127, 128, 129, 300}) {
+  for (const std::size_t count : std::array<std::size_t, 7>{0, 1, 7, 127, 128, 129, 300}) {
     const std::vector<Query> some(queries.begin(), queries.begin() + static_cast<std::ptrdiff_t>(count));
     EXPECT_EQ(filter_all(some, widest_instructions()),
               std::vector(stages.begin(), stages.begin() + static_cast<std::ptrdiff_t>(count)));
