@@ -34,7 +34,8 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
-/// Which queries all three answers of the oracle are asked about, beside those that its filter leaves undecided.
+/// Which queries all three answers of the oracle are asked about, beside those that its filter leaves
+/// undecided.
 struct Comparison {
   std::uint64_t one_in = 64;  ///< so many, by a hash of the coordinates; at least 1
   /// And where the filter decides, but would not with bounds of rounding errors 16 times as large.

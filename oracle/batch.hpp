@@ -11,8 +11,9 @@ namespace nearmiss::certified {
 /// So many queries are looked at together: what is kept of them stays in the nearest cache.
 inline constexpr std::size_t batch_size = 128;
 
-/// Decides queries, at most batch_size, with all bounds of rounding errors so many times as large as they are, or
-/// leaves them `undecided`; the same stages by all. Meanwhile `count` queries at `ahead` are fetched from memory.
+/// Decides queries, at most batch_size, with all bounds of rounding errors so many times as large as they
+/// are, or leaves them `undecided`; the same stages by all. Meanwhile `count` queries at `ahead` are fetched
+/// from memory.
 using FilterBatch = void(const Query* queries, std::size_t count, double caution, FilterStage* stages,
                          const Query* ahead);
 

@@ -17,9 +17,9 @@
 
 namespace nearmiss::certified {
 
-/// Goes through the queries stage by stage, each time with those that are left side by side in n lanes: moving
-/// planes; F of one sign; then parts of the step, as Search does, but with fewer means: what is hard is left
-/// undecided. What is computed in a lane depends on its query alone, so n changes no answer.
+/// Goes through the queries stage by stage, each time with those that are left side by side in n lanes:
+/// moving planes; F of one sign; then parts of the step, as Search does, but with fewer means: what is hard
+/// is left undecided. What is computed in a lane depends on its query alone, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:

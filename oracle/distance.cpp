@@ -1,5 +1,5 @@
-// Certified enclosure of the smallest distance over [0, 1]: branch and bound over time in interval arithmetic, and
-// exact comparisons where that cannot tell.
+// Certified enclosure of the smallest distance over [0, 1]: branch and bound over time in interval
+// arithmetic, and exact comparisons where that cannot tell.
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
@@ -209,7 +209,8 @@ Enclosure closest_approach(const Query& query, double relative_width) {
 Enclosure minimum_distance(const Query& query, double relative_width) {
   if (collides(query)) return {0, 0};
   Enclosure distance = closest_approach(query, relative_width);
-  // What intervals leave is halved exactly, in proportion: the geometric mean, lo = 0 taken for the smallest number.
+  // What intervals leave is halved exactly, in proportion: the geometric mean, lo = 0 taken for the smallest
+  // number.
   while (distance.hi - distance.lo > relative_width * distance.hi) {
     const double lo = std::max(distance.lo, std::numeric_limits<double>::denorm_min());
     const double middle =

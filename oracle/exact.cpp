@@ -35,9 +35,9 @@ bool meet_at(const Predicates& predicates, Root& t) {
 /// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any, where F is zero
 /// identically; or it is t = 0.
 ///
-/// They are all predicate polynomials. For the set of colliding times is closed, so it has a least element t*;
-/// were t* neither 0 nor a root of a predicate that is not identically zero, no predicate would change its
-/// sign in a neighbourhood of t*, and there would be collisions before t*.
+/// They are all predicate polynomials. For the set of colliding times is closed, so it has a least element
+/// t*; were t* neither 0 nor a root of a predicate that is not identically zero, no predicate would change
+/// its sign in a neighbourhood of t*, and there would be collisions before t*.
 std::vector<Polynomial> deciding_polynomials(const Predicates& predicates) {
   std::vector<Polynomial> deciding;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -94,8 +94,8 @@ double rounded_down(const Number& x) {
   return d;
 }
 
-/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself where it is a
-/// double.
+/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself where it
+/// is a double.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());

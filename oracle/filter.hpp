@@ -32,8 +32,8 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
 }
 
-/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided, as it
-/// does where a coordinate is not finite. Rounds to nearest.
+/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided, as
+/// it does where a coordinate is not finite. Rounds to nearest.
 FilterStage filter(const Query& query);
 
 /// Instruction sets of x86-64 processors by which many queries can be decided at once.
@@ -48,8 +48,8 @@ Instructions widest_instructions();
 void filter(std::span<const Query> queries, std::span<FilterStage> stages,
             Instructions instructions = widest_instructions());
 
-/// The same with all bounds of rounding errors so many times as large as they are, caution >= 1, and by double
-/// arithmetic alone: what it decides is not near its bounds.
+/// The same with all bounds of rounding errors so many times as large as they are, caution >= 1, and by
+/// double arithmetic alone: what it decides is not near its bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

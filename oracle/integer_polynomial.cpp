@@ -131,8 +131,8 @@ int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - sta
 
 Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
 
-/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes where these are far apart, so that
-/// roots close to 0 are reached soon; else in the middle.
+/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes where these are far apart, so
+/// that roots close to 0 are reached soon; else in the middle.
 Dyadic between(const Dyadic& a, const Dyadic& b) {
   const int high = magnitude(b);
   if (a.numerator == 0) return power_of_half(high > -1 ? 1 : -2 * high);

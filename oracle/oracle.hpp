@@ -25,8 +25,8 @@ struct Decision {
 /// Decides by the swept boxes, the certified filter, and, where these leave it undecided, exact arithmetic.
 Decision decide(const Query& query);
 
-/// The same for many queries of both kinds, which the filter takes side by side. A stage may be another one than
-/// for a query alone, the answer may not.
+/// The same for many queries of both kinds, which the filter takes side by side. A stage may be another one
+/// than for a query alone, the answer may not.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 /// Whether the two closed primitives share a point at some t in [0, 1], exactly, for every finite query:
@@ -42,16 +42,16 @@ struct ContactTime {
   std::string rational;  ///< the time itself, "p/q" or "p" in lowest terms, where it is rational; else empty
 };
 
-/// The earliest time at which they do; nothing where they never do. Its enclosure is at most `width` wide, or as
-/// narrow as doubles can be.
+/// The earliest time at which they do; nothing where they never do. Its enclosure is at most `width` wide, or
+/// as narrow as doubles can be.
 std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
 
-/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi, or they
-/// are as near to each other as doubles can be.
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
+/// or they are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// The same by interval arithmetic alone: lo is 0 for a collision, but hi need not be. It is as narrow where double
-/// intervals can tell: not where the distance is below about 2^-45 of the largest coordinate.
+/// The same by interval arithmetic alone: lo is 0 for a collision, but hi need not be. It is as narrow where
+/// double intervals can tell: not where the distance is below about 2^-45 of the largest coordinate.
 Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.

@@ -74,8 +74,8 @@ Division divide(const Polynomial& p, const Polynomial& q) {
 }
 
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
-  // Subresultants, but for their signs: what they can be divided by is known, and they stay as short as determinants
-  // of p's and q's coefficients are.
+  // Subresultants, but for their signs: what they can be divided by is known, and they stay as short as
+  // determinants of p's and q's coefficients are.
   std::vector<Polynomial> sequence{p, q};
   Number g = 1;
   Number h = 1;

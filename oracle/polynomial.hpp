@@ -45,8 +45,8 @@ struct Division {
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
-/// p, q, and on from them: each is the negative remainder of the two before it, times something positive. The last
-/// one is their greatest common divisor. p's degree is not below q's, q is not zero.
+/// p, q, and on from them: each is the negative remainder of the two before it, times something positive. The
+/// last one is their greatest common divisor. p's degree is not below q's, q is not zero.
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 
 /// A greatest common divisor, not both zero; its factor means nothing.

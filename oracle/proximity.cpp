@@ -1,15 +1,16 @@
-// The closed-set argument. The distance at a time is at most b if and only if one of finitely many statements about
-// a pair of features holds: a vertex of each, a vertex and an edge, the vertex and the triangle, or two edges. Each
-// says that the closest points of the lines or planes through them are in them, and within b: polynomials in t
-// that are not positive, and one that is positive, where the features are not degenerate (others then say the
-// same). Whichever pair is closest, its statement holds; and whichever holds, there are points within b.
+// The closed-set argument. The distance at a time is at most b if and only if one of finitely many statements
+// about a pair of features holds: a vertex of each, a vertex and an edge, the vertex and the triangle, or two
+// edges. Each says that the closest points of the lines or planes through them are in them, and within b:
+// polynomials in t that are not positive, and one that is positive, where the features are not degenerate
+// (others then say the same). Whichever pair is closest, its statement holds; and whichever holds, there are
+// points within b.
 //
-// The times at which one holds are a closed set, for the distance is continuous. If it is not empty, it has a least
-// element t*. Either t* = 0, or the distance is b at t*, and more before. Then the closest pair's polynomial
-// "distance² - b²" (times what makes it one) is zero at t*: t* is one of its roots, or that polynomial is zero
-// identically. In that case the pair's statement, which holds at t* and not before, changes because another
-// polynomial that must not be positive was so before: t* is a root of that. (One that must be positive and is so at
-// t* was so before.)
+// The times at which one holds are a closed set, for the distance is continuous. If it is not empty, it has a
+// least element t*. Either t* = 0, or the distance is b at t*, and more before. Then the closest pair's
+// polynomial "distance² - b²" (times what makes it one) is zero at t*: t* is one of its roots, or that
+// polynomial is zero identically. In that case the pair's statement, which holds at t* and not before,
+// changes because another polynomial that must not be positive was so before: t* is a root of that. (One that
+// must be positive and is so at t* was so before.)
 #include "oracle/proximity.hpp"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 namespace nearmiss {
 
-/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0: exactly, for every finite
-/// query.
+/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0: exactly, for every
+/// finite query.
 bool comes_within(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -58,8 +58,8 @@ double ratio(const Number& x, const Number& y) {
 /// lo + part (hi - lo).
 Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
 
-/// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero at 0
-/// and 1.
+/// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero
+/// at 0 and 1.
 int count_roots_inside(const Polynomial& p) {
   const std::vector<Polynomial> chain = remainders(p, p.derivative());
   const auto changes_at = [&](const Number& t) {
@@ -70,17 +70,18 @@ int count_roots_inside(const Polynomial& p) {
   return changes_at(0) - changes_at(1);
 }
 
-/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was come across as
-/// a number; or neither, where they were not found.
+/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was come
+/// across as a number; or neither, where they were not found.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
   bool found = true;
 };
 
-/// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an extremum,
-/// which two close roots have between them, and in the middle. Gives up after so many cuts. The number of roots,
-/// where it is known, spares a search for what is none, such as a pair of close complex roots.
+/// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an
+/// extremum, which two close roots have between them, and in the middle. Gives up after so many cuts. The
+/// number of roots, where it is known, spares a search for what is none, such as a pair of close complex
+/// roots.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
                  std::optional<std::size_t> missing) {
   struct Part {
@@ -119,8 +120,8 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
 }  // namespace
 
 OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
-  // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i (1 +
-  // x)^(n - i).
+  // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
+  // (1 + x)^(n - i).
   std::vector<int> power{1};
   for (std::size_t i = p.coefficients().size(); i > 0; --i) {
     if (i < p.coefficients().size()) {

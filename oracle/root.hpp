@@ -13,8 +13,8 @@
 
 namespace nearmiss::exact {
 
-/// A polynomial on an interval by its Bernstein coefficients, times binomial coefficients. In the open interval
-/// there are as many roots as signs change along them, or fewer by an even number.
+/// A polynomial on an interval by its Bernstein coefficients, times binomial coefficients. In the open
+/// interval there are as many roots as signs change along them, or fewer by an even number.
 class OnInterval {
  public:
   /// Not the zero polynomial.
@@ -50,7 +50,8 @@ class Root {
   void refine();
   /// Whether the root is this number.
   [[nodiscard]] bool is(const Number& number) const;
-  /// The root, if it is rational: looks for it as far as a fraction with the leading coefficient as denominator.
+  /// The root, if it is rational: looks for it as far as a fraction with the leading coefficient as
+  /// denominator.
   std::optional<CGAL::Gmpq> as_rational();
   /// Whether this root is smaller than the other one.
   bool is_below(Root& other);

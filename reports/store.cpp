@@ -31,8 +31,9 @@ constexpr const char* schema = R"sql(
     PRIMARY KEY (subject, kind, family)) STRICT;
   CREATE TABLE oracle_statistics (
     kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL, queries INTEGER NOT NULL,
-    collisions INTEGER NOT NULL, by_stage TEXT NOT NULL, near_bounds INTEGER NOT NULL, compared INTEGER NOT NULL,
-    compared_collisions INTEGER NOT NULL, missed_by_parity INTEGER NOT NULL, PRIMARY KEY (kind, family)) STRICT;
+    collisions INTEGER NOT NULL, by_stage TEXT NOT NULL, near_bounds INTEGER NOT NULL,
+    compared INTEGER NOT NULL, compared_collisions INTEGER NOT NULL, missed_by_parity INTEGER NOT NULL,
+    PRIMARY KEY (kind, family)) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
   CREATE TABLE finding (
     what TEXT NOT NULL, subject TEXT NOT NULL, family TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,

@@ -149,8 +149,8 @@ TEST(Extremes, AllCoordinatesEqual) {
 }
 
 TEST(Extremes, RootsOfEveryMultiplicity) {
-  // The vertex and the triangle's plane through (0, 0, 0): F is a multiple of the vertex's height over the plane. All
-  // three of a, b, c vanish at t = 1/2: F = k (t - 1/2)³.
+  // The vertex and the triangle's plane through (0, 0, 0): F is a multiple of the vertex's height over the
+  // plane. All three of a, b, c vanish at t = 1/2: F = k (t - 1/2)³.
   const Query triple = make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
                                   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   expect_collision(triple, true);

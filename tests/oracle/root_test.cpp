@@ -123,7 +123,8 @@ struct Both {
 
 class Integers {
  public:
-  /// A product of factors with small coefficients, some of them more than once, or a factor and a small change.
+  /// A product of factors with small coefficients, some of them more than once, or a factor and a small
+  /// change.
   Both polynomial(int degree) {
     Both p{Polynomial({Number(1)}), Reference(1)};
     while (p.here.degree() < degree) {
