@@ -112,9 +112,12 @@ class BatchFilter {
       const Points x = points(rows.pack(i));
       const Mask apart = nearmiss::detail::separated_across_axis<kind>(x) |
                          nearmiss::detail::separated_across_diagonal<kind>(x);
-      Real sum = 0;  // finite only where all are
-      for (const Real& c : x.x) sum += c;
-      const Mask finite = abs(sum) < HUGE_VAL;
+      std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2],
+                               x.x[3]};  // four at a time, for they wait for each other
+      for (std::size_t c = 4; c < 24; c += 4)
+        for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
+      // Finite only where all are.
+      const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
       constexpr int separated = 1;
       constexpr int unsure = 2;
       for_lanes((finite & apart).as(separated) | (finite & (!apart)).as(unsure), rows.size() - i,
