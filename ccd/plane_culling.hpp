@@ -69,9 +69,7 @@ auto separated_across_diagonal(const Points& x) {
 /// an infinite sum is above every finite one rightly, and not above another infinite one).
 template <Kind kind>
 bool separated_by_plane(const Query& query) {
-  const auto x = [&](std::size_t time, std::size_t vertex, std::size_t k) {
-    return query.x[12 * time + 3 * vertex + k];
-  };
+  const auto x = coordinates(query);
   return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
 }
 

@@ -54,6 +54,13 @@ struct Query {
   }
 };
 
+/// The coordinates as a function: component k of a vertex at a time, 0 or 1.
+inline auto coordinates(const Query& query) {
+  return [&query](std::size_t time, std::size_t vertex, std::size_t k) {
+    return query.x[12 * time + 3 * vertex + k];
+  };
+}
+
 /// Whether all 24 coordinates are finite.
 inline bool is_finite(const Query& query) {
   // One more in an exponent of all ones, which infinities and NaN have, carries into the sign's bit.

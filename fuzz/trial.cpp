@@ -132,8 +132,8 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
 
   std::vector<Decision> decisions(batch.queries.size());
   decide(batch.queries, decisions);
-  std::vector<bool> near(batch.queries.size());
-  if (comparison.near_bounds) near = near_bounds(batch, decisions);
+  const std::vector<bool> near =
+      comparison.near_bounds ? near_bounds(batch, decisions) : std::vector<bool>(batch.queries.size());
   const auto wang = make_subject("wang");  // the measure for subjects that claim no bound
   for (std::size_t i = 0; i < batch.queries.size(); ++i) {
     const Query& query = batch.queries[i];

@@ -21,6 +21,16 @@ FilterBatch* filter_with(Instructions instructions) {
   }
 }
 
+void filter_all(std::span<const Query> queries, double caution, std::span<FilterStage> stages,
+                Instructions instructions) {
+  FilterBatch* const filter_batch = filter_with(instructions);
+  for (std::size_t first = 0; first < queries.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, queries.size() - first);
+    const std::size_t ahead = std::min(first + batch_size, queries.size() - count);
+    filter_batch(&queries[first], count, caution, &stages[first], &queries[ahead]);
+  }
+}
+
 }  // namespace
 }  // namespace certified
 
@@ -43,34 +53,14 @@ Instructions widest_instructions() {
   return widest;
 }
 
-namespace certified {
-namespace {
-
-/// `visit(first, count)` for every batch, when it has been decided.
-template <class Visit>
-void filter_all(std::span<const Query> queries, double caution, std::span<FilterStage> stages,
-                Instructions instructions, const Visit& visit) {
-  FilterBatch* const filter_batch = filter_with(instructions);
-  for (std::size_t first = 0; first < queries.size(); first += batch_size) {
-    const std::size_t count = std::min(batch_size, queries.size() - first);
-    const std::size_t ahead = std::min(first + batch_size, queries.size() - count);
-    filter_batch(&queries[first], count, caution, &stages[first], &queries[ahead]);
-    visit(first, count);
-  }
-}
-
-}  // namespace
-}  // namespace certified
-
 void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instructions instructions) {
-  certified::filter_all(queries, 1, stages, instructions, [&](std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i)
-      if (stages[i] == FilterStage::undecided) stages[i] = filter(queries[i]);
-  });
+  certified::filter_all(queries, 1, stages, instructions);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (stages[i] == FilterStage::undecided) stages[i] = filter(queries[i]);
 }
 
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {
-  certified::filter_all(queries, caution, stages, widest_instructions(), [](std::size_t, std::size_t) {});
+  certified::filter_all(queries, caution, stages, widest_instructions());
 }
 
 }  // namespace nearmiss

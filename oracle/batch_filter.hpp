@@ -11,6 +11,7 @@
 
 #include "ccd/plane_culling.hpp"
 #include "oracle/batch.hpp"
+#include "oracle/batch_look.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/lanes.hpp"
 #include "oracle/patch.hpp"
@@ -112,11 +113,10 @@ class BatchFilter {
       const Points x = points(rows.pack(i));
       const Mask apart = nearmiss::detail::separated_across_axis<kind>(x) |
                          nearmiss::detail::separated_across_diagonal<kind>(x);
-      std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2],
-                               x.x[3]};  // four at a time, for they wait for each other
+      // Four sums at a time, for additions wait for each other; finite only where all coordinates are.
+      std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
-      // Finite only where all are.
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
       constexpr int separated = 1;
       constexpr int unsure = 2;
@@ -130,26 +130,10 @@ class BatchFilter {
     return left;
   }
 
-  /// x_i - x_j for all that F and the weights need.
-  Patch<Real> patch(const std::uint8_t* rows) const {
-    const Points x = points(rows);
-    const auto difference = [&](std::size_t i, std::size_t j) {
-      Motion<Real> motion;
-      for (std::size_t k = 0; k < 3; ++k) {
-        motion.start[k] = x(0, i, k) - x(0, j, k);
-        motion.end[k] = x(1, i, k) - x(1, j, k);
-      }
-      motion.magnitude = larger_magnitude(motion.start, motion.end);
-      motion.rounded_once = true;
-      return motion;
-    };
-    return {0, 1, difference(1, 0), difference(2, 0), difference(3, 0), difference(2, 1), difference(3, 1)};
-  }
-
   Rows cull_by_sign(const Rows& rows, FilterStage* stages) {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
-      const Patch<Real> p = patch(rows.pack(i));
+      const Patch<Real> p = whole_step<Real>(points(rows.pack(i)));
       auto F = coplanarity(p.a, p.b, p.c);
       F.error = caution_ * F.error;
       const auto [positive, negative] = certain_signs(F.b, F.error);
@@ -171,24 +155,10 @@ class BatchFilter {
     return left;
   }
 
-  struct Signs {
-    Mask positive, negative;
-  };
-  /// Where all numbers certainly have the sign.
-  template <std::size_t count>
-  static Signs certain_signs(const std::array<Real, count>& numbers, const Real& error) {
-    Signs signs{numbers[0] > error, numbers[0] < -error};
-    for (std::size_t i = 1; i < count; ++i) {
-      signs.positive = signs.positive & (numbers[i] > error);
-      signs.negative = signs.negative & (numbers[i] < -error);
-    }
-    return signs;
-  }
-
   /// Keeps the weights in the component in which the normal is largest at t = 1/2.
   void prepare_weights(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
-      const Patch<Real> whole = patch(rows.pack(i));
+      const Patch<Real> whole = whole_step<Real>(points(rows.pack(i)));
       const auto twice_middle = [](const Motion<Real>& m) {
         return Vec<Real>{m.start[0] + m.end[0], m.start[1] + m.end[1], m.start[2] + m.end[2]};
       };
@@ -219,26 +189,9 @@ class BatchFilter {
     }
   }
 
-  struct Agreement {
-    Mask agree, opposed;
-  };
-  /// Of the weights, given what tells the signs of one of them.
-  template <class SignsOf>
-  static Agreement agreement(const std::array<Bernstein<Real, 3>, weight_count>& weights,
-                             const SignsOf& signs_of) {
-    Signs some = signs_of(weights[0]);
-    Mask all = some.positive | some.negative;
-    for (std::size_t w = 1; w < weight_count; ++w) {
-      const Signs own = signs_of(weights[w]);
-      some = {some.positive | own.positive, some.negative | own.negative};
-      all = all & (own.positive | own.negative);
-    }
-    const Mask opposed = some.positive & some.negative;
-    return {all & (!opposed), opposed};
-  }
-
   using Cubic = Bernstein<Real, 4>;
   using Quadratics = std::array<Bernstein<Real, 3>, weight_count>;
+  using Look = certified::Look<n>;
 
   /// F and the weights of some queries, given how to take n numbers from a column.
   template <class Take>
@@ -248,70 +201,6 @@ class BatchFilter {
     for (std::size_t w = 0; w < weight_count; ++w)
       weights[w] = {{take(W_[4 * w]), take(W_[4 * w + 1]), take(W_[4 * w + 2])}, take(W_[4 * w + 3])};
     return {F, weights};
-  }
-
-  /// What was seen in a part of the step, and which parts of it have to be looked at: [lo, left], [left,
-  /// right] and [right, hi].
-  struct Look {
-    enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16 };
-    typename Real::Bits outcome;
-    Real left, right;
-  };
-
-  static Look look(const Cubic& F, const Quadratics& weights, const Real& lo, const Real& hi) {
-    const auto f = F.on(lo, hi);
-    const Signs whole = certain_signs(f, F.error);
-    const auto in_all =
-        agreement(weights, [&](const auto& w) { return certain_signs(w.on(lo, hi), w.error); });
-    const Mask dropped = whole.positive | whole.negative | in_all.opposed;
-    const Signs at_lo = certain_signs(std::array{f[0]}, F.error);
-    const Signs at_hi = certain_signs(std::array{f[3]}, F.error);
-    const Mask rises = at_lo.negative & at_hi.positive;
-    const Mask changes = rises | (at_lo.positive & at_hi.negative);
-    const Mask known = (at_lo.positive | at_lo.negative) & (at_hi.positive | at_hi.negative);
-
-    // F's root where it changes its sign, by Newton's method from the secant's: a guess.
-    const Real p3 = F.b[3] - F.b[0] + 3 * (F.b[1] - F.b[2]);
-    const Real p2 = 3 * (F.b[0] + F.b[2] - 2 * F.b[1]);
-    const Real p1 = 3 * (F.b[1] - F.b[0]);
-    Real t = lo + (hi - lo) * (f[0] / (f[0] - f[3]));
-    Real step = 0;
-    Real slope = 0;
-    for (int i = 0; i < 4; ++i) {
-      slope = (3 * p3 * t + 2 * p2) * t + p1;
-      step = (((p3 * t + p2) * t + p1) * t + F.b[0]) / slope;
-      t = min(max(t - step, lo), hi);
-    }
-    const Real h = 2 * abs(step) + 4 * F.error / abs(slope) + 0x1p-50;
-    const Real before_root = max(lo, t - h);
-    const Real behind_root = min(hi, t + h);
-    const Real rise = select(rises, Real(1), Real(-1));
-    const Mask bracketed = changes & (h < 0.0625 * (hi - lo)) & (rise * F.at(before_root) < -F.error) &
-                           (rise * F.at(behind_root) > F.error);
-    const auto near = agreement(
-        weights, [&](const auto& w) { return certain_signs(std::array{w.at(t)}, w.error_near(h)); });
-
-    // Else the part is divided where F has an extremum, about.
-    const Real d0 = f[1] - f[0];
-    const Real d1 = f[2] - f[1];
-    const Real d2 = f[3] - f[2];
-    const Real root = sqrt(max(d1 * d1 - d0 * d2, Real(0)));
-    const Real extremum = d0 / (d0 - d1 + select(d0 < 0, -root, root));
-    const Mask usable = (!changes) & (extremum > 0x1p-6) & (extremum < 1 - 0x1p-6);
-    const Real division = lo + (hi - lo) * select(usable, extremum, Real(0.5));
-
-    Look result;
-    result.left = select(bracketed, before_root, division);
-    result.right = select(bracketed, behind_root, division);
-    const Signs before = certain_signs(F.on(lo, result.left), F.error);
-    const Signs behind = certain_signs(F.on(result.right, hi), F.error);
-    const Mask found = changes & (in_all.agree | (bracketed & near.agree)) & (!dropped);
-    const Mask go_on = known & (!dropped) & (!found);
-    result.outcome = found.as(Look::collision) | ((!known) & (!dropped)).as(Look::unknown) |
-                     (go_on & (!(before.positive | before.negative))).as(Look::before) |
-                     (go_on & bracketed & (!near.opposed)).as(Look::middle) |
-                     (go_on & (!(behind.positive | behind.negative))).as(Look::behind);
-    return result;
   }
 
   /// A part of the step of a query in the list of those that are searched.
@@ -355,7 +244,7 @@ class BatchFilter {
     for (std::size_t i = 0; i < rows.size(); ++i) stages[rows[i]] = FilterStage::weights;
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const auto [F, weights] = polynomials([&](const Column& c) { return Real::load(&c[i]); });
-      take_over(look(F, weights, 0, 1), rows.size() - i, [&](std::size_t l) {
+      take_over(look(F, weights, Real(0), Real(1)), rows.size() - i, [&](std::size_t l) {
         return Part{0, 1, static_cast<std::uint8_t>(i + l), 0};
       });
     }

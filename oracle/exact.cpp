@@ -54,10 +54,7 @@ std::vector<Polynomial> deciding_polynomials(const Predicates& predicates) {
 bool any_collision(const Query& query) {
   const Predicates predicates(query);
   const auto meet = [&](Root& t) { return meet_at(predicates, t); };
-  const auto meet_at_a_root = [&](const Polynomial& p) {
-    auto roots = roots_in_step(p);
-    return std::any_of(roots.begin(), roots.end(), meet);
-  };
+  const auto meet_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, meet); };
   const Polynomial F = predicates.F();
   if (!F.is_zero()) return meet_at_a_root(F);  // only there are the points in one plane
   Root start{Number(0)};
@@ -122,10 +119,14 @@ std::string to_text(const std::optional<CGAL::Gmpq>& rational) {
 
 bool collides_exactly(const Query& query) { return exact::any_collision(query); }
 
+bool settle(const Query& query, FilterStage stage) {
+  return stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage);
+}
+
 Decision decide(const Query& query) {
   if (!boxes_meet(query)) return {false, FilterStage::boxes};
   const FilterStage stage = filter(query);
-  return {stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage), stage};
+  return {settle(query, stage), stage};
 }
 
 void decide(std::span<const Query> queries, std::span<Decision> decisions) {
@@ -133,8 +134,7 @@ void decide(std::span<const Query> queries, std::span<Decision> decisions) {
   filter(queries, stages);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FilterStage stage = boxes_meet(queries[i]) ? stages[i] : FilterStage::boxes;
-    decisions[i] = {stage == FilterStage::undecided ? collides_exactly(queries[i]) : is_collision(stage),
-                    stage};
+    decisions[i] = {settle(queries[i], stage), stage};
   }
 }
 

@@ -17,7 +17,7 @@ FilterStage search(const Query& query, const Bernstein<Real, 4>& F, const Patch<
 }
 
 FilterStage search_in_double_words(const Query& query) {
-  const auto whole = whole_step<DoubleWord>(query);
+  const auto whole = whole_step<DoubleWord>(coordinates(query));
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
   return search(query, F, whole);
@@ -42,17 +42,13 @@ FilterStage filter(const Query& query) {
                              ? separated_by_plane<Kind::vertex_triangle>(query)
                              : separated_by_plane<Kind::edge_edge>(query);
   if (separated) return FilterStage::planes;
-  Patch<double> whole{0,
-                      1,
-                      difference<double>(query, 1, 0),
-                      difference<double>(query, 2, 0),
-                      difference<double>(query, 3, 0),
-                      {},
-                      {}};
+  const auto x = coordinates(query);
+  Patch<double> whole{
+      0, 1, difference<double>(x, 1, 0), difference<double>(x, 2, 0), difference<double>(x, 3, 0), {}, {}};
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
-  whole.x21 = difference<double>(query, 2, 1);
-  whole.x31 = difference<double>(query, 3, 1);
+  whole.x21 = difference<double>(x, 2, 1);
+  whole.x31 = difference<double>(x, 3, 1);
   return look_closer(query, whole, F);
 }
 

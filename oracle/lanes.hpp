@@ -58,7 +58,6 @@ struct Lanes {
 
   friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
   friend Mask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
-  friend Mask operator<=(const Lanes& a, const Lanes& b) { return {a.v <= b.v}; }
 
   /// a where the mask is true, else b.
   friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {

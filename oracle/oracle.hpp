@@ -22,6 +22,9 @@ struct Decision {
   FilterStage stage{};  ///< `undecided`: by exact arithmetic
 };
 
+/// What a stage of the filter says of a query; exact arithmetic where it is undecided.
+bool settle(const Query& query, FilterStage stage);
+
 /// Decides by the swept boxes, the certified filter, and, where these leave it undecided, exact arithmetic.
 Decision decide(const Query& query);
 

@@ -72,23 +72,24 @@ Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
   return m;
 }
 
-/// x_i - x_j over the whole step: rounded once in double, exact as double words.
-template <class Real>
-Motion<Real> difference(const Query& query, int i, int j) {
+/// x_i - x_j over the whole step, given `x(time, vertex, k)`: exact as double words, else rounded once.
+template <class Real, class Points>
+Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
+  constexpr bool is_exact = std::is_same_v<Real, DoubleWord>;
+  const auto at = [&](std::size_t time, std::size_t k) -> Real {
+    if constexpr (is_exact)
+      return two_sum(x(time, i, k), -x(time, j, k));
+    else
+      return x(time, i, k) - x(time, j, k);
+  };
   Motion<Real> motion;
-  for (int k = 0; k < 3; ++k) {
-    const auto n = static_cast<std::size_t>(k);
-    if constexpr (std::is_same_v<Real, double>) {
-      motion.start[n] = query.start(i)[k] - query.start(j)[k];
-      motion.end[n] = query.end(i)[k] - query.end(j)[k];
-    } else {
-      motion.start[n] = two_sum(query.start(i)[k], -query.start(j)[k]);
-      motion.end[n] = two_sum(query.end(i)[k], -query.end(j)[k]);
-    }
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.start[k] = at(0, k);
+    motion.end[k] = at(1, k);
   }
   motion.magnitude = larger_magnitude(motion.start, motion.end);
-  motion.rounded_once = std::is_same_v<Real, double>;
-  if (!motion.rounded_once) motion.error = {0, 0, 0};
+  motion.rounded_once = !is_exact;
+  if constexpr (is_exact) motion.error = {0, 0, 0};
   return motion;
 }
 
@@ -195,15 +196,10 @@ struct Patch {
   Motion<Real> x21, x31;  ///< x2 - x1 and x3 - x1, for the weight that has neither x0 (edge-edge)
 };
 
-template <class Real>
-Patch<Real> whole_step(const Query& query) {
-  return {0,
-          1,
-          difference<Real>(query, 1, 0),
-          difference<Real>(query, 2, 0),
-          difference<Real>(query, 3, 0),
-          difference<Real>(query, 2, 1),
-          difference<Real>(query, 3, 1)};
+template <class Real, class Points>
+Patch<Real> whole_step(const Points& x) {
+  const auto difference = [&](std::size_t i, std::size_t j) { return certified::difference<Real>(x, i, j); };
+  return {0, 1, difference(1, 0), difference(2, 0), difference(3, 0), difference(2, 1), difference(3, 1)};
 }
 
 template <class Real>

@@ -120,10 +120,7 @@ bool comes_within(const Query& query, double bound) {
                        [&](const Nearness& statement) { return statement.holds_at(t); });
   };
   if (Root start{Number(0)}; is_near(start)) return true;
-  const auto is_near_at_a_root = [&](const Polynomial& p) {
-    auto roots = roots_in_step(p);
-    return std::any_of(roots.begin(), roots.end(), is_near);
-  };
+  const auto is_near_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, is_near); };
   return std::any_of(pairs.statements().begin(), pairs.statements().end(), [&](const Nearness& statement) {
     const Polynomial& excess = statement.excess;
     if (!excess.is_zero()) return is_near_at_a_root(excess);

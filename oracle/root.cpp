@@ -163,8 +163,8 @@ double OnInterval::guess_extremum() const {
   for (std::size_t i = 0; i + 1 < slope.size(); ++i) slope[i] = slope[i + 1] - slope[i];
   slope.pop_back();
   double s = 0.5;
-  for (int i = 0; i < 60;
-       ++i) {  // Newton's method, which comes nearer only by halves where two roots are close
+  // Newton's method, which comes nearer only by halves where two roots are close.
+  for (int i = 0; i < 60; ++i) {
     const auto [value, rise] = value_and_slope(slope, s);
     if (value == 0) break;
     const double next = std::clamp(s - value / rise, 0.0, 1.0);

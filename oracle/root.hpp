@@ -3,7 +3,7 @@
 
 #include <CGAL/Gmpq.h>
 
-#include <cstddef>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -71,5 +71,12 @@ class Root {
 
 /// The distinct real roots of p in [0, 1], p not zero, ascending.
 std::vector<Root> roots_in_step(const Polynomial& p);
+
+/// Whether `holds(t)` for one of them, a Root& t.
+template <class Holds>
+bool holds_at_a_root(const Polynomial& p, const Holds& holds) {
+  auto roots = roots_in_step(p);
+  return std::any_of(roots.begin(), roots.end(), holds);
+}
 
 }  // namespace nearmiss::exact

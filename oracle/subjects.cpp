@@ -26,17 +26,13 @@ class Exact : public Subject {
 
  protected:
   static Verdict verdict(const Query& query, FilterStage stage) {
-    const bool hit = stage == FilterStage::undecided ? collides_for_sure(query) : is_collision(stage);
+    if (stage == FilterStage::undecided && !is_finite(query))
+      throw Error("exact: found a coordinate that is not finite, expected 24 finite numbers");
+    const bool hit = settle(query, stage);
     return {.hit = hit, .stage = hit ? Stage::unspecified : Stage::none};
   }
 
  private:
-  static bool collides_for_sure(const Query& query) {
-    if (!is_finite(query))
-      throw Error("exact: found a coordinate that is not finite, expected 24 finite numbers");
-    return collides_exactly(query);
-  }
-
   std::string name_;
 };
 

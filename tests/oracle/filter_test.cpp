@@ -156,7 +156,7 @@ double error_over_bound(Hard& hard, const Bernstein<Real, n>& computed,
 
 template <class Real>
 double worst_of_query(Hard& hard, const Query& query, bool part) {
-  Patch<Real> patch = certified::whole_step<Real>(query);
+  Patch<Real> patch = certified::whole_step<Real>(coordinates(query));
   if (part) {
     const double begin = hard.uniform(0, 1);
     patch = certified::part_of(patch, begin, std::min(1.0, begin + std::ldexp(1.0, hard.integer(-45, -1))));
