@@ -63,6 +63,14 @@ class Subject {
   /// The largest distance that a false positive of this subject may have, as the subject claims it
   /// (same unit of length as the query); infinity where it claims nothing.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
+
+  /// How far the query is from the border between hit and miss: the factor s by which the lengths of all
+  /// tolerances that accept (D, ψ^½, S, μ^⅓) must be multiplied for the subject to just report it; at most 1
+  /// for a hit, more for a miss. A guide for those who hunt, of a few bits; NaN where the subject does not
+  /// tell.
+  [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 /// A built-in subject's name and what it is, in a line.
