@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -36,8 +37,8 @@ namespace detail {
 // A time between lo and hi, where F has different signs, with |F| <= μ: Newton, safeguarded by bisection.
 // It ends: a step that leaves the bracket, or does not halve what the step before it did, is replaced by
 // bisection; when the bracket cannot shrink any more, its end with the smaller residual is returned.
-template <class T>
-T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
+template <class T, class Steps = AllSteps>
+T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& steps = {}) {
   using std::abs;
   T t = lo + (hi - lo) * (F_lo / (F_lo - F_hi));
   T last_step = hi - lo;
@@ -48,7 +49,7 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
       last_step = hi - lo;
     }
     const T value = F(t);
-    if (abs(value) <= mu) return t;
+    if (steps.does(Step::residual) && at_most(abs(value), mu, steps)) return t;
     if ((value < 0) == (F_lo < 0)) {
       lo = t;
       F_lo = value;
@@ -60,9 +61,16 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
     const T step = slope != 0 ? value / slope : hi;
     const T next = t - step;
     if (next == t) return t;
+    if (!steps.does(Step::residual) && abs(step) <= T(0x1p-20)) return t;
     t = abs(step) * 2 <= last_step ? next : hi;  // hi: not inside, so bisect
     last_step = abs(step);
   }
+}
+
+// The step that looks at interval i of count + 1: a single one is all there is, and is never left out.
+constexpr Step interval_step(std::size_t i, std::size_t count) {
+  if (count == 0) return Step::solver;
+  return i == 0 ? Step::first_interval : i == count ? Step::last_interval : Step::middle_interval;
 }
 
 }  // namespace detail
@@ -93,11 +101,11 @@ T clearance(const Cubic<T>& F) {
 /// below μ.
 ///
 /// Where F keeps clear of μ there is nothing to look for.
-template <class T>
-Times<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
+template <class T, class Steps = AllSteps>
+Times<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   using std::abs;
   Times<T, 3> roots;
-  if (clearance(F) > mu) return roots;
+  if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
   const T end = F(T(1));
 
   // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
@@ -105,26 +113,31 @@ Times<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
-    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c);
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
     if (critical.count == 2 && critical.values[0] > critical.values[1])
       std::swap(critical.values[0], critical.values[1]);
   }
 
-  T left = 0;
-  T F_left = F.d;
-  for (int i = 0; i <= critical.count; ++i) {
-    const bool last = i == critical.count;
-    const T right = last ? T(1) : critical.values[i];
-    const T F_right = last ? end : F(right);
-    if (abs(F_left) <= mu) {
-      roots.add(left);
-    } else if (abs(F_right) <= mu) {
-      roots.add(right);
-    } else if ((F_left < 0) != (F_right < 0)) {
-      roots.add(detail::refine_root(F, left, right, F_left, F_right, mu));
+  const auto last = static_cast<std::size_t>(critical.count);  // interval
+  std::array<T, 4> node{0};
+  std::array<T, 4> value{F.d};
+  for (std::size_t i = 0; i < last; ++i) {
+    node[i + 1] = critical.values[i];
+    value[i + 1] = F(critical.values[i]);
+  }
+  node[last + 1] = 1;
+  value[last + 1] = end;
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (!steps.does(detail::interval_step(i, last))) continue;
+    const Step left = i == 0 ? Step::solver_start : Step::double_roots;
+    const Step right = i == last ? Step::solver_end : Step::double_roots;
+    if (at_most(T(abs(value[i])), mu, steps) && steps.does(left)) {
+      roots.add(node[i]);
+    } else if (at_most(T(abs(value[i + 1])), mu, steps) && steps.does(right)) {
+      roots.add(node[i + 1]);
+    } else if ((value[i] < 0) != (value[i + 1] < 0)) {
+      roots.add(detail::refine_root(F, node[i], node[i + 1], value[i], value[i + 1], mu, steps));
     }
-    left = right;
-    F_left = F_right;
   }
   return roots;
 }

@@ -7,12 +7,9 @@
 #include <utility>
 
 #include "ccd/query.hpp"
+#include "ccd/steps.hpp"
 
 namespace nearmiss {
-
-/// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
-template <class T>
-inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
 /// The largest magnitude of a component, ‖a‖∞.
 template <class Vector>
@@ -118,8 +115,8 @@ namespace detail {
 //   a sum of two (v30 = v20 + v32) by 17uB*; an extent is the difference of two: by 34uB* + u; an edge
 //   (x32 = x31 - x21) by 4uB*; the sum E + W adds u: together below 40uB* = 20 ε B*.
 // 64 ε leaves room for the product's own rounding: B >= B*(1 + 40ε).
-template <Kind kind, class T>
-void form_bound(Pair<kind, T>& pair) {
+template <Kind kind, class T, class Steps = AllSteps>
+void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   // Six components at once: positions, then velocities, of the points relative to the first one, itself at 0.
   using Six = Eigen::Array<T, 6, 1>;
   const Six& q = pair.q.xv;
@@ -136,19 +133,20 @@ void form_bound(Pair<kind, T>& pair) {
   // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
   pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
   pair.W = largest(extent, 3);
-  pair.B = (pair.E + pair.W) * (1 + 64 * epsilon<T>);
+  pair.B = (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + 64 * epsilon<T>);
 }
 
 }  // namespace detail
 
 /// The relative vectors of a pair and its bound B in a given frame and order of end points.
-template <Kind kind, class T>
-Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order& order = given_order) {
+template <Kind kind, class T, class Steps = AllSteps>
+Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order& order = given_order,
+                        const Steps& steps = {}) {
   Pair<kind, T> pair;
   pair.frame = frame;
   pair.order = order;
   form_vectors(query, pair);
-  detail::form_bound(pair);
+  detail::form_bound(pair, steps);
   return pair;
 }
 
@@ -164,14 +162,14 @@ bool in_range(T B) {
 
 /// The frame in which B lies in [1, 2), for finite coordinates of any magnitude; the identity where the pair
 /// is in range already, or B = 0.
-template <Kind kind, class T>
-Frame normalising_frame(const Query& query) {
+template <Kind kind, class T, class Steps = AllSteps>
+Frame normalising_frame(const Query& query, const Steps& steps = {}) {
   Frame frame;
-  T B = make_pair<kind, T>(query).B;
-  if (in_range(B)) return frame;
+  T B = make_pair<kind, T>(query, frame, given_order, steps).B;
+  if (in_range(B) || !steps.does(Step::normalisation)) return frame;
   if (!(B <= std::numeric_limits<T>::max() / 16)) {
     frame.reduced = true;
-    B = make_pair<kind, T>(query, frame).B;
+    B = make_pair<kind, T>(query, frame, given_order, steps).B;
   }
   using std::ilogb;
   if (B > 0) frame.exponent = -ilogb(B);
@@ -209,10 +207,11 @@ bool within_reach(const Pair<kind, T>& pair) {
 
 /// The same, with the end points of edges exchanged where they must be. B itself does not depend on the
 /// order.
-template <Kind kind, class T>
-bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
+template <Kind kind, class T, class Steps = AllSteps>
+bool bring_within_reach(const Query& query, Pair<kind, T>& pair, const Steps& steps = {}) {
   if (within_reach(pair)) return true;
-  if constexpr (kind == Kind::vertex_triangle) return false;
+  if (kind == Kind::vertex_triangle || !steps.does(Step::closest_pair)) return false;
+  if (!steps.does(Step::reordering)) return true;
   pair.order = detail::closest_order<T>(query, pair.frame);
   form_vectors(query, pair);
   return within_reach(pair);

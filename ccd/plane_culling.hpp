@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "ccd/query.hpp"
+#include "ccd/steps.hpp"
 
 namespace nearmiss {
 
@@ -15,8 +16,8 @@ namespace detail {
 // same side, at t = 1. Every vertex difference is then of one sign at both ends, so, being linear, always;
 // and so is every convex combination of them: the primitives never meet. `coordinate(time, vertex)` is a
 // number, or many side by side, and so is the answer.
-template <Kind kind, class Coordinate>
-[[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
+template <Kind kind, class Coordinate, class Steps>
+[[gnu::always_inline]] inline auto separated(const Coordinate& coordinate, const Steps& steps) {
   using std::max;
   using std::min;
   const auto extents = [&](std::size_t time) {  // of the first primitive and of the second
@@ -31,30 +32,39 @@ template <Kind kind, class Coordinate>
   };
   const auto start = extents(0);
   const auto end = extents(1);
+  if (!steps.does(Step::touching_meets)) {
+    const auto meets_above = (start[0] < start[3]) | (end[0] < end[3]);
+    const auto meets_below = (start[1] > start[2]) | (end[1] > end[2]);
+    return (!meets_above) | (!meets_below);
+  }
+  if (!steps.does(Step::both_ends)) return (start[0] > start[3]) | (start[1] < start[2]);
   const auto above = (start[0] > start[3]) & (end[0] > end[3]);
   const auto below = (start[1] < start[2]) & (end[1] < end[2]);
   return above | below;
 }
 
 /// Across the axes x, y, z; `x(time, vertex, k)` are the points.
-template <Kind kind, class Points>
-auto separated_across_axis(const Points& x) {
+template <Kind kind, class Points, class Steps = AllSteps>
+auto separated_across_axis(const Points& x, const Steps& steps = {}) {
   const auto axis = [&](std::size_t k) {
-    return separated<kind>([&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); });
+    return separated<kind>([&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); },
+                           steps);
   };
   return axis(0) | axis(1) | axis(2);
 }
 
 /// Across the diagonals x ± y, x ± z, y ± z.
-template <Kind kind, class Points>
-auto separated_across_diagonal(const Points& x) {
+template <Kind kind, class Points, class Steps = AllSteps>
+auto separated_across_diagonal(const Points& x, const Steps& steps = {}) {
   const auto sum = [&](std::size_t k, std::size_t l) {
     return separated<kind>(
-        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) + x(time, vertex, l); });
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) + x(time, vertex, l); },
+        steps);
   };
   const auto difference = [&](std::size_t k, std::size_t l) {
     return separated<kind>(
-        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) - x(time, vertex, l); });
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) - x(time, vertex, l); },
+        steps);
   };
   return sum(0, 1) | sum(0, 2) | sum(1, 2) | difference(0, 1) | difference(0, 2) | difference(1, 2);
 }
@@ -67,10 +77,11 @@ auto separated_across_diagonal(const Points& x) {
 /// The axis tests compare input coordinates. The diagonal ones compare sums and differences that were rounded
 /// once; rounding is monotone, so fl(a) > fl(b) implies a > b, and no error gap is needed (overflow included:
 /// an infinite sum is above every finite one rightly, and not above another infinite one).
-template <Kind kind>
-bool separated_by_plane(const Query& query) {
+template <Kind kind, class Steps = AllSteps>
+bool separated_by_plane(const Query& query, const Steps& steps = {}) {
   const auto x = coordinates(query);
-  return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
+  return detail::separated_across_axis<kind>(x, steps) != 0 ||
+         detail::separated_across_diagonal<kind>(x, steps) != 0;
 }
 
 }  // namespace nearmiss

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ccd/motion.hpp"
+#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -34,16 +35,19 @@ struct Figure {
   }
 
   /// Barycentric test: every weight in [0, N·N].
-  [[nodiscard]] bool inside() const {
-    return std::all_of(weights.begin(), weights.end(), [&](T w) { return 0 <= w && w <= NN; });
+  template <class Steps = AllSteps>
+  [[nodiscard]] bool inside(const Steps& steps = {}) const {
+    return std::all_of(weights.begin(), weights.end(),
+                       [&](T w) { return at_most(T(0), w, steps) && at_most(w, NN, steps); });
   }
 
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
-  [[nodiscard]] bool well_shaped(const Tolerances<T>& tol) const {
+  template <class Steps = AllSteps>
+  [[nodiscard]] bool well_shaped(const Tolerances<T>& tol, const Steps& steps = {}) const {
     const T area = max_component(N);
     T longest = std::max(max_component(q), max_component(r));
     if constexpr (kind == Kind::vertex_triangle) longest = std::max(longest, max_component(r - q));
-    return area >= tol.tau && longest * tol.eta <= area;
+    return at_most(tol.tau, area, steps) && at_most(T(longest * tol.eta), area, steps);
   }
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ccd/steps.hpp"
+
 namespace nearmiss {
 
 /// Times in [0, 1], at most `capacity` of them; a fixed buffer, no allocation.
@@ -34,14 +36,15 @@ void add_quotient(Times<T, capacity>& times, T numerator, T denominator) {
 /// A discriminant that comes out negative is taken as 0: rounding hides tangential roots there, and a
 /// candidate more is harmless. With q = -(b + sign(b) sqrt(disc)) the roots are q/2a and 2c/q, neither of
 /// which cancels; each is the root of a quadratic whose coefficients differ from these by a few ε relatively.
-template <class T, int capacity>
-void solve_quadratic(Times<T, capacity>& times, T a, T b, T c) {
+template <class T, int capacity, class Steps = AllSteps>
+void solve_quadratic(Times<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
   using std::sqrt;
   if (a == 0) {
     add_quotient(times, -c, b);
     return;
   }
   const T disc = b * b - 4 * a * c;
+  if (disc < 0 && !steps.does(Step::clamped_discriminant)) return;
   const T root = disc > 0 ? T(sqrt(disc)) : T(0);
   const T q = b >= 0 ? -(b + root) : root - b;
   add_quotient(times, q, 2 * a);

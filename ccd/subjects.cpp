@@ -1,6 +1,5 @@
 // The built-in subjects.
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "ccd/basic.hpp"
@@ -13,16 +12,6 @@ namespace nearmiss {
 
 namespace {
 
-// Whether any of the 24 coordinates is NaN or infinite: all exponent bits set. In integers, so that the
-// loop is a few vector operations.
-bool any_not_finite(const Query& query) {
-  constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000;
-  constexpr std::uint64_t one = 0x0010'0000'0000'0000;  // carries into the sign bit where all are set
-  std::uint64_t carry = 0;
-  for (const double c : query.x) carry |= (std::bit_cast<std::uint64_t>(c) & exponent) + one;
-  return (carry >> 63) != 0;
-}
-
 [[noreturn, gnu::cold]] void refuse(const std::string& name) {
   throw Error(name + ": found a coordinate that is not finite, expected 24 finite numbers");
 }
@@ -33,8 +22,8 @@ double own_bound(const Query& query) {
   return std::ldexp(pair.B, -pair.frame.total());
 }
 
-/// A policy is `template <Kind> static Verdict decide(query, given)` and `static double distance_bound(query,
-/// given)`.
+/// A policy is `template <Kind> static Verdict decide(query, given)`, and the same of `distance_bound` and
+/// `needed_tolerance`, each a static function that gives a double.
 template <class Policy>
 class BuiltIn final : public Subject {
  public:
@@ -43,7 +32,7 @@ class BuiltIn final : public Subject {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
   [[nodiscard]] Verdict decide(const Query& query) const override {
-    if (any_not_finite(query)) refuse(name_);
+    if (!is_finite(query)) refuse(name_);
     return query.kind == Kind::vertex_triangle ? Policy::template decide<Kind::vertex_triangle>(query, given_)
                                                : Policy::template decide<Kind::edge_edge>(query, given_);
   }
@@ -54,6 +43,10 @@ class BuiltIn final : public Subject {
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     return Policy::distance_bound(query, given_);
+  }
+
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    return Policy::needed_tolerance(query, given_);
   }
 
  private:
@@ -70,6 +63,9 @@ struct Basic {
   static double distance_bound(const Query& /*query*/, const std::optional<double>& /*given*/) {
     return std::numeric_limits<double>::infinity();
   }
+  static double needed_tolerance(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 template <WangOptions options>
@@ -83,6 +79,14 @@ struct Wang {
     // tiny pair's does not vanish.
     const double bound = paper_tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
     return std::nextafter(bound, std::numeric_limits<double>::infinity());
+  }
+  static double needed_tolerance(const Query& query, const std::optional<double>& given) {
+    return least_loosening([&](double s) {
+      const Loosened<AllSteps> steps{{}, s};
+      return query.kind == Kind::vertex_triangle
+                 ? wang<Kind::vertex_triangle, double, options>(query, given, steps).hit
+                 : wang<Kind::edge_edge, double, options>(query, given, steps).hit;
+    });
   }
 };
 

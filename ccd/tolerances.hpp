@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cmath>
-
-#include "ccd/motion.hpp"
+#include <limits>
 
 namespace nearmiss {
+
+/// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
+template <class T>
+inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
 /// ε^¼, the paper's measure of how far false positives may be (2^-13 for double).
 template <class T>

@@ -7,6 +7,7 @@
 
 #include "ccd/cubic.hpp"
 #include "ccd/proximity.hpp"
+#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -60,14 +61,15 @@ bool brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
 /// combination of its vertices'). A weight is linear in p, so moving p by δ moves it by at most ‖N‖‖edge‖ δ;
 /// a weight farther than that (and the rounding error) outside [0, N·N] proves that nothing touches at t0.
 /// The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the figure's own lengths (‖·‖₁ >= ‖·‖₂).
-template <VeCulling culling, Kind kind, class T>
+template <VeCulling culling, Kind kind, class T, class Steps = AllSteps>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figure<kind, T>& figure, T t,
-                        const Tolerances<T>& tol) {
+                        const Tolerances<T>& tol, const Steps& steps = {}) {
   using std::abs;
   using std::sqrt;
   const T B = pair.B;
-  const T threshold = tol.mu + evaluation_error<T> * epsilon<T> * B * B * B;
-  const T rounding = (weight_error<T> + spread_error<T>)*epsilon<T> * B * B * B * B;
+  const T eps = steps.does(Step::culling_rounding) ? epsilon<T> : 0;
+  const T threshold = tol.mu + evaluation_error<T> * eps * B * B * B;
+  const T rounding = (weight_error<T> + spread_error<T>)*eps * B * B * B * B;
   T h;
   T spread;  // of a weight
   if constexpr (culling == VeCulling::fixed) {
@@ -80,7 +82,10 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figu
     h = 4 * threshold;
     if (!(h < slope)) return false;
     h /= slope;
-    for (int i = 0; !detail::brackets_root(F, t, h, threshold); ++i) {
+    const auto bracketed = [&] {
+      return !steps.does(Step::culling_bracket) || detail::brackets_root(F, t, h, threshold);
+    };
+    for (int i = 0; !bracketed(); ++i) {
       if (i == doublings) return false;
       h *= 2;
     }
@@ -89,7 +94,7 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figu
     const T root3 = T(1.7320508075688775);
     spread = figure.N.template lpNorm<1>() * edges * root3 * pair.W * h;
   }
-  const T slack = spread + rounding;
+  const T slack = (steps.does(Step::culling_spread) ? spread : 0) + rounding;
   return std::any_of(figure.weights.begin(), figure.weights.end(),
                      [&](T w) { return w < -slack || w > figure.NN + slack; });
 }

@@ -5,6 +5,7 @@
 
 #include "ccd/motion.hpp"
 #include "ccd/quadratic.hpp"
+#include "ccd/steps.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tolerances.hpp"
 #include "ccd/vertex_vertex.hpp"
@@ -20,16 +21,16 @@ struct VertexEdge {
 namespace detail {
 
 /// Where the proximity test of Algorithm 2 is applied: F_0ij and the barycentric and length tests.
-template <class T>
-bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
+template <class T, class Steps = AllSteps>
+bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Steps& steps = {}) {
   const Vector3<T> a = ve.x0i.at(t);
   const Vector3<T> e = ve.xji.at(t);
   const T ll = e.squaredNorm();
-  if (!(ll >= tol.lambda2)) return false;
+  if (!at_most(tol.lambda2, ll, steps)) return false;
   const T w = a.dot(e);
-  if (!(0 <= w && w <= ll)) return false;
+  if (!(at_most(T(0), w, steps) && at_most(w, ll, steps))) return false;
   const T F = a.cross(e).template lpNorm<1>() - tol.S * max_component(e);
-  return F <= tol.psi;
+  return at_most(F, tol.psi, steps);
 }
 
 /// Case 3: times at which two components of x_ji have the same magnitude.
@@ -61,10 +62,10 @@ struct CrossProduct {
 };
 
 /// Case 4: times at which a component of x_0i × x_ji is zero.
-template <class T>
-Times<T, 6> zero_components(const CrossProduct<T>& g) {
+template <class T, class Steps = AllSteps>
+Times<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
   Times<T, 6> times;
-  for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k]);
+  for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k], steps);
   return times;
 }
 
@@ -91,22 +92,25 @@ Times<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
 
 /// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1]; never one farther away than the
 /// tolerances' distance bound (§4.3). The Karush-Kuhn-Tucker case that accepted is the verdict's stage.
-template <class T>
-Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
-  const auto accept = [&](T t) { return detail::near_edge(ve, t, tol); };
+template <class T, class Steps = AllSteps>
+Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Steps& steps = {}) {
+  const auto accept = [&](Step step, T t) {
+    return steps.does(step) && detail::near_edge(ve, t, tol, steps);
+  };
   const auto found = [](Stage stage, T t) { return Verdict{true, stage, static_cast<double>(t)}; };
 
-  for (const T t : {T(0), T(1)})
-    if (accept(t)) return found(Stage::ve_end, t);
+  if (accept(Step::ve_start, T(0))) return found(Stage::ve_end, T(0));
+  if (accept(Step::ve_end, T(1))) return found(Stage::ve_end, T(1));
   for (const T t : detail::equal_components(ve.xji))
-    if (accept(t)) return found(Stage::ve_equal, t);
+    if (accept(Step::ve_equal, t)) return found(Stage::ve_equal, t);
   const detail::CrossProduct<T> g(ve.x0i, ve.xji, tol.rho);
-  for (const T t : detail::zero_components(g))
-    if (accept(t)) return found(Stage::ve_zero, t);
+  for (const T t : detail::zero_components(g, steps))
+    if (accept(Step::ve_zero, t)) return found(Stage::ve_zero, t);
   for (const T t : detail::piece_minima(g, ve.xji, tol.S))
-    if (accept(t)) return found(Stage::ve_minimum, t);
+    if (accept(Step::ve_minimum, t)) return found(Stage::ve_minimum, t);
+  if (!steps.does(Step::vv)) return {};
   for (const Moving<T>* end : {&ve.x0i, &ve.x0j})
-    if (const auto t = vertex_vertex(*end, tol)) return found(Stage::vv, *t);
+    if (const auto t = vertex_vertex(*end, tol, steps)) return found(Stage::vv, *t);
   return {};
 }
 

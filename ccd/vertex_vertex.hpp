@@ -5,17 +5,18 @@
 #include <optional>
 
 #include "ccd/motion.hpp"
+#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
 
 /// Algorithm 1: the time at which two vertices are closest, if they are then within D: computed squared
 /// distance <= D² + δ, which no pair within D fails (§4.2). At rest relative to each other, v = 0, t is 0.
-template <class T>
-std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol) {
+template <class T, class Steps = AllSteps>
+std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol, const Steps& steps = {}) {
   const T vv = ji.v().dot(ji.v());
   const T t = vv > 0 ? std::clamp(T(-ji.x().dot(ji.v()) / vv), T(0), T(1)) : T(0);
-  if (ji.at(t).squaredNorm() <= tol.D2 + tol.delta) return t;
+  if (at_most(T(ji.at(t).squaredNorm()), T(tol.D2 + tol.delta), steps)) return t;
   return std::nullopt;
 }
 

@@ -10,6 +10,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plane_culling.hpp"
 #include "ccd/proximity.hpp"
+#include "ccd/steps.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tolerances.hpp"
 #include "ccd/ve_culling.hpp"
@@ -34,17 +35,19 @@ inline constexpr auto ve_tests = [] {
     return std::array<std::array<int, 3>, 4>{{{2, 0, 1}, {3, 0, 1}, {0, 2, 3}, {1, 2, 3}}};
 }();
 
-template <Kind kind, class T>
+template <Kind kind, class T, class Steps>
 [[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const Order& order,
-                                            const Tolerances<T>& tol) {
+                                            const Tolerances<T>& tol, const Steps& steps) {
+  if (!steps.does(Step::vertex_edge)) return {};
   for (const auto& test : ve_tests<kind>) {
+    if (&test == &ve_tests<kind>.back() && !steps.does(Step::last_edge)) break;
     const int vertex = order[static_cast<std::size_t>(test[0])];
     const int i = order[static_cast<std::size_t>(test[1])];
     const int j = order[static_cast<std::size_t>(test[2])];
     const VertexEdge<T> ve{relative_motion<T>(query, vertex, i, frame),
                            relative_motion<T>(query, j, i, frame),
                            relative_motion<T>(query, vertex, j, frame)};
-    if (const Verdict verdict = vertex_edge(ve, tol); verdict.hit) return verdict;
+    if (const Verdict verdict = vertex_edge(ve, tol, steps); verdict.hit) return verdict;
   }
   return {};
 }
@@ -71,32 +74,32 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 //
 // Let s be the sum of all squared components of p, q and r. E <= √2 √s_x with the positions' part s_x (an
 // edge is the difference of two vectors at most), W <= √3 √s_v with the velocities' part (p + r - q at most),
-// and so E + W <= √(5 s) by Cauchy and Schwarz; μ = 64 B³e³ <= 64 · 5^(3/2) e³ s^(3/2) < 716 e³ s^(3/2): with
-// 1024 there is 0.4 μ to spare for every rounding here, and for the order of end points (F of another order
-// differs in sign and rounding only). Squared, for want of a root: (1024 e³)² s³. For s outside its range,
-// where s³ might over- or underflow, nothing is told.
-template <Kind kind, class T>
-bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F) {
+// and so E + W <= √(5 s) by Cauchy and Schwarz; μ, proportional to B³ and μ1 at B = 1, is at most 5^(3/2) μ1
+// s^(3/2) < 11.2 μ1 s^(3/2): with 16 there is 0.4 μ to spare for every rounding here, and for the order of end
+// points (F of another order differs in sign and rounding only). Squared, for want of a root: (16 μ1)² s³.
+// For s outside its range, where s³ might over- or underflow, nothing is told.
+template <Kind kind, class T, class Steps>
+bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
   const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();
   const T c = clearance(F);
-  const T e = fourth_root_of_epsilon<T>();
-  const T factor = 1024 * e * e * e;
+  const T factor = steps.does(Step::clear_of_mu) ? 16 * steps.tolerances(T(1)).mu : 0;
   return in_range(s) && c > 0 && c * c > factor * factor * (s * s * s);
 }
 
 // Algorithms 3 and 4 for a pair whose vectors are within B.
-template <Kind kind, class T, WangOptions options>
+template <Kind kind, class T, WangOptions options, class Steps>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
-                                                 const Cubic<T>& F) {
-  const Tolerances<T> tol = paper_tolerances(pair.B);
-  const auto roots = solve_cubic(F, tol.mu);
+                                                 const Cubic<T>& F, const Steps& steps) {
+  const Tolerances<T> tol = steps.tolerances(pair.B);
+  const auto roots = solve_cubic(F, tol.mu, steps);
   bool culled = options.ve_culling != VeCulling::none;
   const auto proximity = [&](T t, bool root) {
     const Figure<kind, T> figure(pair, t);
-    const bool well_shaped = figure.well_shaped(tol);
-    if (well_shaped && figure.inside()) return true;
+    const bool well_shaped = figure.well_shaped(tol, steps);
+    if (well_shaped && figure.inside(steps) && steps.does(Step::proximity)) return true;
     culled =
-        culled && (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, figure, t, tol)));
+        culled &&
+        (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, figure, t, tol, steps)));
     return false;
   };
   const auto hit = [](T t) { return Verdict{true, Stage::proximity, static_cast<double>(t)}; };
@@ -105,18 +108,20 @@ template <Kind kind, class T, WangOptions options>
   // T ∪ {0, 1} of the algorithms: a candidate only where its residual is a root's. Then t = 0 is the left
   // node of the first interval, hence among the roots; t = 1 need not be.
   using std::abs;
-  if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
+  if (steps.does(Step::proximity_end) && at_most(T(abs(F(T(1)))), tol.mu, steps) && proximity(T(1), false))
+    return hit(T(1));
   if (culled) return {};
-  return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
+  return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol, steps);
 }
 
 // The same for a pair that needs another frame, another order of end points, or has a given B (§5).
-template <Kind kind, class T, WangOptions options>
-[[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given) {
-  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
+template <Kind kind, class T, WangOptions options, class Steps>
+[[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
+                                       const Steps& steps) {
+  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query, steps), given_order, steps);
   if (given) pair = with_given_bound(query, pair, *given);
-  if (!bring_within_reach(query, pair)) return {};
-  return wang_tests<kind, T, options>(query, pair, coplanarity(pair));
+  if (!bring_within_reach(query, pair, steps)) return {};
+  return wang_tests<kind, T, options>(query, pair, coplanarity(pair), steps);
 }
 
 }  // namespace detail
@@ -125,17 +130,17 @@ template <Kind kind, class T, WangOptions options>
 /// failure-proof where μ >= 33492 B³ε), contact at t = 0 and t = 1 included. What it reports without a
 /// collision is within the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). `given`, where it is
 /// set, takes the place of the pair's own B; one that is smaller throws Error (§5).
-template <Kind kind, class T, WangOptions options>
-Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt) {
-  if (options.plane_culling && separated_by_plane<kind>(query)) return {};
+template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
+Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt, const Steps& steps = {}) {
+  if (options.plane_culling && separated_by_plane<kind>(query, steps)) return {};
   Pair<kind, T> pair;
   form_vectors(query, pair);
   const Cubic<T> F = coplanarity(pair);
-  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F)) return {};
-  detail::form_bound(pair);
+  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, steps)) return {};
+  detail::form_bound(pair, steps);
   if (given || !in_range(pair.B) || !within_reach(pair))
-    return detail::wang_careful<kind, T, options>(query, given);
-  return detail::wang_tests<kind, T, options>(query, pair, F);
+    return detail::wang_careful<kind, T, options>(query, given, steps);
+  return detail::wang_tests<kind, T, options>(query, pair, F, steps);
 }
 
 }  // namespace nearmiss

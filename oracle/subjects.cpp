@@ -52,25 +52,19 @@ class ExactBatch final : public Exact {
   }
 };
 
-constexpr SubjectInfo batch_info{"exact",
-                                 "the oracle itself: certified filter, exact arithmetic for what it leaves"};
-constexpr SubjectInfo scalar_info{"exact-scalar", "the same, one query at a time"};
+constexpr std::array infos{
+    SubjectInfo{"exact", "the oracle itself: certified filter, exact arithmetic for what it leaves"},
+    SubjectInfo{"exact-scalar", "the same, one query at a time"},
+};
 
 }  // namespace
 
-std::vector<SubjectInfo> all_subjects() {
-  auto infos = subjects();
-  infos.push_back(batch_info);
-  infos.push_back(scalar_info);
-  return infos;
-}
+std::span<const SubjectInfo> exact_subjects() { return infos; }
 
-std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path, std::optional<double> given_bound) {
-  if (name_or_path == batch_info.name) return std::make_unique<ExactBatch>(name_or_path);
-  if (name_or_path == scalar_info.name) return std::make_unique<Exact>(name_or_path);
-  auto subject = try_make_subject(name_or_path, given_bound);
-  if (!subject) refuse_subject(name_or_path, all_subjects());
-  return subject;
+std::unique_ptr<Subject> try_make_exact(std::string_view name) {
+  if (name == infos[0].name) return std::make_unique<ExactBatch>(name);
+  if (name == infos[1].name) return std::make_unique<Exact>(name);
+  return nullptr;
 }
 
 }  // namespace nearmiss

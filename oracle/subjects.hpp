@@ -1,21 +1,19 @@
-// All built-in subjects: those of ccd/, and the oracle itself as one.
+// The oracle as a subject.
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "ccd/subject.hpp"
 
 namespace nearmiss {
 
-/// subjects() and `exact`: the certified filter and exact arithmetic for what it leaves. It claims that there
-/// is no false positive at all: its distance bound is 0.
-std::vector<SubjectInfo> all_subjects();
+/// `exact` and `exact-scalar`: the certified filter and exact arithmetic for what it leaves, many queries side
+/// by side or one at a time. They claim that there is no false positive at all: their distance bound is 0.
+std::span<const SubjectInfo> exact_subjects();
 
-/// make_subject, "exact" and "exact-scalar".
-std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path,
-                                          std::optional<double> given_bound = std::nullopt);
+/// One of these by its name; nothing for another name.
+std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -12,7 +12,7 @@
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
-#include "oracle/subjects.hpp"
+#include "fuzz/subjects.hpp"
 
 namespace nearmiss::tools {
 

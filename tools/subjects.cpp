@@ -1,7 +1,8 @@
 // nearmiss subjects: which CCDs can be put on trial.
 #include <fmt/format.h>
 
-#include "oracle/subjects.hpp"
+#include "fuzz/defects.hpp"
+#include "fuzz/subjects.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -11,7 +12,9 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
   command->footer(
       "\nA plug-in is named by its path, with a slash in it: ./plugin.so (see ccd/nearmiss_subject.h).");
   command->callback([] {
-    for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<12} {}\n", subject.name, subject.about);
+    for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<23} {}\n", subject.name, subject.about);
+    fmt::print("\nWith a known defect each, to measure whether a hunt would find one:\n");
+    for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
   });
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "corpus/query_text.hpp"
-#include "oracle/subjects.hpp"
+#include "fuzz/subjects.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 

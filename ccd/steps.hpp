@@ -1,0 +1,108 @@
+// The steps of the algorithm, as one can also leave them out: so a fuzzer's power is measured on known defects.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "ccd/tolerances.hpp"
+
+namespace nearmiss {
+
+/// What the failure-proof CCD must do to be that; each is one condition at one place of ccd/.
+enum class Step : std::uint8_t {
+  // plane_culling.hpp
+  both_ends,       ///< a plane must separate at t = 1 too
+  touching_meets,  ///< touching figures are not separate
+  // motion.hpp
+  velocity_in_bound,  ///< B = E + W; without: E
+  normalisation,      ///< powers of two against over- and underflow
+  reordering,         ///< the closest end points come first; without: the given order is used as it is
+  closest_pair,       ///< without: a pair out of reach in its given order is taken for apart
+  // quadratic.hpp, cubic.hpp
+  clamped_discriminant,  ///< a negative discriminant is taken as 0; without: no root
+  solver,                ///< roots where F is monotone
+  clear_of_mu,           ///< F keeps clear of μ; without: of 0
+  solver_start,          ///< a root at t = 0 by its residual
+  solver_end,            ///< a root at t = 1 by its residual
+  double_roots,          ///< a root at a critical point by its residual
+  first_interval,        ///< of the two or three between nodes
+  middle_interval,       ///< of three
+  last_interval,         ///< of the two or three
+  residual,              ///< a root is where |F| <= μ; without: where the last step was below 2^-20
+  // wang.hpp
+  proximity,      ///< area, height and barycentric tests
+  proximity_end,  ///< also at t = 1
+  vertex_edge,    ///< the vertex-edge tests
+  last_edge,      ///< the last of the vertex-edge pairs
+  // ve_culling.hpp
+  culling_rounding,  ///< the rounding errors of F and of the weights
+  culling_spread,    ///< how far a weight moves within h
+  culling_bracket,   ///< |F| > μ at t ± h
+  // vertex_edge.hpp
+  ve_start,    ///< KKT case 1, t = 0
+  ve_end,      ///< KKT case 1, t = 1
+  ve_minimum,  ///< KKT case 2
+  ve_equal,    ///< KKT case 3
+  ve_zero,     ///< KKT case 4
+  vv,          ///< KKT case 5
+  // everywhere
+  ties,  ///< comparisons that accept are non-strict
+};
+
+/// The algorithm as it should be. Another policy has the same members, and may answer at run time.
+struct AllSteps {
+  static constexpr bool does(Step /*step*/) { return true; }
+
+  /// All tolerances for a bound B.
+  template <class T>
+  static Tolerances<T> tolerances(T B) {
+    return paper_tolerances(B);
+  }
+};
+
+/// Other steps, with the lengths of the tolerances that accept (D, √δ, √ψ, S, ∛μ) times s.
+template <class Steps>
+struct Loosened {
+  Steps steps;
+  double s = 1;
+
+  [[nodiscard]] bool does(Step step) const { return steps.does(step); }
+
+  template <class T>
+  [[nodiscard]] Tolerances<T> tolerances(T B) const {
+    Tolerances<T> tol = steps.tolerances(B);
+    const T length = static_cast<T>(s);
+    const T area = length * length;
+    tol.delta *= area;
+    tol.D2 *= area;
+    tol.psi *= area;
+    tol.S *= length;
+    tol.mu *= area * length;
+    return tol;
+  }
+};
+
+/// The s, to about 1 %, at which hits(s), that it is a hit with Loosened steps, turns from false to true;
+/// 2^-40 or 2^8 where that is beyond.
+template <class Hits>
+double least_loosening(const Hits& hits) {
+  using std::exp2;
+  double lo = -40;
+  double hi = 8;
+  if (hits(exp2(lo))) return exp2(lo);
+  (hits(1.0) ? hi : lo) = 0;
+  if (lo == 0 && !hits(exp2(hi))) return exp2(hi);
+  while (hi - lo > 1.0 / 64) {
+    const double middle = lo + (hi - lo) / 2;
+    (hits(exp2(middle)) ? hi : lo) = middle;
+  }
+  return exp2(lo < 0 ? hi : lo);
+}
+
+/// a <= b, in a comparison that accepts.
+template <class T, class Steps>
+bool at_most(T a, T b, const Steps& steps) {
+  return steps.does(Step::ties) ? a <= b : a < b;
+}
+
+}  // namespace nearmiss

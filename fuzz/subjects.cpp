@@ -1,0 +1,23 @@
+#include "fuzz/subjects.hpp"
+
+#include "fuzz/defects.hpp"
+#include "oracle/subjects.hpp"
+
+namespace nearmiss {
+
+std::vector<SubjectInfo> all_subjects() {
+  auto infos = subjects();
+  const auto exact = exact_subjects();
+  infos.insert(infos.end(), exact.begin(), exact.end());
+  return infos;
+}
+
+std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  if (auto defect = try_make_defect(name_or_path)) return defect;
+  if (auto exact = try_make_exact(name_or_path)) return exact;
+  auto subject = try_make_subject(name_or_path, given_bound);
+  if (!subject) refuse_subject(name_or_path, all_subjects());
+  return subject;
+}
+
+}  // namespace nearmiss
