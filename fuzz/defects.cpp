@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,21 +23,34 @@ constexpr std::array tolerance_members{&Tolerances<T>::delta, &Tolerances<T>::D2
                                        &Tolerances<T>::mu,    &Tolerances<T>::tau,     &Tolerances<T>::eta};
 
 constexpr std::array tolerance_table{
-    NamedTolerance{"delta", &Tolerances<double>::delta, true},
-    NamedTolerance{"D2", &Tolerances<double>::D2, true},
-    NamedTolerance{"rho", &Tolerances<double>::rho, false},
-    NamedTolerance{"psi", &Tolerances<double>::psi, true},
-    NamedTolerance{"lambda2", &Tolerances<double>::lambda2, false},
-    NamedTolerance{"S", &Tolerances<double>::S, true},
-    NamedTolerance{"mu", &Tolerances<double>::mu, true},
-    NamedTolerance{"tau", &Tolerances<double>::tau, false},
-    NamedTolerance{"eta", &Tolerances<double>::eta, false},
+    NamedTolerance{"delta", &Tolerances<double>::delta, 2, true},
+    NamedTolerance{"D2", &Tolerances<double>::D2, 2, true},
+    NamedTolerance{"rho", &Tolerances<double>::rho, 2, false},
+    NamedTolerance{"psi", &Tolerances<double>::psi, 2, true},
+    NamedTolerance{"lambda2", &Tolerances<double>::lambda2, 2, false},
+    NamedTolerance{"S", &Tolerances<double>::S, 1, true},
+    NamedTolerance{"mu", &Tolerances<double>::mu, 3, true},
+    NamedTolerance{"tau", &Tolerances<double>::tau, 2, false},
+    NamedTolerance{"eta", &Tolerances<double>::eta, 1, false},
 };
 
 /// Steps, with those that are left out, and tolerances that are multiples of the paper's for double.
 struct DefectiveSteps {
   std::uint64_t left_out = 0;  ///< a bit a step
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  const NamedTolerance* changed = nullptr;  ///< where it is one tolerance
+
+  /// With the changed tolerance, or else the lengths of all that accept, loosened by s.
+  [[nodiscard]] DefectiveSteps loosened(double s) const {
+    DefectiveSteps steps = *this;
+    if (changed != nullptr) {
+      steps.factors.*changed->value *= changed->accepts ? s : 1 / s;
+    } else {
+      for (const NamedTolerance& each : tolerance_table)
+        if (each.accepts) steps.factors.*each.value *= std::pow(s, each.dimension);
+    }
+    return steps;
+  }
 
   [[nodiscard]] bool does(Step step) const { return (left_out >> static_cast<unsigned>(step) & 1) == 0; }
 
@@ -63,7 +77,7 @@ class DefectiveSubject final : public Subject {
   [[nodiscard]] Verdict decide(const Query& query) const override {
     if (!is_finite(query))
       throw Error(name_ + ": found a coordinate that is not finite, expected 24 finite numbers");
-    return decide(query, 1);
+    return decide(query, steps_);
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
@@ -71,17 +85,16 @@ class DefectiveSubject final : public Subject {
   }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
-    return least_loosening([&](double s) { return decide(query, s).hit; });
+    return least_loosening([&](double s) { return decide(query, steps_.loosened(s)).hit; });
   }
 
  private:
-  [[nodiscard]] Verdict decide(const Query& query, double loosening) const {
-    return in_float_ ? decide_in<float>(query, loosening) : decide_in<double>(query, loosening);
+  [[nodiscard]] Verdict decide(const Query& query, const DefectiveSteps& steps) const {
+    return in_float_ ? decide_in<float>(query, steps) : decide_in<double>(query, steps);
   }
 
   template <class T>
-  [[nodiscard]] Verdict decide_in(const Query& query, double loosening) const {
-    const Loosened<DefectiveSteps> steps{steps_, loosening};
+  static Verdict decide_in(const Query& query, const DefectiveSteps& steps) {
     return query.kind == Kind::vertex_triangle
                ? wang<Kind::vertex_triangle, T, WangOptions{}>(query, std::nullopt, steps)
                : wang<Kind::edge_edge, T, WangOptions{}>(query, std::nullopt, steps);
@@ -148,6 +161,7 @@ bool take_factor(std::string_view name, DefectiveSteps& steps) {
     const double factor = parse_number(name.substr(star + 1), name);
     if (factor < 0) throw Error(fmt::format("{}: found the factor {}, expected 0 or more", name, factor));
     steps.factors.*tolerance.value = factor;
+    steps.changed = &tolerance;
     return true;
   }
   return false;

@@ -26,7 +26,8 @@ std::span<const Defect> defects();
 struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
-  bool accepts;  ///< more is accepted where it is larger; the others keep degenerate figures out
+  int dimension;  ///< it is a length to this power
+  bool accepts;   ///< more is accepted where it is larger; the others keep degenerate figures out
 };
 std::span<const NamedTolerance> named_tolerances();
 
@@ -34,7 +35,8 @@ std::span<const NamedTolerance> named_tolerances();
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
 /// A defect by its name, which may also be that of a tolerance times any factor >= 0. It claims wang's distance
-/// bound. Nothing for a name that does not start with "defect:"; throws Error for one that is not known.
+/// bound; its needed tolerance is that of the one that is changed, where there is one: the factor that loosens
+/// it (multiplies it where it accepts, divides it else). Nothing for a name that does not start with "defect:"; throws Error for one that is not known.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

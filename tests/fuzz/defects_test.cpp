@@ -66,7 +66,8 @@ TEST(Defects, MultiplyTheirOwnTolerance) {
   EXPECT_FALSE(try_make_defect("defect:D2*0.1")->decide(query).hit);
   EXPECT_FALSE(try_make_defect("defect:vv")->decide(query).hit);
   EXPECT_NEAR(make_subject("wang")->needed_tolerance(query), 0.5, 0.02);
-  EXPECT_NEAR(try_make_defect("defect:D2*0.0625")->needed_tolerance(query), 2, 0.08);
+  EXPECT_NEAR(try_make_defect("defect:ties")->needed_tolerance(query), 0.5, 0.02);
+  EXPECT_NEAR(try_make_defect("defect:D2*0.0625")->needed_tolerance(query), 4, 0.08);
 }
 
 TEST(Defects, AreRefusedWhereUnknown) {

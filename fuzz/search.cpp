@@ -1,0 +1,235 @@
+#include "fuzz/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <nlopt.hpp>
+#include <vector>
+
+#include "fuzz/figures.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+/// What is searched over: a contact, in the frame in which `base` rests at the origin, and how far apart the
+/// figures are put.
+struct Meeting {
+  Path q, r;
+  Vector w;      ///< velocity of the first figure's point
+  Vector place;  ///< α, β, time
+  Vector gap;
+
+  /// All vectors; without the gap where figures are to touch.
+  template <class Visit>
+  void visit(bool touching, const Visit& visit_vector) {
+    for (Vector* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
+    if (!touching) visit_vector(gap);
+  }
+};
+
+Contact contact_of(Kind kind, const Meeting& m) {
+  const auto clamped = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  Contact contact{{Vector::Zero(), Vector::Zero()},
+                  m.q,
+                  m.r,
+                  clamped(m.place[0]),
+                  clamped(m.place[1]),
+                  clamped(m.place[2])};
+  if (kind == Kind::vertex_triangle) contact.beta = std::min(contact.beta, 1 - contact.alpha);
+  return contact;
+}
+
+/// On a grid on which `meet` is exact: vectors within 2^3 are multiples of 2^-22, weights and times multiples
+/// of 2^-10, and so no sum of products has more than 3 + 3 + 22 + 20 = 48 bits.
+Meeting on_grid(Meeting m) {
+  const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
+  m.visit(true, [&](Vector& v) {
+    for (double& c : v) c = round_to(std::clamp(c, -8.0, 8.0), 0x1p-22);
+  });
+  for (double& c : m.place) c = round_to(c, 0x1p-10);
+  return m;
+}
+
+Query query_of(Kind kind, const Meeting& m) {
+  Query query = meet(kind, contact_of(kind, m), m.w);
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + m.gap);
+    query.set_end(i, query.end(i) + m.gap);
+  }
+  return query;
+}
+
+/// Figures of all sizes, thin ones, motion of all speeds and in their plane, contact on borders and ends.
+Meeting draw(Random& random) {
+  const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
+  const auto path = [&](const Vector& start, double speed) {
+    return Path{start, start + random.vector(speed)};
+  };
+  const auto speed = [&] { return random.one_in(3) ? 0 : some(1e-5, 1); };
+  Meeting m;
+  m.q = path(random.vector(some(1e-5, 1)), speed());
+  m.r = path(random.vector(some(1e-5, 1)), speed());
+  if (random.one_in(3)) {
+    const double along = random.uniform(-1.5, 1.5);
+    const double across = some(1e-6, 1e-1);
+    m.r = {along * m.q.start + random.vector(across), along * m.q.end + random.vector(across)};
+  }
+  for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
+  m.w = random.vector(some(1e-5, 1));
+  if (random.one_in(3))
+    m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
+          random.vector(some(1e-6, 1e-1));
+  m.gap.setZero();
+  return m;
+}
+
+/// log2 of what makes a contact hard, each where it is smaller.
+std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& w) {
+  const Vector q = contact.q.at(contact.time);
+  const Vector r = contact.r.at(contact.time);
+  const Vector n = q.cross(r);
+  const Vector relative = w - contact.velocity(kind);
+  const auto ratio = [](double a, double b) { return b > 0 ? std::log2(std::max(a / b, 0x1p-40)) : -40; };
+  const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
+  return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
+          ratio(n.norm(), q.norm() * r.norm()),
+          ratio(std::min({contact.alpha, contact.beta, 1 - contact.alpha, 1 - contact.beta, third}), 1),
+          ratio(std::min(q.norm(), r.norm()), std::max(q.norm(), r.norm())),
+          ratio(std::min(contact.time, 1 - contact.time), 1),
+          ratio(std::max(q.norm(), r.norm()), relative.norm())};
+}
+
+/// Shows queries to an objective, from drawn starts on, and remembers the best.
+class Climb {
+ public:
+  using Objective = std::function<double(const Meeting&)>;  ///< more is better; infinity ends the search
+  using Draw = std::function<Meeting()>;
+
+  Climb(Random& random, bool touching, Objective objective)
+      : random_(random), touching_(touching), objective_(std::move(objective)) {}
+
+  Meeting run(const Draw& draw_start) {
+    constexpr int starts = 50;
+    for (int i = 0; i < starts && !over(); ++i) show(draw_start());
+    for (bool again = false; !over(); again = true) optimise(again);
+    return best_;
+  }
+
+ private:
+  [[nodiscard]] bool over() const { return shown_ >= search_evaluations || best_value_ == HUGE_VAL; }
+
+  double show(const Meeting& meeting) {
+    ++shown_;
+    const double value = objective_(meeting);
+    if (value > best_value_) {
+      best_value_ = value;
+      best_ = meeting;
+    }
+    return value;
+  }
+
+  /// From the best so far, or from beside it, with steps of a size that is drawn.
+  void optimise(bool beside) {
+    constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
+    constexpr int evaluations = 300;
+    const double step = random_.log_uniform(1e-5, 0.5);
+    Meeting start = best_;
+    if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
+    std::vector<double> point;
+    start.visit(touching_, [&](const Vector& v) { point.insert(point.end(), v.begin(), v.end()); });
+
+    nlopt::opt optimiser(algorithms[static_cast<std::size_t>(random_.integer(0, 2))],
+                         static_cast<unsigned>(point.size()));
+    optimiser.set_max_objective(
+        [](const std::vector<double>& x, std::vector<double>& /*gradient*/, void* self) {
+          auto& climb = *static_cast<Climb*>(self);
+          if (climb.over()) climb.optimiser_->force_stop();
+          // Optimisers compute with values, so the best is finite for them.
+          return std::clamp(climb.show(climb.meeting_at(x)), -1e3, 1e3);
+        },
+        this);
+    optimiser_ = &optimiser;
+    optimiser.set_initial_step(step);
+    optimiser.set_maxeval(evaluations);
+    optimiser.set_xtol_rel(1e-9);
+    double value = 0;
+    try {
+      optimiser.optimize(point, value);
+    } catch (const nlopt::forced_stop&) {       // it is over
+    } catch (const nlopt::roundoff_limited&) {  // steps became too small to tell values apart
+    } catch (const std::runtime_error&) {       // BOBYQA where its model breaks down
+    }
+  }
+
+  [[nodiscard]] Meeting meeting_at(const std::vector<double>& point) const {
+    Meeting meeting;
+    meeting.gap.setZero();
+    const double* from = point.data();
+    meeting.visit(touching_, [&](Vector& v) {
+      v = Vector(from[0], from[1], from[2]);
+      from += 3;
+    });
+    return meeting;
+  }
+
+  Random& random_;
+  bool touching_;
+  Objective objective_;
+  nlopt::opt* optimiser_ = nullptr;
+  int shown_ = 0;
+  double best_value_ = -HUGE_VAL;
+  Meeting best_;
+};
+
+}  // namespace
+
+Query search_miss(const Subject& subject, Random& random, Kind kind) {
+  std::array<double, 6> mixture{};
+  for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
+  const bool exactly = random.one_in(2);
+  const auto placed = [&](const Meeting& m) { return exactly ? on_grid(m) : m; };
+  const auto objective = [&](const Meeting& anywhere) {
+    const Meeting m = placed(anywhere);
+    const Query query = query_of(kind, m);
+    const bool hit = subject.decide(query).hit;
+    if (!(hit && exactly) && !(is_finite(query) && collides(query))) return -1e3;
+    if (!hit) return HUGE_VAL;
+    const double needed = subject.needed_tolerance(query);
+    if (!std::isnan(needed)) return std::log2(needed);
+    double sum = 0;
+    const auto hard = hardness(kind, contact_of(kind, m), m.w);
+    for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
+    return sum;
+  };
+  return query_of(kind, placed(Climb(random, true, objective).run([&] { return draw(random); })));
+}
+
+Query search_far_positive(const Subject& subject, Random& random, Kind kind) {
+  const auto wang = make_subject("wang");
+  const auto objective = [&](const Meeting& m) {
+    const Query query = query_of(kind, m);
+    if (!is_finite(query)) return -1e3;
+    if (!subject.decide(query).hit) {
+      const double needed = subject.needed_tolerance(query);
+      return std::isnan(needed) ? -1 : -std::log2(needed);
+    }
+    if (collides(query)) return 0.0;
+    const double claimed = subject.distance_bound(query);
+    const double distance = closest_approach(query).hi;
+    if (!std::isfinite(claimed)) return distance / wang->distance_bound(query);
+    if (distance <= claimed) return distance / claimed;
+    return distance_exceeds(query, claimed) ? HUGE_VAL : 1;
+  };
+  return query_of(kind, Climb(random, false, objective).run([&] {
+    Meeting m = draw(random);
+    m.gap = random.vector(random.log_uniform(1e-6, 3e-2));
+    return m;
+  }));
+}
+
+}  // namespace nearmiss
