@@ -12,12 +12,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t block_cases = 100;
-
-/// How many cases of the plan family number f has.
+/// How many cases of the plan family number f has: in proportion to its blocks.
 std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
-  const std::uint64_t n = plan.families.size();
-  return plan.cases / n + (f < plan.cases % n ? 1 : 0);
+  std::uint64_t before = 0;
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < plan.families.size(); ++i) {
+    if (i < f) before += plan.families[i].block_cases;
+    all += plan.families[i].block_cases;
+  }
+  // cases * part / all, without overflow
+  const auto dealt = [&](std::uint64_t part) { return plan.cases / all * part + plan.cases % all * part / all; };
+  return dealt(before + plan.families[f].block_cases) - dealt(before);
 }
 
 /// How many cases there are in this shard; 0 where there is no end.
@@ -25,6 +30,7 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
   std::uint64_t sum = 0;
   for (std::size_t f = 0; f < plan.families.size(); ++f) {
     const std::uint64_t share = share_of(plan, f);
+    const std::uint64_t block_cases = plan.families[f].block_cases;
     const std::uint64_t whole = share / block_cases;  // blocks 0 .. whole - 1, and then what is left
     const std::uint64_t own = whole / plan.shards + (plan.shard < whole % plan.shards ? 1 : 0);
     sum += own * block_cases + (whole % plan.shards == plan.shard ? share % block_cases : 0);
@@ -40,8 +46,8 @@ struct Block {
 
 /// The block of family number f in a round; empty behind the family's last case.
 Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
-  const std::uint64_t first = round * block_cases;
-  std::uint64_t last = first + block_cases;
+  const std::uint64_t first = round * plan.families[f].block_cases;
+  std::uint64_t last = first + plan.families[f].block_cases;
   if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
   return {plan.families[f], first, last};
 }
@@ -115,7 +121,7 @@ void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const Camp
       sum.merge(std::move(results[i]));
       cases += wave[i].last - wave[i].first;
     }
-    sink(std::move(sum), {cases, of, Clock::now() - start});
+    if (!sink(std::move(sum), {cases, of, Clock::now() - start})) break;
   }
 }
 

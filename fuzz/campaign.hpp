@@ -18,7 +18,7 @@ namespace nearmiss {
 struct CampaignPlan {
   std::vector<const Family*> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< in all, shared out evenly among the families; 0: until the time is over
+  std::uint64_t cases = 0;  ///< in all, shared out in proportion to `block_cases`; 0: until the time is over
   std::optional<std::chrono::duration<double>> time;
   Comparison comparison;
   int jobs = 1;
@@ -33,10 +33,10 @@ struct CampaignProgress {
   std::chrono::duration<double> elapsed{};
 };
 
-/// Takes what some more blocks gave, in order; called every second or so.
-using CampaignSink = std::function<void(TrialResult&&, const CampaignProgress&)>;
+/// Takes what some more blocks gave, in order; called every second or so. False ends the campaign.
+using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// Runs a plan until it is done, its time is over or `stop` is set. Round k of a campaign is the k-th block
+/// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set. Round k of a campaign is the k-th block
 /// of every family; shard i of n does the rounds k with k mod n = i.
 void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                   const std::atomic<bool>& stop);

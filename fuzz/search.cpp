@@ -186,8 +186,6 @@ class Climb {
   Meeting best_;
 };
 
-}  // namespace
-
 Query search_miss(const Subject& subject, Random& random, Kind kind) {
   std::array<double, 6> mixture{};
   for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
@@ -209,7 +207,7 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
   return query_of(kind, placed(Climb(random, true, objective).run([&] { return draw(random); })));
 }
 
-Query search_far_positive(const Subject& subject, Random& random, Kind kind) {
+Query search_far(const Subject& subject, Random& random, Kind kind) {
   const auto wang = make_subject("wang");
   const auto objective = [&](const Meeting& m) {
     const Query query = query_of(kind, m);
@@ -230,6 +228,20 @@ Query search_far_positive(const Subject& subject, Random& random, Kind kind) {
     m.gap = random.vector(random.log_uniform(1e-6, 3e-2));
     return m;
   }));
+}
+
+}  // namespace
+
+Family miss_search(const Subject& subject) {
+  return {.name = "search-miss-" + subject.name(),
+          .about = "collisions that are nearly missed, by directed search",
+          .make = [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); }};
+}
+
+Family far_search(const Subject& subject) {
+  return {.name = "search-far-" + subject.name(),
+          .about = "far false positives, by directed search",
+          .make = [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); }};
 }
 
 }  // namespace nearmiss

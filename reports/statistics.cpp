@@ -94,6 +94,8 @@ void OracleCounts::merge(const OracleCounts& other) {
 void Statistics::merge(const Statistics& other) {
   for (const auto& [key, each] : other.oracle) oracle[key].merge(each);
   for (const auto& [key, each] : other.counts) counts[key].merge(each);
+  for (const auto& [name, each] : other.extremes)
+    if (const auto [own, fresh] = extremes.try_emplace(name, each); !fresh) own->second.merge(each);
   oracle_disagreements += other.oracle_disagreements;
   mismatches_with_recorded_truth += other.mismatches_with_recorded_truth;
 }

@@ -13,6 +13,7 @@
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
 #include "oracle/filter.hpp"
+#include "reports/extreme.hpp"
 
 namespace nearmiss {
 
@@ -115,6 +116,7 @@ struct OracleCounts {
 struct Statistics {
   std::map<Key, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
+  std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
   std::uint64_t oracle_disagreements = 0;                       ///< between the oracle's own answers
   std::uint64_t mismatches_with_recorded_truth = 0;             ///< of the oracle with what a case says
 

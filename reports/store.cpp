@@ -34,6 +34,9 @@ constexpr const char* schema = R"sql(
     collisions INTEGER NOT NULL, by_stage TEXT NOT NULL, near_bounds INTEGER NOT NULL,
     compared INTEGER NOT NULL, compared_collisions INTEGER NOT NULL, missed_by_parity INTEGER NOT NULL,
     PRIMARY KEY (kind, family)) STRICT;
+  CREATE TABLE extreme (
+    name TEXT PRIMARY KEY, of TEXT NOT NULL, value TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
+    provenance TEXT NOT NULL, queries INTEGER NOT NULL) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
   CREATE TABLE finding (
     what TEXT NOT NULL, subject TEXT NOT NULL, family TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
@@ -92,6 +95,18 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     by_family.exec();
     by_family.reset();
   }
+  SQLite::Statement extreme(db, "INSERT OR REPLACE INTO extreme VALUES (?,?,?,?,?,?,?)");
+  for (const auto& [name, each] : statistics.extremes) {
+    extreme.bind(1, name);
+    extreme.bind(2, std::string(nearmiss::name(each.of)));
+    extreme.bind(3, fmt::format("{}", each.value));  // it may be infinite
+    extreme.bind(4, std::string(short_name(each.query.kind)));
+    extreme.bind(5, to_line(each.query));
+    extreme.bind(6, each.provenance);
+    extreme.bind(7, stored(each.queries));
+    extreme.exec();
+    extreme.reset();
+  }
   SQLite::Statement oracle(db, "UPDATE oracle SET disagreements = ?, truth_mismatches = ?");
   oracle.bind(1, stored(statistics.oracle_disagreements));
   oracle.bind(2, stored(statistics.mismatches_with_recorded_truth));
@@ -127,6 +142,13 @@ Finding::What parse_what(const std::string& text, const std::string& where) {
                           Finding::What::oracle_disagreement, Finding::What::truth_mismatch})
     if (name(what) == text) return what;
   throw Error(fmt::format("{}: found a finding '{}', which this version does not know", where, text));
+}
+
+Extreme::Of parse_of(const std::string& text, const std::string& where) {
+  for (const auto of :
+       {Extreme::Of::accepting_tolerance, Extreme::Of::keeping_tolerance, Extreme::Of::distance})
+    if (name(of) == text) return of;
+  throw Error(fmt::format("{}: found an extreme of '{}', which this version does not know", where, text));
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::exception& error) {
@@ -228,6 +250,18 @@ Campaign load_campaign(const fs::path& file) {
       c.compared = count(by_family.getColumn(6));
       c.compared_collisions = count(by_family.getColumn(7));
       c.missed_by_parity = count(by_family.getColumn(8));
+    }
+
+    SQLite::Statement extremes(db, "SELECT * FROM extreme");
+    while (extremes.executeStep()) {
+      const std::string name = extremes.getColumn(0).getString();
+      const Kind kind = parse_kind(extremes.getColumn(3).getString(), where);
+      campaign.statistics.extremes[name] = {parse_of(extremes.getColumn(1).getString(), where),
+                                            name,
+                                            std::stod(extremes.getColumn(2).getString()),
+                                            parse_line(kind, extremes.getColumn(4).getString(), where),
+                                            extremes.getColumn(5).getString(),
+                                            count(extremes.getColumn(6))};
     }
 
     SQLite::Statement oracle(db, "SELECT disagreements, truth_mismatches FROM oracle");

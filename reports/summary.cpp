@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "corpus/query_text.hpp"
@@ -74,6 +75,37 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
 
 }  // namespace
 
+namespace {
+
+ordered_json extreme_json(const Extreme& extreme) {
+  ordered_json json;
+  json["of"] = name(extreme.of);
+  json["queries"] = extreme.queries;
+  json["value"] = extreme.found() ? ordered_json(extreme.value) : ordered_json();
+  if (!extreme.found()) return json;
+  json["kind"] = short_name(extreme.query.kind);
+  json["query"] = to_line(extreme.query);
+  json["provenance"] = extreme.provenance;
+  return json;
+}
+
+std::string meaning(const Extreme& extreme) {
+  if (extreme.of == Extreme::Of::distance)
+    return extreme.found() ? fmt::format("reach {:.4g} of the bound", extreme.value) : "no false positive";
+  if (!extreme.found()) return "no miss found with any factor";
+  return fmt::format("a miss with {} {:.3g}, none beyond",
+                     extreme.of == Extreme::Of::accepting_tolerance ? "<=" : ">=", extreme.value);
+}
+
+std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
+  std::vector<std::vector<std::string>> rows{{"tolerance or tests", "times", "queries", "from"}};
+  for (const auto& [name, each] : extremes)
+    rows.push_back({name, meaning(each), with_separators(each.queries), each.provenance});
+  return columns(rows);
+}
+
+}  // namespace
+
 std::string with_separators(std::uint64_t number) {
   std::string digits = fmt::format("{}", number);
   for (auto i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
@@ -89,6 +121,7 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
   for (const auto& [key, counts] : campaign.statistics.oracle)
     json["oracle"]["families"][std::string(short_name(key.first))][key.second] = oracle_json(counts);
   json["oracle"]["total"] = oracle_json(campaign.statistics.oracle_total());
+  for (const auto& [name, each] : campaign.statistics.extremes) json["tightness"][name] = extreme_json(each);
   json["subjects"] = ordered_json::object();
   for (const auto& [key, counts] : campaign.statistics.by_subject_and_kind())
     json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(counts);
@@ -146,6 +179,8 @@ std::string oracle_complaint(const Statistics& statistics) {
 }
 
 std::string summary_table(const Statistics& statistics) {
+  const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
+  if (statistics.counts.empty()) return extremes;
   std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
                                               "rate below*", "false pos.", "max dist/bound", "ns/query"}};
   for (const auto& [key, counts] : statistics.by_subject_and_kind()) {
@@ -171,7 +206,7 @@ std::string summary_table(const Statistics& statistics) {
           : fmt::format(", {} decided near their bounds", with_separators(oracle.near_bounds)),
       with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
       with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions));
-  return verdicts + "\n" + columns(rows) + "\n" + answers +
+  return verdicts + "\n" + columns(rows) + "\n" + answers + extremes +
          "\n* upper 95 % confidence bound of the rate of misses among true collisions (Clopper-Pearson)\n";
 }
 

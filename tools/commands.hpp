@@ -19,6 +19,8 @@ void add_fuzz(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_power(CLI::App& app, int& exit_code);
+void add_tightness(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_subjects(CLI::App& app, int& exit_code);
 

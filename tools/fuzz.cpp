@@ -61,6 +61,7 @@ int run(const Options& options) {
         [&](TrialResult&& result, const CampaignProgress& now) {
           record.add(std::move(result));
           if (progress.due()) progress.show(show(now, record.statistics()));
+          return true;
         },
         stop);
   }

@@ -116,6 +116,19 @@ function drawOracle() {
   ], rows);
 }
 
+function drawTightness() {
+  const rows = Object.entries(report.tightness ?? {}).map(([name, extreme]) => ({ name, ...extreme }));
+  if (rows.length === 0) return;
+  element("tightness-section").hidden = false;
+  const says = { "accepting-tolerance": "missed with this factor or less", "keeping-tolerance": "missed with this factor or more",
+    distance: "distance / bound" };
+  fillTable(element("tightness"), [
+    text("tolerance or tests", "name"), { title: "figure", text: (r) => says[r.of] },
+    { title: "value", number: (r) => r.value ?? 0, text: (r) => (r.value === null ? "none found" : short(r.value)) },
+    count("queries", "queries"), { title: "from", text: (r) => r.provenance ?? "" },
+  ], rows);
+}
+
 function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
@@ -269,6 +282,7 @@ drawBaseline();
 drawCounts();
 element("by-family").addEventListener("change", drawCounts);
 drawOracle();
+drawTightness();
 drawFindings();
 drawFarthest();
 Promise.all([drawErrorTime(), drawDistances(), drawStages()])

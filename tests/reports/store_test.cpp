@@ -39,6 +39,8 @@ Statistics some_statistics(const std::string& subject) {
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
+  statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
+  statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
   statistics.oracle_disagreements = 3;
   statistics.mismatches_with_recorded_truth = 4;
   return statistics;

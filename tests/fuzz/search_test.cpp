@@ -1,0 +1,72 @@
+// The directed search, on defects that are known to be there.
+#include "fuzz/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fuzz/subjects.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+Query search(const Family& family, std::uint64_t index) { return make_query(family, 1, index); }
+
+/// Whether one of the first queries is a collision that the subject misses.
+bool finds_miss(const std::string& name, std::uint64_t queries) {
+  const auto subject = make_any_subject(name);
+  const Family family = miss_search(*subject);
+  for (std::uint64_t i = 0; i < queries; ++i)
+    if (const Query query = search(family, i); !subject->decide(query).hit && collides(query)) return true;
+  return false;
+}
+
+TEST(MissSearch, FindsDefects) {
+  EXPECT_TRUE(finds_miss("defect:vv", 20));
+  EXPECT_TRUE(finds_miss("defect:D2*0.1", 20));
+  EXPECT_TRUE(finds_miss("defect:ve-zero", 20));
+}
+
+TEST(MissSearch, FindsThemWhereTheSubjectTellsNothing) { EXPECT_TRUE(finds_miss("basic", 20)); }
+
+TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
+  const auto wang = make_subject("wang");
+  double most = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Query query = search(miss_search(*wang), i);
+    EXPECT_TRUE(collides(query));
+    EXPECT_TRUE(wang->decide(query).hit);
+    most = std::max(most, wang->needed_tolerance(query));
+  }
+  EXPECT_GT(most, 0.3);
+}
+
+TEST(MissSearch, IsAPureFunction) {
+  const auto wang = make_subject("wang");
+  for (std::uint64_t i = 0; i < 2; ++i)
+    EXPECT_EQ(search(miss_search(*wang), i), search(miss_search(*wang), i));
+}
+
+TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) {
+  const auto wang = make_subject("wang");
+  double farthest = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const Query query = search(far_search(*wang), i);
+    if (!wang->decide(query).hit || collides(query)) continue;
+    EXPECT_FALSE(distance_exceeds(query, wang->distance_bound(query)));
+    farthest = std::max(farthest, closest_approach(query).lo / wang->distance_bound(query));
+  }
+  EXPECT_GT(farthest, 0.9);
+}
+
+TEST(FarSearch, RefutesBoundsThatDoNotHold) {
+  const auto subject = make_any_subject("defect:lambda2*0");
+  bool refuted = false;
+  for (std::uint64_t i = 0; i < 40 && !refuted; ++i) {
+    const Query query = search(far_search(*subject), i);
+    refuted = subject->decide(query).hit && distance_exceeds(query, subject->distance_bound(query));
+  }
+  EXPECT_TRUE(refuted);
+}
+
+}  // namespace
+}  // namespace nearmiss

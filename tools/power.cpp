@@ -1,0 +1,181 @@
+// nearmiss power: how soon each way to hunt finds each of the known defects.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "ccd/error.hpp"
+#include "corpus/file.hpp"
+#include "fuzz/defects.hpp"
+#include "fuzz/power.hpp"
+#include "fuzz/search.hpp"
+#include "reports/summary.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> subjects;
+  std::vector<std::string> ways;
+  std::string time = "60s", libfuzzer;
+  std::filesystem::path json;
+  std::uint64_t seed = 1;
+  int jobs = 1;
+};
+
+constexpr std::string_view uniform = "uniform";
+constexpr std::string_view all_families = "families";
+constexpr std::string_view search = "search";
+constexpr std::string_view libfuzzer = "libfuzzer";
+
+/// What one way to hunt found of one defect; the JSON file is a list of these.
+ordered_json entry(const std::string& subject, const std::string& way) {
+  return {{"subject", subject}, {"way", way}, {"failure", nullptr}, {"seconds", nullptr}, {"cases", nullptr}};
+}
+
+ordered_json hunt(const Options& options, const std::string& subject, const std::string& way) {
+  const Subjects subjects = make_subjects({subject});
+  CampaignPlan plan;
+  if (way == uniform) plan.families = {find_family("uniform")};
+  if (way == all_families) plan.families = {families().begin(), families().end()};
+  if (way == search) plan.families = {miss_search(*subjects.front()), far_search(*subjects.front())};
+  plan.seed = options.seed;
+  plan.time = parse_duration(options.time);
+  plan.jobs = options.jobs;
+  ordered_json result = entry(subject, way);
+  if (const auto first = find_first_failure(plan, subjects, interrupted())) {
+    result["failure"] = name(first->finding.what);
+    result["seconds"] = first->seconds;
+    result["cases"] = first->cases * (way == search ? search_evaluations : 1);
+    result["provenance"] = first->finding.provenance;
+  }
+  return result;
+}
+
+/// Runs the command, and takes what it prints last: "found after S s, N executions: PATH" or else "nothing".
+ordered_json hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+  const std::string command =
+      fmt::format("{} --first false_negative {} '{}'", options.libfuzzer, options.time, subject);
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw Error(fmt::format("'{}': cannot be run", command));
+  std::string text;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    text.append(buffer.data(), n);
+  pclose(pipe);
+  ordered_json result = entry(subject, std::string(libfuzzer));
+  static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
+  if (std::smatch match; std::regex_search(text, match, found)) {
+    result["failure"] = name(Finding::What::false_negative);
+    result["seconds"] = std::stod(match[1]);
+    result["cases"] = std::stoull(match[2]);
+    result["provenance"] = match[3].str();
+  } else if (text.find("nothing in") == std::string::npos) {
+    throw Error(
+        fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
+  }
+  return result;
+}
+
+/// "0.12 s  12,345", with a star where a bound was refuted and not a collision missed; "-" for nothing.
+std::string cell(const ordered_json& result) {
+  if (result["failure"].is_null()) return "-";
+  const bool bound = result["failure"] == name(Finding::What::refuted_bound);
+  return fmt::format("{:.2f} s {:>12}{}", result["seconds"].get<double>(),
+                     with_separators(result["cases"].get<std::uint64_t>()), bound ? "*" : "");
+}
+
+std::string table(const ordered_json& results, const std::vector<std::string>& ways) {
+  std::string text = fmt::format("{:<24}", "defect");
+  for (const std::string& way : ways) text += fmt::format(" {:>22}", way);
+  text += "\n";
+  std::vector<std::string> subjects;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  std::map<std::string, int> found;
+  for (const ordered_json& result : results) {
+    const std::string subject = result["subject"];
+    const std::string way = result["way"];
+    if (std::find(subjects.begin(), subjects.end(), subject) == subjects.end()) subjects.push_back(subject);
+    cells[{subject, way}] = cell(result);
+    found[way] += result["failure"].is_null() ? 0 : 1;
+  }
+  for (const std::string& subject : subjects) {
+    text += fmt::format("{:<24}", subject);
+    for (const std::string& way : ways) text += fmt::format(" {:>22}", cells[{subject, way}]);
+    text += "\n";
+  }
+  text += fmt::format("{:<24}", fmt::format("found, of {}", subjects.size()));
+  for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
+  return text + "\n\nTime and cases to the first miss; *: to the first refuted bound.\n";
+}
+
+int run(const Options& options) {
+  ordered_json results = ordered_json::array();
+  if (!options.json.empty() && std::filesystem::exists(options.json))
+    results = ordered_json::parse(std::ifstream(options.json));
+  std::vector<std::string> subjects = options.subjects;
+  if (subjects.empty())
+    for (const Defect& defect : defects()) subjects.push_back(defect.name);
+  std::vector<std::string> ways = options.ways;
+  if (ways.empty()) {
+    ways = {std::string(uniform), std::string(all_families), std::string(search)};
+    if (!options.libfuzzer.empty()) ways.emplace_back(libfuzzer);
+  }
+  const auto is_done = [&](const std::string& subject, const std::string& way) {
+    return std::any_of(results.begin(), results.end(),
+                       [&](const auto& each) { return each["subject"] == subject && each["way"] == way; });
+  };
+  Progress progress;
+  for (const std::string& subject : subjects) {
+    for (const std::string& way : ways) {
+      if (interrupted() || is_done(subject, way)) continue;
+      progress.show(fmt::format("{}: {}", subject, way));
+      auto result = way == libfuzzer ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
+      if (interrupted()) continue;
+      results.push_back(std::move(result));
+      if (!options.json.empty()) replace_file(options.json, results.dump(2) + "\n");
+    }
+  }
+  fmt::print("{}", table(results, ways));
+  return interrupted() ? exit_interrupted : exit_fine;
+}
+
+}  // namespace
+
+void add_power(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("power", "Measure how soon each way to hunt finds each known defect");
+  command
+      ->add_option("--subject", options->subjects, "Defects, separated by commas; all where it is not given")
+      ->delimiter(',')
+      ->type_name("defect:A,...");
+  command->add_option("--way", options->ways, "Ways to hunt, separated by commas; all where it is not given")
+      ->delimiter(',')
+      ->check(CLI::IsMember(
+          {std::string(uniform), std::string(all_families), std::string(search), std::string(libfuzzer)}));
+  command->add_option("--time", options->time, "As long for each defect and way: 10s, 2m")
+      ->capture_default_str()
+      ->type_name("T");
+  command->add_option("--libfuzzer", options->libfuzzer, "Hunt with this command too: tools/libfuzzer")
+      ->type_name("COMMAND");
+  command->add_option("--json", options->json, "Keep what was measured in this file, and go on from it")
+      ->type_name("FILE");
+  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
+      ->capture_default_str()
+      ->type_name("S");
+  add_jobs_option(*command, options->jobs);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,74 @@
+// nearmiss tightness: how much slack the paper's constants have.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "fuzz/tightness.hpp"
+#include "reports/summary.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> names{"all"};
+  std::string time = "60s";
+  std::uint64_t seed = 1;
+  int jobs = 1;
+  RecordOptions record;
+};
+
+int run(const Options& options) {
+  const auto& stop = interrupted();
+  TightnessPlan plan;
+  plan.names = options.names == std::vector<std::string>{"all"} ? tightness_names() : options.names;
+  plan.families.assign(families().begin(), families().end());
+  plan.time = parse_duration(options.time);
+  plan.seed = options.seed;
+  plan.jobs = options.jobs;
+  RunInfo info = run_info("tightness");
+  info["seed"] = fmt::format("{}", plan.seed);
+  info["time for each"] = options.time;
+  Record record(options.record, std::move(info));
+  {
+    Progress progress;
+    measure_tightness(
+        plan,
+        [&](const Extreme& extreme, bool done) {
+          if (done)
+            record.add({{.extremes = {{extreme.name, extreme}}}, {}});
+          else if (progress.due())
+            progress.show(fmt::format("{}: {:.4g} after {} queries", extreme.name, extreme.value,
+                                      with_separators(extreme.queries)));
+        },
+        stop);
+  }
+  return record.finish(stop);
+}
+
+}  // namespace
+
+void add_tightness(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "tightness", "Measure how much smaller (or larger) each tolerance could be until a miss is found");
+  command->add_option("--tolerance", options->names, "Tolerances and tests, separated by commas, or all")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("all|A,B,...");
+  command->add_option("--time", options->time, "As long for each: 10s, 2m")
+      ->capture_default_str()
+      ->type_name("T");
+  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
+      ->capture_default_str()
+      ->type_name("S");
+  add_jobs_option(*command, options->jobs);
+  options->record.add_to(*command);
+  command->footer(fmt::format("\nTolerances and tests: {}\n", fmt::join(tightness_names(), ", ")));
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools
