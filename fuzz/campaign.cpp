@@ -43,7 +43,7 @@ Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   const std::uint64_t first = round * block_cases;
   std::uint64_t last = first + block_cases;
   if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
-  return {plan.families[f], first, last};
+  return {&plan.families[f], first, last};
 }
 
 TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjects& subjects) {
