@@ -21,7 +21,9 @@ std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
     all += plan.families[i].block_cases;
   }
   // cases * part / all, without overflow
-  const auto dealt = [&](std::uint64_t part) { return plan.cases / all * part + plan.cases % all * part / all; };
+  const auto dealt = [&](std::uint64_t part) {
+    return plan.cases / all * part + plan.cases % all * part / all;
+  };
   return dealt(before + plan.families[f].block_cases) - dealt(before);
 }
 
@@ -49,7 +51,7 @@ Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   const std::uint64_t first = round * plan.families[f].block_cases;
   std::uint64_t last = first + plan.families[f].block_cases;
   if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
-  return {plan.families[f], first, last};
+  return {&plan.families[f], first, last};
 }
 
 TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjects& subjects) {

@@ -16,7 +16,7 @@ namespace nearmiss {
 /// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is, and those of all
 /// shards together are those of the whole.
 struct CampaignPlan {
-  std::vector<const Family*> families;
+  std::vector<Family> families;
   std::uint64_t seed = 1;
   std::uint64_t cases = 0;  ///< in all, shared out in proportion to `block_cases`; 0: until the time is over
   std::optional<std::chrono::duration<double>> time;

@@ -29,7 +29,8 @@ class Random {
   /// In [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Log-uniform in [lo, hi), both positive.
+  /// Log-uniform in [lo, hi), both positive. Its last bit is that of the C library's exp and log, which is
+  /// another one on processors without fused multiply-add.
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
   /// An integer in [lo, hi]; the bias is below 2^-32 for ranges below 2^32.
   int integer(int lo, int hi) {

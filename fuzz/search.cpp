@@ -232,16 +232,22 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
 
 }  // namespace
 
+namespace {
+constexpr std::uint64_t block_cases = 4;  // each takes as long as some thousand others
+}
+
 Family miss_search(const Subject& subject) {
   return {.name = "search-miss-" + subject.name(),
           .about = "collisions that are nearly missed, by directed search",
-          .make = [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); }};
+          .make = [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); },
+          .block_cases = block_cases};
 }
 
 Family far_search(const Subject& subject) {
   return {.name = "search-far-" + subject.name(),
           .about = "far false positives, by directed search",
-          .make = [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); }};
+          .make = [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); },
+          .block_cases = block_cases};
 }
 
 }  // namespace nearmiss

@@ -84,12 +84,10 @@ auto identity(const Finding& finding) {
 }
 
 ordered_json rates(const Counts& counts) {
-  const std::uint64_t others = counts.queries - counts.collisions;
   ordered_json json;
   json["queries"] = counts.queries;
   json["false_negatives"] = counts.false_negatives;
-  json["false_positive_rate"] =
-      others == 0 ? 0 : static_cast<double>(counts.false_positives) / static_cast<double>(others);
+  json["false_positive_rate"] = counts.false_positive_rate();
   json["max_fp_distance_over_bound"] = counts.max_ratio();
   json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
   return json;

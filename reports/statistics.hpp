@@ -76,6 +76,11 @@ struct Counts {
   void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other);
 
+  /// Of all queries that are no collisions; 0 where there is none.
+  [[nodiscard]] double false_positive_rate() const {
+    const std::uint64_t others = queries - collisions;
+    return others == 0 ? 0 : static_cast<double>(false_positives) / static_cast<double>(others);
+  }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
   /// Not a number where nothing was timed.
   [[nodiscard]] double ns_per_query() const {

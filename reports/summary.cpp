@@ -9,6 +9,7 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/confidence.hpp"
+#include "reports/sweep.hpp"
 
 namespace nearmiss {
 
@@ -57,8 +58,9 @@ ordered_json oracle_json(const OracleCounts& counts) {
   return json;
 }
 
-/// Text in columns: the first two to the left, the others to the right.
-std::string columns(const std::vector<std::vector<std::string>>& rows) {
+}  // namespace
+
+std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t to_the_left) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
@@ -66,14 +68,13 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i)
-      line += i < 2 ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
+      line += i < to_the_left ? fmt::format("{:<{}}  ", row[i], widths[i])
+                              : fmt::format("{:>{}}  ", row[i], widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }
   return text;
 }
-
-}  // namespace
 
 namespace {
 
@@ -101,7 +102,7 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
   std::vector<std::vector<std::string>> rows{{"tolerance or tests", "times", "queries", "from"}};
   for (const auto& [name, each] : extremes)
     rows.push_back({name, meaning(each), with_separators(each.queries), each.provenance});
-  return columns(rows);
+  return columns(rows, 1);
 }
 
 }  // namespace
@@ -128,6 +129,7 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
   for (const auto& [key, counts] : campaign.statistics.counts)
     json["subjects"][key.subject][std::string(short_name(key.kind))]["families"][key.family] =
         counts_json(counts);
+  if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
   return json;
 }
 
@@ -206,7 +208,7 @@ std::string summary_table(const Statistics& statistics) {
           : fmt::format(", {} decided near their bounds", with_separators(oracle.near_bounds)),
       with_separators(oracle.compared), statistics.oracle_disagreements == 0 ? "they agree" : "THEY DISAGREE",
       with_separators(oracle.missed_by_parity), with_separators(oracle.compared_collisions));
-  return verdicts + "\n" + columns(rows) + "\n" + answers + extremes +
+  return verdicts + "\n" + columns(rows, 2) + "\n" + answers + extremes +
          "\n* upper 95 % confidence bound of the rate of misses among true collisions (Clopper-Pearson)\n";
 }
 

@@ -11,8 +11,8 @@ namespace nearmiss {
 
 /// The JSON of `replay --json` and `fuzz --json`, which scripts depend on: subjects.NAME.KIND with queries,
 /// collisions, positives, false_negatives, false_positives, max_fp_distance_over_bound and ns_per_query (null
-/// where nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth. More fields
-/// stand beside them.
+/// where nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth; sweeps where
+/// there are some (reports/sweep.hpp). More fields stand beside them.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
 /// Whether there is a false negative, a refuted bound, an oracle disagreement or a truth mismatch.
@@ -34,6 +34,9 @@ std::string oracle_complaint(const Statistics& statistics);
 /// A line for each subject that says at a glance whether it missed anything, then a row for each subject and
 /// kind.
 std::string summary_table(const Statistics& statistics);
+
+/// Text in columns: so many to the left, the others to the right.
+std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t to_the_left);
 
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);

@@ -83,19 +83,36 @@ Subjects make_subjects(const std::vector<std::string>& names, std::optional<doub
   return made;
 }
 
-std::vector<const Family*> find_families(const std::vector<std::string>& names) {
-  std::vector<const Family*> found;
-  for (const std::string& name : names) {
-    if (name == "all") {
-      for (const Family& family : families()) found.push_back(&family);
-    } else {
-      found.push_back(&find_family(name));
-    }
-  }
-  const std::set<const Family*> different(found.begin(), found.end());
-  if (different.size() != found.size())
-    throw Error("found a family twice in --family, expected different ones");
+namespace {
+
+std::vector<Family> different(std::vector<Family> found, std::string_view option) {
+  std::set<std::string> names;
+  for (const Family& family : found)
+    if (!names.insert(family.name).second)
+      throw Error(
+          fmt::format("found the family '{}' twice in {}, expected different ones", family.name, option));
   return found;
+}
+
+}  // namespace
+
+std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known) {
+  std::vector<Family> found;
+  for (const std::string& name : names) {
+    if (name == "all")
+      found.insert(found.end(), known.begin(), known.end());
+    else
+      found.push_back(find_family(name, known));
+  }
+  return different(std::move(found), "--family");
+}
+
+std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
+                                std::span<const Family> known) {
+  std::vector<Family> found;
+  for (const std::string& name : names)
+    for (Family& step : sweep(find_family(name, known), steps)) found.push_back(std::move(step));
+  return different(std::move(found), "--sweep");
 }
 
 std::chrono::duration<double> parse_duration(std::string_view text) {

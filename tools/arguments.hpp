@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,8 +41,12 @@ struct QueryInput {
 Subjects make_subjects(const std::vector<std::string>& names,
                        std::optional<double> given_bound = std::nullopt);
 
-/// The families by these names; all of them for "all". Throws Error.
-std::vector<const Family*> find_families(const std::vector<std::string>& names);
+/// The families by these names, NAME or NAME@VALUE; all that are known for "all". Throws Error.
+std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known);
+
+/// The families NAME@VALUE of the sweeps by these names. Throws Error.
+std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
+                                std::span<const Family> known);
 
 /// "500ms", "30s", "2m", "8h". Throws Error.
 std::chrono::duration<double> parse_duration(std::string_view text);

@@ -43,7 +43,7 @@ double median(Times times) {
 
 /// The first queries of a family whose boxes meet, as many of each kind as asked for.
 Input family_input(std::string_view name, std::uint64_t count) {
-  const Family& family = find_family(name);
+  const Family family = find_family(name);
   Input input{std::string(name), {}};
   for (std::uint64_t index = 0;
        std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) { return input.queries[kind].size() < count; });

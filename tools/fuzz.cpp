@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include "fuzz/campaign.hpp"
+#include "fuzz/mesh_family.hpp"
+#include "fuzz/search.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -15,7 +17,10 @@ namespace {
 
 struct Options {
   std::vector<std::string> subjects{"wang"};
-  std::vector<std::string> families{"all"};
+  std::vector<std::string> families{"all"}, sweeps;
+  int steps = 17;
+  bool search = false;
+  std::vector<std::filesystem::path> mesh;
   std::uint64_t cases = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
@@ -36,11 +41,36 @@ std::string show(const CampaignProgress& now, const Statistics& statistics) {
   return line + (now.of != 0 ? ", " + show_duration(left) + " left" : ", " + show_duration(now.elapsed));
 }
 
+/// What --family, --sweep, --mesh and --search ask for.
+std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
+  std::vector<Family> known(families().begin(), families().end());
+  if (!options.mesh.empty())
+    known.push_back(mesh_family(read_moving_mesh(options.mesh.front(), options.mesh.back())));
+  auto chosen = options.sweeps.empty() ? find_families(options.families, known)
+                                       : find_sweeps(options.sweeps, options.steps, known);
+  if (!options.search) return chosen;
+  for (const auto& subject : subjects)
+    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject));
+  return chosen;
+}
+
+/// A line for each family, and one for its parameter.
+std::string list_of_families() {
+  std::string lines;
+  for (const Family& family : families()) {
+    lines += fmt::format("\n  {:<19} {}", family.name, family.about);
+    if (family.parameter)
+      lines += fmt::format("\n  {:<19}   {}, x from {} to {}", "", family.parameter->about,
+                           family.parameter->lo, family.parameter->hi);
+  }
+  return lines;
+}
+
 int run(const Options& options) {
   const auto& stop = interrupted();
   const Subjects subjects = make_subjects(options.subjects);
   CampaignPlan plan;
-  plan.families = find_families(options.families);
+  plan.families = chosen_families(options, subjects);
   plan.seed = options.seed;
   plan.cases = options.cases;
   if (!options.time.empty()) plan.time = parse_duration(options.time);
@@ -50,7 +80,11 @@ int run(const Options& options) {
 
   RunInfo info = run_info("fuzz");
   info["seed"] = fmt::format("{}", plan.seed);
-  info["families"] = fmt::format("{}", fmt::join(options.families, ","));
+  info["families"] = options.sweeps.empty()
+                         ? fmt::format("{}", fmt::join(options.families, ","))
+                         : fmt::format("{} in {} steps", fmt::join(options.sweeps, ","), options.steps);
+  if (!options.mesh.empty())
+    info["scene"] = options.mesh.front().string() + " " + options.mesh.back().string();
   info["cases"] = plan.cases == 0 ? "until the time is over" : fmt::format("{}", plan.cases);
   info["shard"] = options.shard;
   Record record(options.record, std::move(info));
@@ -75,10 +109,36 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("fuzz", "Hunt for false negatives and far false positives with random queries");
   add_subject_option(*command, options->subjects);
-  command->add_option("--family", options->families, "Families of queries, separated by commas, or all")
-      ->delimiter(',')
+  auto* family =
+      command
+          ->add_option(
+              "--family", options->families,
+              "Families of queries, separated by commas, or all; NAME@VALUE gives its parameter a value")
+          ->delimiter(',')
+          ->capture_default_str()
+          ->type_name("all|A,B@VALUE,...");
+  auto* sweep =
+      command
+          ->add_option(
+              "--sweep", options->sweeps,
+              "Instead: drive the parameters of these families from their lowest to their highest value")
+          ->delimiter(',')
+          ->excludes(family)
+          ->type_name("A,B,...");
+  command->add_option("--steps", options->steps, "Values of each parameter in a sweep")
+      ->needs(sweep)
+      ->check(CLI::Range(2, 10000))
       ->capture_default_str()
-      ->type_name("all|A,B,...");
+      ->type_name("N");
+  command
+      ->add_option("--mesh", options->mesh,
+                   "Add the family mesh: pairs of this mesh, at t = 0 and at t = 1, as they are, moved into "
+                   "contact, and perturbed by 10^x of their size, x from -16 to -1")
+      ->expected(2)
+      ->type_name("START.obj END.obj");
+  command->add_flag("--search", options->search,
+                    "Add directed search: for each subject, collisions that it nearly misses and far false "
+                    "positives");
   auto* limit = command->add_option_group("limit", "How long");
   limit->add_option("--cases", options->cases, "As many queries in all, shared out among the families")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
@@ -94,10 +154,8 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->type_name("I/N");
   options->record.add_to(*command);
-  std::string known;
-  for (const Family& family : families()) known += fmt::format("\n  {:<14} {}", family.name, family.about);
   command->footer(
-      "\nFamilies:" + known +
+      "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
       "night.db -o report");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -48,7 +48,7 @@ ordered_json hunt(const Options& options, const std::string& subject, const std:
   const Subjects subjects = make_subjects({subject});
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
-  if (way == all_families) plan.families = {families().begin(), families().end()};
+  if (way == all_families) plan.families.assign(families().begin(), families().end());
   if (way == search) plan.families = {miss_search(*subjects.front()), far_search(*subjects.front())};
   plan.seed = options.seed;
   plan.time = parse_duration(options.time);

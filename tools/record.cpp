@@ -11,6 +11,7 @@
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
 #include "reports/summary.hpp"
+#include "reports/sweep.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -78,7 +79,7 @@ int Record::finish(bool interrupted) {
   save();
   if (!options_.json.empty())
     replace_file(options_.json, summary_json({{run_}, statistics_, {}}).dump(2) + "\n");
-  fmt::print("{}", summary_table(statistics_));
+  fmt::print("{}{}", summary_table(statistics_), sweep_tables(statistics_));
   if (!first_findings_.empty()) fmt::print("\nthe first findings:\n");
   for (const Finding& finding : first_findings_)
     fmt::print("  {} {} {}\n", name(finding.what), finding.subject, finding.provenance);

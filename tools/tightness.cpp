@@ -38,11 +38,15 @@ int run(const Options& options) {
     measure_tightness(
         plan,
         [&](const Extreme& extreme, bool done) {
-          if (done)
-            record.add({{.extremes = {{extreme.name, extreme}}}, {}});
-          else if (progress.due())
-            progress.show(fmt::format("{}: {:.4g} after {} queries", extreme.name, extreme.value,
-                                      with_separators(extreme.queries)));
+          if (!done) {
+            if (progress.due())
+              progress.show(fmt::format("{}: {:.4g} after {} queries", extreme.name, extreme.value,
+                                        with_separators(extreme.queries)));
+            return;
+          }
+          TrialResult result;
+          result.statistics.extremes[extreme.name] = extreme;
+          record.add(std::move(result));
         },
         stop);
   }

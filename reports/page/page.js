@@ -254,6 +254,44 @@ function drawDistances() {
   return draw("distances", { data: { values }, hconcat: ["vt", "ee"].map(panel) });
 }
 
+function drawSweeps() {
+  if (!report.sweeps) return Promise.resolve();
+  element("sweeps-section").hidden = false;
+  const values = [];
+  for (const [family, bySubject] of Object.entries(report.sweeps))
+    for (const [subject, steps] of Object.entries(bySubject))
+      for (const step of steps) values.push({ family, subject, ...step, alarms: 100 * step.false_positive_rate });
+  const panel = (family, field, title, y) => {
+    const encoding = {
+      x: { field: "value", type: "quantitative", title: `x in ${family}@x`, scale: { nice: false }, axis: { tickCount: 8 } },
+      y: { field, type: "quantitative", title: null, ...y },
+      tooltip: [{ field: "subject" }, { field: "value", title: "x" }, { field: "queries" }, { field: "collisions" },
+        { field: "false_negatives", title: "false negatives" }, { field: "alarms", title: "false positives, %", format: ".4~g" },
+        { field: "max_fp_distance_over_bound", title: "max distance / bound", format: ".4~g" },
+        { field: "ns_per_query", title: "ns a query", format: ".4~g" }],
+    };
+    return {
+      width: 270, height: 170, title: `${family}: ${title}`,
+      transform: [{ filter: `datum.family === "${family}" && datum.${field} !== null` },
+        ...(y.scale?.type === "log" ? [{ filter: `datum.${field} > 0` }] : [])],
+      layer: [
+        { mark: { type: "line", strokeWidth: 2, point: { size: 25 } }, encoding: { ...encoding, color: subjectColor } },
+        { transform: [{ filter: "datum.false_negatives > 0" }], encoding,
+          mark: { type: "point", shape: "cross", size: 90, angle: 45, filled: true, opacity: 1, color: "#b3261e", stroke: "#ffffff", strokeWidth: 1 } },
+      ],
+    };
+  };
+  const log = { scale: { type: "log", nice: true }, axis: { tickCount: 5, format: "~g" } };
+  return draw("sweeps", {
+    data: { values },
+    vconcat: Object.keys(report.sweeps).map((family) => ({ hconcat: [
+      panel(family, "ns_per_query", "ns a query", { ...log, axis: { tickCount: 5, format: "~s" } }),
+      panel(family, "alarms", "false positives, % of all else", { axis: { tickCount: 5 } }),
+      panel(family, "max_fp_distance_over_bound", "max distance / bound", { ...log, axis: { tickCount: 5, format: ".0e" } }),
+    ] })),
+  });
+}
+
 function drawStages() {
   const values = [];
   for (const row of countRows(false))
@@ -285,6 +323,6 @@ drawOracle();
 drawTightness();
 drawFindings();
 drawFarthest();
-Promise.all([drawErrorTime(), drawDistances(), drawStages()])
+Promise.all([drawErrorTime(), drawDistances(), drawSweeps(), drawStages()])
   .then(() => document.body.setAttribute("data-drawn", "true"))
   .catch((error) => document.body.setAttribute("data-error", String(error)));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 namespace nearmiss {
 namespace {
 
@@ -14,7 +17,7 @@ struct Ran {
 
 CampaignPlan plan_of(std::uint64_t cases, int jobs) {
   CampaignPlan plan;
-  for (const Family& family : families()) plan.families.push_back(&family);
+  plan.families.assign(families().begin(), families().end());
   plan.cases = cases;
   plan.jobs = jobs;
   return plan;
@@ -35,6 +38,7 @@ Ran run(const CampaignPlan& plan, const std::atomic<bool>& stop = false) {
         run.findings.insert(run.findings.end(), result.findings.begin(), result.findings.end());
         cases = now.cases;
         of = now.of;
+        return true;
       },
       stop);
   if (plan.cases != 0) {
@@ -57,7 +61,7 @@ TEST(Campaign, SharesTheCasesOutAmongTheFamilies) {
   const Ran all = run(plan_of(4000, 2));
   std::uint64_t sum = 0;
   for (const Family& family : families()) {
-    const auto own = queries(all.statistics, "wang", std::string(family.name));
+    const auto own = queries(all.statistics, "wang", family.name);
     EXPECT_GE(own, 4000 / families().size()) << family.name;
     EXPECT_LE(own, 4000 / families().size() + 1) << family.name;
     sum += own;
@@ -85,7 +89,7 @@ TEST(Campaign, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Campaign, ShardsAddUpToTheWhole) {
   CampaignPlan plan = plan_of(0, 2);
-  plan.families = {&find_family("planted"), &find_family("degenerate")};
+  plan.families = {find_family("planted"), find_family("degenerate"), find_family("aspect@8")};
   plan.cases = 9000;
   const Ran whole = run(plan);
   Statistics sum;
@@ -99,6 +103,23 @@ TEST(Campaign, AnotherSeedMakesOtherQueries) {
   const Ran first = run(plan);
   plan.seed = 2;
   EXPECT_NE(run(plan).statistics, first.statistics);
+}
+
+TEST(Campaign, AProvenanceMakesItsQueryAgain) {
+  CampaignPlan plan = plan_of(0, 2);
+  plan.families = {find_family("aspect@8"), find_family("stiff"), find_family("planted-ulp")};
+  plan.cases = 600;
+  plan.seed = 3;
+  std::set<std::string> seen;
+  for (const Finding& finding : run(plan).findings) {  // basic misses
+    const auto index = finding.provenance.rfind(':');
+    const std::string family = finding.provenance.substr(0, finding.provenance.find(':'));
+    EXPECT_EQ(make_query(find_family(family), 3, std::stoull(finding.provenance.substr(index + 1))),
+              finding.query)
+        << finding.provenance;
+    seen.insert(family);
+  }
+  EXPECT_EQ(seen.size(), 3);
 }
 
 TEST(Campaign, StopsWhenTheTimeIsOver) {

@@ -58,13 +58,13 @@ async function showsFindings(browser) {
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
   await page.check("#by-family");
-  assert.equal(await count(page, "#counts tbody tr"), 48); // 2 subjects, 2 kinds, 12 families
+  assert.equal(await count(page, "#counts tbody tr"), 96); // 2 subjects, 2 kinds, 24 families
   const column = (n) => page.locator(`#counts tbody tr td:nth-child(${n})`).allTextContents();
   await page.click("#counts th:has-text('false positives')");
   const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
   assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
 
-  assert.equal(await count(page, "#oracle tbody tr"), 24); // 2 kinds, 12 families
+  assert.equal(await count(page, "#oracle tbody tr"), 48); // 2 kinds, 24 families
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
@@ -80,6 +80,17 @@ async function showsThatNothingWasFound(browser) {
   assert.equal(await count(page, "#findings tbody tr"), 0);
   assert.match(await page.textContent("#distances"), /no false positive/);
   assert.equal(await page.isVisible("#baseline"), false);
+  assert.equal(await page.isVisible("#sweeps-section"), false);
+  await page.close();
+}
+
+async function showsSweeps(browser) {
+  const page = await open(browser, makeReport("swept",
+    ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
+  assert.equal(await page.isVisible("#sweeps-section"), true);
+  assert.equal(await count(page, "#sweeps .mark-line path"), 12); // 2 families, 3 panels, 2 subjects
+  const crosses = await count(page, "#sweeps .mark-symbol.role-mark path[fill='#b3261e']");
+  assert.equal(crosses, 18); // basic misses at all 3 values, and is marked in all panels
   await page.close();
 }
 
@@ -101,6 +112,7 @@ try {
   await showsFindings(browser);
   await showsThatNothingWasFound(browser);
   await showsTheBaseline(browser);
+  await showsSweeps(browser);
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true });

@@ -137,6 +137,39 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
   EXPECT_EQ(report["baseline"]["new_findings"], 0);
 }
 
+TEST_F(CommandLine, FuzzSweepsParameters) {
+  const Answer answer = run(
+      "fuzz --sweep needle,end-contact --steps 3 --cases 600 --subject wang,exact --db a.db --json new.json");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  for (const char* title : {"wang along needle@x", "exact along needle@x", "wang along end-contact@x"})
+    EXPECT_THAT(answer.out, HasSubstr(title));
+  const json steps = read_json("new.json")["sweeps"]["needle"]["wang"];
+  ASSERT_EQ(steps.size(), 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(steps[i]["value"], (std::array{-16, -8, 0})[i]);
+    EXPECT_EQ(steps[i]["queries"], 100);
+  }
+  EXPECT_EQ(run("report a.db -o report").code, 0);
+  EXPECT_EQ(read_json("report/report.json")["sweeps"]["end-contact"]["exact"].size(), 3);
+}
+
+const std::string falling_triangle =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n";
+const std::string fallen_triangle =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 9 -1\nf 1 2 3\nf 4 5 6\n";
+
+TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
+  write("start.obj", falling_triangle);
+  write("end.obj", fallen_triangle);
+  const std::string mesh = "--mesh start.obj end.obj --json new.json ";
+  EXPECT_EQ(run("fuzz --cases 400 --family mesh " + mesh).code, 0);
+  EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["ee"]["families"]["mesh"]["queries"], 200);
+  EXPECT_EQ(run("fuzz --cases 400 --sweep mesh --steps 2 " + mesh).code, 0);
+  EXPECT_EQ(read_json("new.json")["sweeps"]["mesh"]["wang"].size(), 2);
+  EXPECT_EQ(run("fuzz --cases 500 " + mesh).code, 0);
+  EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["vt"]["families"]["mesh"]["queries"], 10);
+}
+
 TEST_F(CommandLine, SceneComparesAllPairs) {
   write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 1 1\nf 1 2 3\nf 4 5 6\n");
   write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 1 -1\nf 1 2 3\nf 4 5 6\n");
@@ -204,7 +237,12 @@ TEST_F(CommandLine, BadNames) {
   expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang", "exact"});
   expect_refused("replay q.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
   expect_refused("fuzz --cases 10 --family plantet --db new.db", {"unknown family 'plantet'", "planted"});
-  expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"a family twice"});
+  expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"the family 'planted' twice"});
+  expect_refused("fuzz --cases 10 --family aspect@17 --db new.db", {"'aspect@17'", "from 0 to 16"});
+  expect_refused("fuzz --cases 10 --family mesh --db new.db", {"unknown family 'mesh'"});
+  expect_refused("fuzz --cases 10 --sweep aspekt --db new.db", {"unknown family 'aspekt'", "aspect"});
+  expect_refused("fuzz --cases 10 --sweep uniform --db new.db", {"'uniform'", "with a parameter"});
+  expect_refused("fuzz --cases 10 --sweep aspect,aspect --db new.db", {"'aspect@0' twice in --sweep"});
   expect_refused("verdict --kind vt --subject wong q.vt", {"unknown subject 'wong'"});
   expect_refused("oracle --kind vf q.vt", {"--kind", "vf"});
 }
@@ -214,6 +252,10 @@ TEST_F(CommandLine, BadUsage) {
   expect_refused("", {"subcommand"});
   expect_refused("fuzz --db new.db", {"--cases", "--time"});
   expect_refused("fuzz --cases 0 --db new.db", {"--cases"});
+  expect_refused("fuzz --cases 10 --sweep aspect --steps 1 --db new.db", {"--steps"});
+  expect_refused("fuzz --cases 10 --steps 3 --db new.db", {"--steps", "--sweep"});
+  expect_refused("fuzz --cases 10 --sweep aspect --family aspect --db new.db", {"--sweep", "--family"});
+  expect_refused("fuzz --cases 10 --mesh a.obj --db new.db", {"--mesh"});
   expect_refused("fuzz --time 3parsec --db new.db", {"--time: found '3parsec'", "30s"});
   expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
   expect_refused("replay q.vt --json no/folder/new.json", {"no/folder"});
@@ -249,6 +291,8 @@ TEST_F(CommandLine, BadMeshes) {
   refused("nan.obj", {"nan.obj:1", "'nan'"});
   refused("empty.obj", {"empty.obj"});
   refused("absent.obj", {"absent.obj: cannot be read"});
+  expect_refused("fuzz --cases 10 --mesh good.obj five.obj --db new.db", {"five.obj", "5 vertices"});
+  expect_refused("fuzz --cases 10 --mesh good.obj good.obj --db new.db", {"no ee pair in the mesh"});
 }
 
 TEST_F(CommandLine, BadStores) {

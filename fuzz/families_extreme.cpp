@@ -1,0 +1,192 @@
+// Sizes, speeds, angles and places at the ends of what double can hold. Factors are powers of two, so that contacts
+// which are exact stay exact.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fuzz/family_tables.hpp"
+#include "fuzz/figures.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+// --- sizes and speeds -------------------------------------------------------------------------------
+
+/// Only the first figure is as fast as that, or the second too, or it changes its shape as fast.
+Query stiff(Random& random, Kind kind, double x) {
+  const double speed = power_of_ten(x);
+  Numbers numbers(random);
+  const double slow = std::min(speed, numbers.speed());
+  Contact contact = numbers.contact(kind, random.one_in(4) ? speed : slow);
+  const double base_speed = random.one_in(4) ? speed : slow;
+  move_to_origin(kind, contact, base_speed * numbers.vector());
+  return finished(random, meet(kind, contact, speed * numbers.direction()));
+}
+
+/// One side is shorter than the other; of a triangle, so is the third, or not. The contact is anywhere, or within the
+/// short side's reach of the corner.
+Query aspect(Random& random, Kind kind, double x) {
+  const double size = power_of_ten(-x);
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, numbers.speed());
+  const bool short_q = random.one_in(2);
+  Path& side = short_q ? contact.q : contact.r;
+  side = scaled(side, size);
+  if (random.one_in(2)) (short_q ? contact.beta : contact.alpha) *= size;
+  const double speed = random.one_in(2) ? size : numbers.fraction(52);
+  move_to_origin(kind, contact, random.one_in(2) ? Vector(Vector::Zero()) : speed * numbers.vector());
+  return finished(random, meet(kind, contact, speed * numbers.direction()));
+}
+
+Query offset(Random& random, Kind kind, double x) {
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, numbers.speed());
+  move_to_origin(kind, contact, numbers.velocity());
+  Query query = meet(kind, contact, numbers.velocity());
+  const Vector far = power_of_ten(x) * numbers.direction();
+  for (std::size_t i = 0; i < 24; ++i) query.x[i] += far[static_cast<int>(i % 3)];
+  return finished(random, query);
+}
+
+Query scale(Random& random, Kind kind, double x) {
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, numbers.speed());
+  move_to_origin(kind, contact, numbers.velocity());
+  Query query = finished(random, meet(kind, contact, numbers.velocity()));
+  double largest = 0;
+  for (const double c : query.x) largest = std::max(largest, std::abs(c));
+  if (largest == 0) return query;
+  const int exponent = static_cast<int>(x) - std::ilogb(largest);
+  for (double& c : query.x) c = std::ldexp(c, exponent);
+  return query;
+}
+
+/// Each vertex and each axis has an exponent of its own. About the origin, where the figures touch, both factors leave
+/// what touches in contact.
+Query mixed_scale(Random& random, Kind kind, double x) {
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, numbers.speed());
+  move_to_origin(kind, contact, numbers.velocity());
+  Query query = meet(kind, contact, numbers.velocity());
+  const int most = static_cast<int>(x) / 4;
+  std::array<int, 3> axis{};
+  for (int& exponent : axis) exponent = random.integer(-most, most);
+  for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+    const int own = random.integer(-most, most);
+    for (const std::size_t point : {vertex, vertex + 4})
+      for (std::size_t k = 0; k < 3; ++k)
+        query.x[3 * point + k] = std::ldexp(query.x[3 * point + k], own + axis[k]);
+  }
+  return finished(random, query);
+}
+
+Query static_pair(Random& random, Kind kind, double x) {
+  const double speed = power_of_ten(x);
+  Numbers numbers(random);
+  const double slow = std::min(speed, numbers.speed());
+  Contact contact = numbers.contact(kind, slow);
+  const auto rest = [](Path& path, double time) { path = passing(path.at(time), Vector::Zero(), time); };
+  const bool first_moves = random.one_in(2);
+  if ((kind == Kind::edge_edge) != first_moves) rest(contact.q, contact.time);
+  if (first_moves) rest(contact.r, contact.time);
+  const Vector fast = speed * numbers.direction();
+  const Vector none = Vector::Zero();
+  move_to_origin(kind, contact, first_moves ? none : fast);
+  return finished(random, meet(kind, contact, first_moves ? fast : none));
+}
+
+// --- directions -------------------------------------------------------------------------------------
+
+Query near_parallel(Random& random, Kind kind, double x) {
+  const double angle = power_of_ten(x);
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, 0);
+  if (random.one_in(2)) contact.q = passing(numbers.direction(), Vector::Zero(), 0);
+  const double sign = random.one_in(2) ? 1 : -1;
+  const double along = std::ldexp(sign, random.integer(-2, 1));
+  const Vector nearly = along * contact.q.start + angle * numbers.vector();
+  Vector w = numbers.velocity();
+  if (kind == Kind::edge_edge)
+    contact.r = {nearly, nearly};
+  else
+    w = nearly;
+  move_to_origin(kind, contact, numbers.velocity());
+  return finished(random, meet(kind, contact, contact.velocity(kind) + w));
+}
+
+/// Rotates by the angle 2 atan(size / 2), which is `size` where it is small.
+Eigen::Matrix3d rotation(const Vector& axis, double size) {
+  const double length = axis.norm();
+  const Vector part = (length == 0 ? 0 : size / 2 / length) * axis;
+  return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
+}
+
+/// Everything is thin across one axis, or all but the motion is; in general position now and then.
+Query needle(Random& random, Kind kind, double x) {
+  const double thin = power_of_ten(x);
+  Numbers numbers(random);
+  Vector factors = Vector::Constant(thin);
+  factors[random.integer(0, 2)] = 1;
+  const auto squeezed = [&](const Vector& v) -> Vector { return v.cwiseProduct(factors); };
+  Contact contact = numbers.contact(kind, numbers.speed());
+  for (Path* const side : {&contact.q, &contact.r}) *side = {squeezed(side->start), squeezed(side->end)};
+  move_to_origin(kind, contact, squeezed(numbers.velocity()));
+  const Vector w = numbers.velocity();
+  Query query = meet(kind, contact, random.one_in(2) ? squeezed(w) : w);
+  if (random.one_in(3)) {
+    const Eigen::Matrix3d turn = rotation(random.vector(1), 2);
+    for (int i = 0; i < 4; ++i) {
+      query.set_start(i, turn * query.start(i));
+      query.set_end(i, turn * query.end(i));
+    }
+  }
+  return finished(random, query);
+}
+
+/// Linear interpolation between the two placements of a rigid body is affine: what touches at rest goes on touching, and
+/// the relative motion is all that parts it.
+Query rigid(Random& random, Kind kind, double x) {
+  const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
+  const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, 0);
+  contact.q = turned(contact.q.start);
+  contact.r = turned(contact.r.start);
+  const double away = std::ldexp(1.0, random.integer(0, 6));  // from the axis
+  contact.base = turned(away * numbers.vector());
+  if (random.one_in(2)) contact.base.end += numbers.vector();
+  const double speed = numbers.fraction(52);
+  const Vector apart = speed * numbers.direction();
+  return finished(random, meet(kind, contact, contact.velocity(kind) + apart));
+}
+
+}  // namespace
+
+std::vector<Family> extreme_families() {
+  return {
+      with_parameter("stiff", "motion far smaller or larger than the figures",
+                     {"speed / size of the figures = 10^x", -16, 16, false, stiff}),
+      with_parameter("aspect", "long and short edges",
+                     {"ratio of the edges' lengths = 10^x", 0, 16, false, aspect}),
+      with_parameter("offset", "figures far from the origin",
+                     {"distance / size of the figures = 10^x", 0, 16, false, offset}),
+      with_parameter("scale", "subnormal to nearly overflowing",
+                     {"largest coordinate is from 2^x to 2^(x + 1)", -1074, 1023, true, scale}),
+      with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
+                     {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
+      with_parameter("near-parallel-edges",
+                     "an edge beside the other edge, or the motion beside an edge of the triangle",
+                     {"angle = 10^x", -16, 0, false, near_parallel}),
+      with_parameter("needle", "long thin figures", {"height / length = 10^x", -16, 0, false, needle}),
+      with_parameter("static-pair", "one figure rests",
+                     {"speed of the other / size of the figures = 10^x", -16, 16, false, static_pair}),
+      with_parameter("rigid", "both figures turn together, and move a little apart",
+                     {"angle of the rotation = 2 atan(10^x / 2)", -16, 2, false, rigid}),
+  };
+}
+
+}  // namespace nearmiss

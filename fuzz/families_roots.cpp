@@ -1,0 +1,104 @@
+// Roots of F that are hard to tell: at the ends of the step, two next to each other, three in one.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/family_tables.hpp"
+#include "fuzz/figures.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+/// The place of contact, seen from the first figure's x0, is β r + sign α q.
+double sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
+
+/// A contact that is exact at t = 0 or t = 1; then one coordinate of that time is moved.
+Query end_contact(Random& random, Kind kind, double x) {
+  Contact contact = integer_contact(random, kind);
+  contact.time = random.integer(0, 1);
+  const int speed = random.integer(0, 16);
+  Query query = placed(random, meet(kind, contact, random.integer_vector(1 << speed)));
+  double& c = query.x[static_cast<std::size_t>(12 * static_cast<int>(contact.time) + random.integer(0, 11))];
+  c = moved_by_ulps(c, (random.one_in(2) ? 1 : -1) * static_cast<int>(x));
+  return query;
+}
+
+/// The first figure's point of contact moves along a tangent of the curved path that a point takes on the second
+/// figure: a double root. With α' and β' the rates at which that point's weights change, the curve is r' β' + sign q' α'
+/// times (t - time)² away from the tangent: moved by that at time ± h, the tangent cuts it at both, and moved to the
+/// other side it stays clear. Half of the time the figures lie in a coordinate plane and leave it along an axis, so that
+/// what is moved, however little, stays exact.
+Query even_roots(Random& random, Kind kind, double x) {
+  const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
+  Numbers numbers(random);
+  const bool flat = random.one_in(2);
+  const Vector axis = Vector::Unit(random.integer(0, 2));
+  const auto across = [&](const Vector& v) -> Vector { return flat ? v.cwiseProduct(axis) : v; };
+  const auto within = [&](const Vector& v) -> Vector { return flat ? v - v.cwiseProduct(axis) : v; };
+
+  Contact contact = numbers.contact(kind, 0);
+  contact.time = std::clamp(contact.time, h, 1 - h);
+  const bool q_turns = !flat || kind == Kind::vertex_triangle;
+  const Vector q_velocity = across(numbers.vector());
+  contact.q = passing(within(contact.q.start), q_turns ? q_velocity : Vector(Vector::Zero()), contact.time);
+  contact.r = passing(within(contact.r.start), across(numbers.vector()), contact.time);
+  const Vector stay = flat ? contact.velocity(kind) : Vector(Vector::Zero());
+  move_to_origin(kind, contact, within(numbers.vector()) - stay);
+
+  const Vector rates = numbers.vector();  // of the weights
+  const double alpha_rate = sign(kind) * rates[0];
+  const double beta_rate = rates[1];
+  const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
+  Query query = meet(kind, contact, contact.velocity(kind) + along);
+  const double side = random.one_in(4) ? -1 : 1;
+  const Vector shift = side * h * h * (beta_rate * contact.r.velocity() + alpha_rate * contact.q.velocity());
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + shift);
+    query.set_end(i, query.end(i) + shift);
+  }
+  return finished(random, query);
+}
+
+/// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q, r. With M1 = G C and M0 = G J C, where J is
+/// nilpotent, it is det(G) det(C) s³. All rows of C but the first are at right angles to (1, -sign α, -β), and J turns
+/// the first into nothing: so does M0, that is, the figures touch. Then q and r are moved, but not the contact.
+Query triple_root(Random& random, Kind kind, double x) {
+  const double off = random.one_in(8) ? 0 : power_of_ten(x);
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, 0);
+  Eigen::Matrix3d G;
+  Eigen::Matrix3d C;
+  for (int i = 0; i < 3; ++i) {
+    G.row(i) = random.integer_vector(2);
+    C.row(i) = random.integer_vector(4);
+    if (i > 0) C(i, 0) = sign(kind) * contact.alpha * C(i, 1) + contact.beta * C(i, 2);
+  }
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+  J(0, 1) = random.one_in(4) ? 0 : 1;
+  J(1, 2) = random.one_in(4) ? 0 : 1;
+  const Eigen::Matrix3d M0 = G * J * C;
+  const Eigen::Matrix3d M1 = G * C;
+  contact.q = passing(M0.col(1) + off * numbers.vector(), M1.col(1), contact.time);
+  contact.r = passing(M0.col(2) + off * numbers.vector(), M1.col(2), contact.time);
+  move_to_origin(kind, contact, numbers.velocity());
+  Vector w = contact.base.velocity() + M1.col(0);
+  if (kind == Kind::edge_edge) w += contact.alpha * M1.col(1);
+  return finished(random, meet(kind, contact, w));
+}
+
+}  // namespace
+
+std::vector<Family> root_families() {
+  return {
+      with_parameter("end-contact", "contact at t = 0 or t = 1, exactly but for one coordinate",
+                     {"ulps by which that is moved = x", 0, 64, true, end_contact}),
+      with_parameter("even-roots", "touching, passing and coming back; or coming near and turning back",
+                     {"time between the roots = 10^x", -16, 0, false, even_roots}),
+      with_parameter("triple-root", "a triple root of F, or nearly so",
+                     {"how far the figures are off = 10^x", -16, 0, false, triple_root}),
+  };
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,14 @@
+// The families by theme, one file each; families() lists them all.
+#pragma once
+
+#include <vector>
+
+#include "fuzz/families.hpp"
+
+namespace nearmiss {
+
+std::vector<Family> random_families();
+std::vector<Family> extreme_families();
+std::vector<Family> root_families();
+
+}  // namespace nearmiss

@@ -1,0 +1,99 @@
+// The family of a moving mesh.
+#include "fuzz/mesh_family.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "ccd/error.hpp"
+#include "fuzz/scene.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Two square sheets of 5 x 5 points; the upper one falls through the other, a little to the side.
+MovingMesh falling_sheet() {
+  std::vector<Vector3<double>> start;
+  std::vector<Vector3<double>> end;
+  std::vector<std::array<int, 3>> triangles;
+  for (const double z : {0.0, 1.0}) {
+    const int first = static_cast<int>(start.size());
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 0; j < 5; ++j) {
+        start.emplace_back(i + z / 3, j + z / 7, z);
+        end.emplace_back(i + z / 5, j + z / 9, -z);
+        const int corner = first + 5 * i + j;
+        if (i < 4 && j < 4) {
+          triangles.push_back({corner, corner + 1, corner + 5});
+          triangles.push_back({corner + 1, corner + 6, corner + 5});
+        }
+      }
+    }
+  }
+  return make_moving_mesh(start, end, triangles);
+}
+
+using Coordinates = std::array<double, 24>;
+
+std::set<Coordinates> pairs_of(const MovingMesh& mesh) {
+  std::set<Coordinates> pairs;
+  find_candidates(mesh, [&](const Candidate& candidate) { pairs.insert(make_query(mesh, candidate).x); });
+  return pairs;
+}
+
+/// The pairs of the mesh that are among the family's queries as they are.
+std::set<Coordinates> pairs_among(const Family& family, const std::set<Coordinates>& pairs) {
+  std::set<Coordinates> found;
+  for (std::uint64_t i = 0; i < 2000; ++i)
+    if (const Query query = make_query(family, 1, i); pairs.contains(query.x)) found.insert(query.x);
+  return found;
+}
+
+TEST(MeshFamily, HasPairsOfTheMeshAsTheyAre) {
+  const MovingMesh mesh = falling_sheet();
+  const auto pairs = pairs_of(mesh);
+  EXPECT_GT(pairs_among(mesh_family(mesh), pairs).size(), 100);
+}
+
+TEST(MeshFamily, KeepsNoMorePairsThanItMay) {
+  const MovingMesh mesh = falling_sheet();
+  EXPECT_EQ(pairs_among(mesh_family(mesh, 3), pairs_of(mesh)).size(), 6);  // three of each kind
+}
+
+TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
+  for (const Family& family : sweep(mesh_family(falling_sheet()), 3)) {
+    std::array<int, 2> collisions{};
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+      const Query query = make_query(family, 1, i);
+      ASSERT_TRUE(is_finite(query)) << family.name << ' ' << i;
+      ASSERT_EQ(query.kind, kinds[i % 2]);
+      collisions[i % 2] += collides(query) ? 1 : 0;
+    }
+    for (const int c : collisions) {
+      EXPECT_GT(c, 20) << family.name;
+      EXPECT_LT(c, 980) << family.name;
+    }
+  }
+}
+
+TEST(MeshFamily, StaysFiniteWhereThePerturbationWouldNot) {
+  MovingMesh mesh = falling_sheet();
+  for (auto* points : {&mesh.start, &mesh.end})
+    for (auto& p : *points) p *= 0x1p1021;
+  const Family family = mesh_family(mesh);
+  for (std::uint64_t i = 0; i < 2000; ++i) ASSERT_TRUE(is_finite(make_query(family, 1, i))) << i;
+}
+
+TEST(MeshFamily, AMeshWithoutPairsIsRefused) {
+  const MovingMesh one =
+      make_moving_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_THAT([&] { mesh_family(one); }, ThrowsMessage<Error>(HasSubstr("found no vt pair in the mesh")));
+}
+
+}  // namespace
+}  // namespace nearmiss
