@@ -182,7 +182,7 @@ std::string oracle_complaint(const Statistics& statistics) {
 
 std::string summary_table(const Statistics& statistics) {
   const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
-  if (statistics.counts.empty()) return extremes;
+  if (!extremes.empty() && statistics.counts.empty()) return extremes;
   std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
                                               "rate below*", "false pos.", "max dist/bound", "ns/query"}};
   for (const auto& [key, counts] : statistics.by_subject_and_kind()) {

@@ -180,6 +180,37 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   }
 }
 
+TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
+  EXPECT_EQ(run("fuzz --cases 104 --family uniform --search --subject defect:vv --json new.json").code, 1);
+  const json families = read_json("new.json")["subjects"]["defect:vv"]["vt"]["families"];
+  EXPECT_EQ(families["search-miss-defect:vv"]["queries"], 2);
+  EXPECT_GT(families["search-miss-defect:vv"]["false_negatives"], 0);
+}
+
+TEST_F(CommandLine, PowerGoesOnWhereItStopped) {
+  const std::string command = "power --time 1ms --way families,search --json new.json --subject ";
+  const Answer answer = run(command + "defect:vertex-edge");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_THAT(answer.out, HasSubstr("found, of 1"));
+  EXPECT_EQ(run(command + "defect:vertex-edge,defect:mu*1").code, 0);
+  const json results = read_json("new.json");
+  ASSERT_EQ(results.size(), 4);
+  EXPECT_EQ(results[0]["failure"], "false-negative");
+  EXPECT_GT(results[0]["cases"], 0);
+  EXPECT_EQ(results[2]["subject"], "defect:mu*1");
+  EXPECT_TRUE(results[2]["failure"].is_null());
+}
+
+TEST_F(CommandLine, TightnessGoesIntoTheReport) {
+  expect_refused("tightness --tolerance nu", {"'nu'"});
+  const Answer answer = run("tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_THAT(answer.out, HasSubstr("D2"));
+  EXPECT_LT(read_json("new.json")["tightness"]["D2"]["value"], 1);
+  EXPECT_EQ(run("report new.db -o report").code, 0);
+  EXPECT_GT(read_json("report/report.json")["tightness"]["vertex-edge"]["queries"], 0);
+}
+
 TEST_F(CommandLine, BenchWritesItsResults) {
   write("own.vt", hit);
   const Answer answer = run("bench own.vt --queries 50 --runs 3 --json new.json");
@@ -195,13 +226,14 @@ TEST_F(CommandLine, BenchWritesItsResults) {
 
 TEST_F(CommandLine, SubjectsAreListed) {
   const Answer answer = run("subjects");
-  for (const char* name : {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact "})
+  for (const char* name :
+       {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact ", "defect:vv "})
     EXPECT_THAT(answer.out, HasSubstr(name));
 }
 
 TEST_F(CommandLine, EverySubcommandHasHelp) {
-  for (const char* name :
-       {"oracle", "verdict", "replay", "fuzz", "scene", "merge", "report", "bench", "subjects"}) {
+  for (const char* name : {"oracle", "verdict", "replay", "fuzz", "scene", "merge", "report", "power",
+                           "tightness", "bench", "subjects"}) {
     const Answer answer = run(std::string(name) + " --help");
     EXPECT_EQ(answer.code, 0) << name;
     EXPECT_THAT(answer.out, HasSubstr("Usage: nearmiss ")) << name;

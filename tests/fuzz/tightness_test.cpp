@@ -1,0 +1,63 @@
+// How tight tolerances are, as measured on known ones.
+#include "fuzz/tightness.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ccd/error.hpp"
+#include "fuzz/defects.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using namespace std::chrono_literals;
+
+Extreme measure(const std::string& name) {
+  TightnessPlan plan;
+  plan.names = {name};
+  plan.families = {find_family("planted-ulp"), find_family("near-parallel-edges")};
+  plan.time = 1ms;  // one wave
+  Extreme last;
+  measure_tightness(
+      plan, [&](const Extreme& extreme, bool) { last = extreme; }, false);
+  return last;
+}
+
+TEST(Tightness, GivesAFactorWithWhichItsQueryIsMissed) {
+  const Extreme extreme = measure("D2");
+  ASSERT_TRUE(extreme.found());
+  EXPECT_EQ(extreme.of, Extreme::Of::accepting_tolerance);
+  EXPECT_GT(extreme.value, 0);
+  EXPECT_LT(extreme.value, 1);
+  EXPECT_GT(extreme.queries, 0U);
+  EXPECT_TRUE(collides(extreme.query));
+  EXPECT_FALSE(try_make_defect(scaled_tolerance("D2", extreme.value))->decide(extreme.query).hit);
+  EXPECT_TRUE(try_make_defect(scaled_tolerance("D2", extreme.value * 1.1))->decide(extreme.query).hit);
+}
+
+TEST(Tightness, TurnsRoundForTolerancesThatKeepFiguresOut) {
+  const Extreme extreme = measure("eta");
+  ASSERT_TRUE(extreme.found());
+  EXPECT_EQ(extreme.of, Extreme::Of::keeping_tolerance);
+  EXPECT_GT(extreme.value, 1);
+  EXPECT_FALSE(try_make_defect(scaled_tolerance("eta", extreme.value))->decide(extreme.query).hit);
+}
+
+TEST(Tightness, TellsHowFarTestsReach) {
+  const Extreme extreme = measure("vertex-edge");
+  ASSERT_TRUE(extreme.found());
+  EXPECT_FALSE(collides(extreme.query));
+  EXPECT_GT(extreme.value, 0);
+  EXPECT_LT(extreme.value, 1);
+}
+
+TEST(Tightness, KnowsItsNames) {
+  EXPECT_EQ(tightness_names().size(), named_tolerances().size() + 3);
+  EXPECT_THAT([] { measure("nu"); }, ThrowsMessage<Error>(HasSubstr("'nu'")));
+}
+
+}  // namespace
+}  // namespace nearmiss
