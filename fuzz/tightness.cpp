@@ -35,24 +35,25 @@ struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
   Family search;
-  /// What a query says, where it says anything.
+  /// The figure of a query, `nothing.value` where it has none; nothing where the query does not count.
   std::function<std::optional<double>(const Query&)> read;
 };
 
 Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   auto subject = try_make_defect(scaled_tolerance(tolerance.name, 1));
   auto search = miss_search(*subject);
-  const auto read = [&tolerance, &subject = *subject](const Query& query) -> std::optional<double> {
+  const auto of = tolerance.accepts ? Extreme::Of::accepting_tolerance : Extreme::Of::keeping_tolerance;
+  auto nothing = nothing_found(of, std::string(tolerance.name));
+  const auto read = [&tolerance, &subject = *subject,
+                     none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
     // The needed factor is known to a few bits, from above: a little less misses, but if not, it says nothing.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
-    const bool hit = try_make_defect(scaled_tolerance(tolerance.name, factor))->decide(query).hit;
-    return hit ? std::optional<double>() : factor;
+    return try_make_defect(scaled_tolerance(tolerance.name, factor))->decide(query).hit ? none : factor;
   };
-  const auto of = tolerance.accepts ? Extreme::Of::accepting_tolerance : Extreme::Of::keeping_tolerance;
-  return {nothing_found(of, std::string(tolerance.name)), std::move(subject), std::move(search), read};
+  return {std::move(nothing), std::move(subject), std::move(search), read};
 }
 
 Gauge tests_gauge(const Tests& tests) {
@@ -84,8 +85,8 @@ Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed,
     one.query = make_query(family, seed, index);
     if (const auto value = gauge.read(one.query)) {
       one.value = *value;
-      one.provenance = fmt::format("{}:{}:{}", family.name, seed, index);
       one.queries = 1;
+      if (*value != gauge.nothing.value) one.provenance = fmt::format("{}:{}:{}", family.name, seed, index);
       sum.merge(one);
     }
   }

@@ -99,7 +99,7 @@ std::string meaning(const Extreme& extreme) {
 }
 
 std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
-  std::vector<std::vector<std::string>> rows{{"tolerance or tests", "times", "queries", "from"}};
+  std::vector<std::vector<std::string>> rows{{"tolerance or tests", "times this factor", "queries", "from"}};
   for (const auto& [name, each] : extremes)
     rows.push_back({name, meaning(each), with_separators(each.queries), each.provenance});
   return columns(rows, 1);
