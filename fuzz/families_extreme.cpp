@@ -1,5 +1,5 @@
-// Sizes, speeds, angles and places at the ends of what double can hold. Factors are powers of two, so that contacts
-// which are exact stay exact.
+// Sizes, speeds, angles and places at the ends of what double can hold. Factors are powers of two, so that
+// contacts which are exact stay exact.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// Only the first figure is as fast as that, or the second too, or it changes its shape as fast.
+/// The first figure is as fast as that; now and then so is the second, or what changes the figures' shapes.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   Numbers numbers(random);
@@ -27,8 +27,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * numbers.direction()));
 }
 
-/// One side is shorter than the other; of a triangle, so is the third, or not. The contact is anywhere, or within the
-/// short side's reach of the corner.
+/// Of the sides q and r one is shorter. The contact is anywhere, or as near to the corner x1 of a triangle,
+/// or to an end of the long edge, as the short one is long.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   Numbers numbers(random);
@@ -65,8 +65,8 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Each vertex and each axis has an exponent of its own. About the origin, where the figures touch, both factors leave
-/// what touches in contact.
+/// Each vertex and each axis has an exponent of its own. The figures touch at the origin, and go on touching
+/// there whatever a vertex or an axis is multiplied by.
 Query mixed_scale(Random& random, Kind kind, double x) {
   Numbers numbers(random);
   Contact contact = numbers.contact(kind, numbers.speed());
@@ -84,6 +84,7 @@ Query mixed_scale(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
+/// One figure rests, every bit of it; the other moves as fast as that.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   Numbers numbers(random);
@@ -101,6 +102,7 @@ Query static_pair(Random& random, Kind kind, double x) {
 
 // --- directions -------------------------------------------------------------------------------------
 
+/// The other edge, or the motion of the vertex, is nearly a multiple of the side q.
 Query near_parallel(Random& random, Kind kind, double x) {
   const double angle = power_of_ten(x);
   Numbers numbers(random);
@@ -125,7 +127,7 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// Everything is thin across one axis, or all but the motion is; in general position now and then.
+/// Everything is thin but along one axis, or all but the motion is; turned out of the axes now and then.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   Numbers numbers(random);
@@ -147,8 +149,8 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Linear interpolation between the two placements of a rigid body is affine: what touches at rest goes on touching, and
-/// the relative motion is all that parts it.
+/// Linear interpolation between two placements of a rigid body is affine: what touches in one goes on
+/// touching, and the relative motion is all that parts it.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

@@ -25,11 +25,11 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// The first figure's point of contact moves along a tangent of the curved path that a point takes on the second
-/// figure: a double root. With α' and β' the rates at which that point's weights change, the curve is r' β' + sign q' α'
-/// times (t - time)² away from the tangent: moved by that at time ± h, the tangent cuts it at both, and moved to the
-/// other side it stays clear. Half of the time the figures lie in a coordinate plane and leave it along an axis, so that
-/// what is moved, however little, stays exact.
+/// The first figure moves along a tangent of the curved path that the place of contact takes where the
+/// weights change at the rates α' and β': a double root. The path leaves its tangent by (β' r' + sign α'
+/// q') (t - time)²: moved by what that is at time ± h, the first figure meets it at both; moved to the
+/// other side, never. Half of the figures lie in a coordinate plane at their time and leave it along its
+/// normal, so that the smallest move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   Numbers numbers(random);
@@ -61,9 +61,10 @@ Query even_roots(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q, r. With M1 = G C and M0 = G J C, where J is
-/// nilpotent, it is det(G) det(C) s³. All rows of C but the first are at right angles to (1, -sign α, -β), and J turns
-/// the first into nothing: so does M0, that is, the figures touch. Then q and r are moved, but not the contact.
+/// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
+/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The figures touch where M0 turns
+/// the vector (1, -sign α, -β) into 0: all rows of C but the first are at right angles to it, and J has no
+/// use for the first. Then q and r are moved a little, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   Numbers numbers(random);

@@ -17,8 +17,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A sample of all that is added: those with the smallest random numbers, which are a function of the vertices
-/// alone, so that the order in which they come does not matter.
+/// A sample of all that is added: those with the smallest random numbers, which are a function of the
+/// vertices alone, so that the order in which they come does not matter.
 class Sample {
  public:
   explicit Sample(std::size_t most) : most_(most) {}

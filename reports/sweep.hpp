@@ -1,4 +1,4 @@
-// Sweeps: what becomes of a subject while one parameter of a family goes from its lowest to its highest value.
+// Sweeps: what becomes of a subject while one parameter of a family goes from end to end of its range.
 #pragma once
 
 #include <map>
