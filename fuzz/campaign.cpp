@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fuzz/parallel.hpp"
+#include "fuzz/sieve.hpp"
 
 namespace nearmiss {
 
@@ -112,6 +113,7 @@ void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const Camp
   const std::uint64_t of = cases_of_shard(plan);
   std::uint64_t cases = 0;
   Rounds rounds(plan);
+  Sieve sieve(subjects, plan.jobs, stop);
   for (auto wave = rounds.next_wave(); !wave.empty() && !is_over(); wave = rounds.next_wave()) {
     std::vector<TrialResult> results(wave.size());
     in_parallel(plan.jobs, wave.size(), [&](std::size_t i) {
@@ -123,7 +125,9 @@ void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const Camp
       sum.merge(std::move(results[i]));
       cases += wave[i].last - wave[i].first;
     }
-    if (!sink(std::move(sum), {cases, of, Clock::now() - start})) break;
+    const auto elapsed = Clock::now() - start;
+    sieve.sift(sum.findings);
+    if (!sink(std::move(sum), {cases, of, elapsed})) break;
   }
 }
 

@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is, and those of all
-/// shards together are those of the whole.
+/// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is, and so is what is
+/// found; the queries of all shards together are those of the whole.
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
@@ -33,11 +33,12 @@ struct CampaignProgress {
   std::chrono::duration<double> elapsed{};
 };
 
-/// Takes what some more blocks gave, in order; called every second or so. False ends the campaign.
+/// Takes what some more blocks gave, in order, findings sifted (sieve.hpp); called every second or so. False
+/// ends the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set. Round k of a campaign is the k-th block
-/// of every family; shard i of n does the rounds k with k mod n = i.
+/// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set. Round k of a campaign is
+/// the k-th block of every family; shard i of n does the rounds k with k mod n = i.
 void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                   const std::atomic<bool>& stop);
 

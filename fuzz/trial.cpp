@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "fuzz/failure.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
 
@@ -28,19 +29,26 @@ class Truth {
     ++counts.by_stage[static_cast<std::size_t>(decision_.stage)];
   }
 
-  /// Asks for the other answers too; false where they disagree.
-  [[nodiscard]] bool compare(OracleCounts& counts) const {
+  /// Asks for the other answers too; the signature of a disagreement, "" where there is none.
+  [[nodiscard]] std::string compare(OracleCounts& counts) const {
     const bool by_exact_arithmetic = decision_.stage == FilterStage::undecided;
     const Answers answers = by_exact_arithmetic ? ask_others(query_, collision()) : ask_all(query_);
     ++counts.compared;
     counts.compared_collisions += answers.exact ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
-    return answers.agree() && answers.exact == collision();
+    return disagreement_signature(query_.kind, answers, collision());
   }
 
-  /// Distance / bound of a query that is no collision.
+  /// The signature of its first contact.
+  const std::string& contact() {
+    if (contact_.empty()) contact_ = contact_signature(query_);
+    return contact_;
+  }
+
+  /// Distance / bound of a query that is no collision: from above, but not above 1 where the distance is not.
   double ratio(double bound) {
     const double ratio = distance().hi / bound;
+    if (ratio > 1 && !exceeds(bound)) return 1;
     return std::min(ratio, std::numeric_limits<double>::max());  // a bound of 0 is refuted by any distance
   }
 
@@ -60,6 +68,7 @@ class Truth {
   Decision decision_;
   bool measured_ = false;
   Enclosure distance_;
+  std::string contact_;
 };
 
 /// Which queries are decided near the filter's bounds.
@@ -138,21 +147,26 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
   for (std::size_t i = 0; i < batch.queries.size(); ++i) {
     const Query& query = batch.queries[i];
     Truth truth(query, decisions[i]);
-    const auto find = [&](Finding::What what, const std::string& subject, double ratio) {
-      result.findings.push_back({what, subject, batch.family, query, batch.provenance(i), ratio});
+    const auto find = [&](Finding::What what, const std::string& subject, std::string signature,
+                          double ratio = 0) {
+      result.findings.push_back(
+          {what, subject, batch.family, query, batch.provenance(i), ratio, std::move(signature), query});
+      ++result.statistics.seen[signature_of(result.findings.back())];
     };
     OracleCounts& oracle = result.statistics.oracle[{batch.kind, batch.family}];
     truth.count(oracle);
     oracle.near_bounds += near[i] ? 1 : 0;
+    const bool undecided = decisions[i].stage == FilterStage::undecided;
     const bool asks_all =
-        near[i] || decisions[i].stage == FilterStage::undecided || is_sampled(query, comparison.one_in);
-    if (asks_all && !truth.compare(oracle)) {
-      ++result.statistics.oracle_disagreements;
-      find(Finding::What::oracle_disagreement, "", 0);
-    }
+        near[i] || is_sampled(query, undecided ? comparison.one_in_undecided() : comparison.one_in);
+    if (asks_all)
+      if (std::string signature = truth.compare(oracle); !signature.empty()) {
+        ++result.statistics.oracle_disagreements;
+        find(Finding::What::oracle_disagreement, "", std::move(signature));
+      }
     if (!batch.truths.empty() && batch.truths[i].value_or(truth.collision()) != truth.collision()) {
       ++result.statistics.mismatches_with_recorded_truth;
-      find(Finding::What::truth_mismatch, "", 0);
+      find(Finding::What::truth_mismatch, "", truth.contact());
     }
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       Outcome outcome{.verdict = answers[s].verdicts[i], .collision = truth.collision()};
@@ -164,8 +178,10 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
       if (outcome.collision && !outcome.verdict.hit)
-        find(Finding::What::false_negative, subjects[s]->name(), 0);
-      if (outcome.bound_refuted) find(Finding::What::refuted_bound, subjects[s]->name(), outcome.ratio);
+        find(Finding::What::false_negative, subjects[s]->name(), truth.contact());
+      if (outcome.bound_refuted)
+        find(Finding::What::refuted_bound, subjects[s]->name(),
+             report_signature(batch.kind, outcome.verdict.stage), outcome.ratio);
     }
   }
   return result;

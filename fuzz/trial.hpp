@@ -34,10 +34,11 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
-/// Which queries all three answers of the oracle are asked about, beside those that its filter leaves
-/// undecided.
+/// Which queries all three answers of the oracle are asked about.
 struct Comparison {
   std::uint64_t one_in = 64;  ///< so many, by a hash of the coordinates; at least 1
+  /// Of those that its filter leaves undecided, which cost a hundred times as much, but are the hard ones.
+  [[nodiscard]] std::uint64_t one_in_undecided() const { return one_in <= 8 ? 1 : one_in / 8; }
   /// And where the filter decides, but would not with bounds of rounding errors 16 times as large.
   bool near_bounds = false;
 };

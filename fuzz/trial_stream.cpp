@@ -12,7 +12,12 @@ constexpr std::size_t batch_queries = 1000;
 
 TrialStream::TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs,
                          const std::atomic<bool>& stop, Sink sink)
-    : subjects_(subjects), comparison_(comparison), jobs_(jobs), stop_(stop), sink_(std::move(sink)) {}
+    : subjects_(subjects),
+      comparison_(comparison),
+      jobs_(jobs),
+      stop_(stop),
+      sink_(std::move(sink)),
+      sieve_(subjects, jobs, stop) {}
 
 bool TrialStream::add(const std::string& family, const Query& query, std::optional<bool> truth,
                       std::string provenance) {
@@ -44,7 +49,10 @@ void TrialStream::hold_trials() {
     pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n]; };
     if (!stop_) results[i] = hold_trial(subjects_, pending.batch, comparison_);
   });
-  for (TrialResult& result : results) sink_(std::move(result));
+  TrialResult sum;
+  for (TrialResult& result : results) sum.merge(std::move(result));
+  sieve_.sift(sum.findings);
+  sink_(std::move(sum));
   full_.clear();
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/sieve.hpp"
 #include "fuzz/trial.hpp"
 
 namespace nearmiss {
@@ -17,7 +18,7 @@ namespace nearmiss {
 /// on. Only a few batches are held at any time. The results do not depend on `jobs`, but for times.
 class TrialStream {
  public:
-  /// Takes the result of some batches, in order.
+  /// Takes the result of some batches, in order, findings sifted (sieve.hpp).
   using Sink = std::function<void(TrialResult&&)>;
 
   TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs, const std::atomic<bool>& stop,
@@ -43,6 +44,7 @@ class TrialStream {
   int jobs_;
   const std::atomic<bool>& stop_;
   Sink sink_;
+  Sieve sieve_;
   std::map<std::pair<std::string, Kind>, Pending> pending_;
   std::vector<Pending> full_;
 };

@@ -7,6 +7,17 @@
 
 namespace nearmiss {
 
+std::string Answers::disagreement() const {
+  std::string parts;
+  const auto check = [&](bool fits, const char* part) {
+    if (!fits) parts.append(parts.empty() ? "" : " ").append(part);
+  };
+  check(exact == sturm.collision, "exact");
+  check(parity.on_boundary == sturm.on_boundary, "boundary");
+  check(parity.on_boundary || parity.odd == sturm.odd(), "parity");
+  return parts;
+}
+
 Answers ask_all(const Query& query) { return ask_others(query, collides_exactly(query)); }
 
 Answers ask_others(const Query& query, bool exact) { return {exact, count_roots(query), root_parity(query)}; }

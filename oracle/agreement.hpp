@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "ccd/query.hpp"
 #include "oracle/parity.hpp"
@@ -17,10 +18,9 @@ struct Answers {
 
   /// exact and sturm must be the same; parity must be that of sturm's count, but where the origin is on the
   /// boundary, which both must know.
-  [[nodiscard]] bool agree() const {
-    return exact == sturm.collision && parity.on_boundary == sturm.on_boundary &&
-           (parity.on_boundary || parity.odd == sturm.odd());
-  }
+  [[nodiscard]] bool agree() const { return disagreement().empty(); }
+  /// What does not fit to what sturm says, of "exact", "boundary" and "parity"; "" where they agree.
+  [[nodiscard]] std::string disagreement() const;
 
   /// A collision that a root-parity CCD takes for none: an even number of roots.
   [[nodiscard]] bool missed_by_parity() const { return exact && !parity.collision(); }

@@ -6,30 +6,46 @@
 
 #include "oracle/box.hpp"
 #include "oracle/filter.hpp"
+#include "oracle/first_contact.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/predicates.hpp"
-#include "oracle/root.hpp"
 
 namespace nearmiss {
 
 namespace exact {
 namespace {
 
-/// Whether the figures meet at a time at which all four points are in one plane (see Predicates).
-bool meet_at(const Predicates& predicates, Root& t) {
+/// How the figures meet at a time at which all four points are in one plane (see Predicates), if they do.
+std::optional<Meeting> meet_at(const Predicates& predicates, Root& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int side = t.sign_of(predicates.N(k));
     if (side == 0) continue;
-    const auto weights = predicates.weights(k);
-    return std::all_of(weights.begin(), weights.end(),
-                       [&](const Polynomial& weight) { return t.sign_of(weight) != -side; });
+    Meeting meeting;
+    for (const Polynomial& weight : predicates.weights(k)) {
+      const int s = t.sign_of(weight);
+      if (s == -side) return std::nullopt;
+      meeting.vanishing_weights += s == 0 ? 1 : 0;
+    }
+    return meeting;
   }
-  const auto segments = predicates.segments();
-  return std::any_of(segments.begin(), segments.end(), [&](const OnSegment& on) {
-    return std::all_of(on.cross.begin(), on.cross.end(),
-                       [&](const Polynomial& c) { return t.sign_of(c) == 0; }) &&
-           t.sign_of(on.dot) <= 0;
-  });
+  int vanishing_weights = 0;
+  for (const OnSegment& on : predicates.segments()) {
+    if (std::any_of(on.cross.begin(), on.cross.end(), [&](const Polynomial& c) { return t.sign_of(c) != 0; }))
+      continue;
+    const int beyond = t.sign_of(on.dot);  // zero at an end of the segment
+    if (beyond <= 0) vanishing_weights = std::max(vanishing_weights, beyond == 0 ? 2 : 1);
+  }
+  if (vanishing_weights == 0) return std::nullopt;
+  return Meeting{vanishing_weights, true};
+}
+
+/// Whether one is a constant times the other; neither is zero.
+bool are_proportional(const Polynomial& p, const Polynomial& q) {
+  if (p.degree() != q.degree()) return false;
+  const auto& a = p.coefficients();
+  const auto& b = q.coefficients();
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    if (a[i] * q.leading() != b[i] * p.leading()) return false;
+  return true;
 }
 
 /// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any, where F is zero
@@ -37,23 +53,29 @@ bool meet_at(const Predicates& predicates, Root& t) {
 ///
 /// They are all predicate polynomials. For the set of colliding times is closed, so it has a least element
 /// t*; were t* neither 0 nor a root of a predicate that is not identically zero, no predicate would change
-/// its sign in a neighbourhood of t*, and there would be collisions before t*.
+/// its sign in a neighbourhood of t*, and there would be collisions before t*. Of those with the same roots,
+/// as the three components of what stays in one plane, one is enough.
 std::vector<Polynomial> deciding_polynomials(const Predicates& predicates) {
   std::vector<Polynomial> deciding;
+  const auto add = [&](Polynomial p) {
+    const auto same = [&](const Polynomial& q) { return are_proportional(p, q); };
+    if (p.degree() > 0 && std::none_of(deciding.begin(), deciding.end(), same))
+      deciding.push_back(std::move(p));
+  };
   for (std::size_t k = 0; k < 3; ++k) {
-    deciding.push_back(predicates.N(k));
-    for (Polynomial& weight : predicates.weights(k)) deciding.push_back(std::move(weight));
+    add(predicates.N(k));
+    for (Polynomial& weight : predicates.weights(k)) add(std::move(weight));
   }
   for (OnSegment& on : predicates.segments()) {
-    for (Polynomial& c : on.cross) deciding.push_back(std::move(c));
-    deciding.push_back(std::move(on.dot));
+    for (Polynomial& c : on.cross) add(std::move(c));
+    add(std::move(on.dot));
   }
   return deciding;
 }
 
 bool any_collision(const Query& query) {
   const Predicates predicates(query);
-  const auto meet = [&](Root& t) { return meet_at(predicates, t); };
+  const auto meet = [&](Root& t) { return meet_at(predicates, t).has_value(); };
   const auto meet_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, meet); };
   const Polynomial F = predicates.F();
   if (!F.is_zero()) return meet_at_a_root(F);  // only there are the points in one plane
@@ -61,26 +83,6 @@ bool any_collision(const Query& query) {
   if (meet(start)) return true;
   const auto deciding = deciding_polynomials(predicates);
   return std::any_of(deciding.begin(), deciding.end(), meet_at_a_root);
-}
-
-std::optional<Root> first_collision(const Query& query) {
-  const Predicates predicates(query);
-  const Polynomial F = predicates.F();
-  if (!F.is_zero()) {
-    for (Root& t : roots_in_step(F))
-      if (meet_at(predicates, t)) return t;
-    return std::nullopt;
-  }
-  std::optional<Root> first;
-  if (Root start{Number(0)}; meet_at(predicates, start)) return start;
-  for (const Polynomial& p : deciding_polynomials(predicates))
-    for (Root& t : roots_in_step(p)) {
-      if (first && !t.is_below(*first)) break;
-      if (!meet_at(predicates, t)) continue;
-      first = t;
-      break;
-    }
-  return first;
 }
 
 /// The largest double that is not above x, x in [0, 1].
@@ -115,6 +117,28 @@ std::string to_text(const std::optional<CGAL::Gmpq>& rational) {
 }
 
 }  // namespace
+
+std::optional<FirstContact> first_contact(const Predicates& predicates) {
+  const Polynomial F = predicates.F();
+  if (!F.is_zero()) {
+    for (Root& t : roots_in_step(F))
+      if (const auto meeting = meet_at(predicates, t)) return FirstContact{t, *meeting};
+    return std::nullopt;
+  }
+  Root start{Number(0)};
+  if (const auto meeting = meet_at(predicates, start)) return FirstContact{start, *meeting};
+  std::optional<FirstContact> first;
+  for (const Polynomial& p : deciding_polynomials(predicates))
+    for (Root& t : roots_in_step(p)) {
+      if (first && !t.is_below(first->time)) break;
+      const auto meeting = meet_at(predicates, t);
+      if (!meeting) continue;
+      first = {t, *meeting};
+      break;
+    }
+  return first;
+}
+
 }  // namespace exact
 
 bool collides_exactly(const Query& query) { return exact::any_collision(query); }
@@ -144,9 +168,9 @@ std::optional<ContactTime> earliest_time(const Query& query, double width) {
   if (!boxes_meet(query)) return std::nullopt;
   if (const FilterStage stage = filter(query); stage != FilterStage::undecided && !is_collision(stage))
     return std::nullopt;
-  auto t = exact::first_collision(query);
-  if (!t) return std::nullopt;
-  return ContactTime{exact::enclose(*t, width), exact::to_text(t->as_rational())};
+  auto contact = exact::first_contact(exact::Predicates(query));
+  if (!contact) return std::nullopt;
+  return ContactTime{exact::enclose(contact->time, width), exact::to_text(contact->time.as_rational())};
 }
 
 }  // namespace nearmiss

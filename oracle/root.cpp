@@ -272,10 +272,7 @@ bool Root::is_same(const Root& other) const {
 
 bool Root::is_below(Root& other) {
   if (is_same(other)) return false;
-  while (hi_ > other.lo_ && other.hi_ > lo_) {
-    refine();
-    other.refine();
-  }
+  while (hi_ > other.lo_ && other.hi_ > lo_) (other.hi_ - other.lo_ < hi_ - lo_ ? *this : other).refine();
   return hi_ <= other.lo_;
 }
 

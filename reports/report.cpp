@@ -21,14 +21,20 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Findings that become case files and rows of the page: so many of each subject and sort. All are in
-/// findings.csv.
-constexpr std::size_t shown_of_each = 50;
+/// Findings that become case files and rows of the page: so many of each signature. All are in findings.csv.
+constexpr std::size_t shown_of_each = 3;
 
-/// A finding or a far false positive on its way into cases/.
+/// A case on its way into cases/.
 struct Exported {
   std::string file;
   Case content;
+};
+
+/// A finding on its way there and into the page: its shrunk query, and the query that was found.
+struct Shown {
+  const Finding& finding;
+  std::uint64_t seen;
+  Exported shrunk, original;
 };
 
 /// A name that is a good file name: letters, digits, '-', '.' and '_' stay.
@@ -38,26 +44,33 @@ std::string file_name(std::string text) {
   return text;
 }
 
-Exported exported(const Finding& finding, std::size_t number) {
+Shown shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
   const std::string subject = finding.subject.empty() ? "oracle" : finding.subject;
-  std::string why = fmt::format("{} of {}", name(finding.what), subject);
-  if (finding.ratio > 0) why += fmt::format(", at {:.3g} of the bound", finding.ratio);
-  Case content{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
-  if (finding.what == Finding::What::false_negative) content.truth = true;
-  if (finding.what == Finding::What::refuted_bound) content.truth = false;
-  return {file_name(fmt::format("{}-{}-{:03}.case", name(finding.what), subject, number)),
-          std::move(content)};
+  const std::string file = file_name(fmt::format("{}-{}-{:03}", name(finding.what), subject, number));
+  const std::string why = fmt::format("{} of {}: {}; times seen: {}", name(finding.what), subject,
+                                      finding.signature, with_separators(seen));
+  Case shrunk{.name = {}, .query = finding.shrunk, .truth = {}, .why = why, .provenance = {}};
+  if (finding.what == Finding::What::false_negative) shrunk.truth = true;
+  if (finding.what == Finding::What::refuted_bound) shrunk.truth = false;
+  Case original = shrunk;
+  shrunk.provenance = "shrunk from " + finding.provenance;
+  original.query = finding.query;
+  original.provenance = finding.provenance;
+  original.why += "; before it was shrunk";
+  if (finding.ratio > 0) original.why += fmt::format(", at {:.3g} of the bound", finding.ratio);
+  return {finding, seen, {file + ".case", std::move(shrunk)}, {file + "-original.case", std::move(original)}};
 }
 
-/// The findings to show, with their files: the first ones of each subject and sort.
-std::vector<std::pair<const Finding*, Exported>> shown_findings(const Campaign& campaign) {
-  std::map<std::pair<Finding::What, std::string>, std::size_t> numbers;
-  std::vector<std::pair<const Finding*, Exported>> shown;
-  for (const Finding& finding : campaign.findings) {
-    const std::size_t number = ++numbers[{finding.what, finding.subject}];
-    if (number <= shown_of_each) shown.emplace_back(&finding, exported(finding, number));
-  }
-  return shown;
+/// The findings to show, with their files, numbered for each subject and sort: the first ones of each signature.
+std::vector<Shown> shown_findings(const Campaign& campaign) {
+  std::map<Signature, std::size_t> count;
+  std::map<std::pair<Finding::What, std::string>, std::size_t> number;
+  std::vector<Shown> result;
+  for (const Finding& finding : campaign.findings)
+    if (++count[signature_of(finding)] <= shown_of_each)
+      result.push_back(
+          shown(finding, campaign.statistics.times_seen(finding), ++number[{finding.what, finding.subject}]));
+  return result;
 }
 
 std::vector<Exported> far_cases(const Statistics& statistics) {
@@ -80,7 +93,7 @@ std::vector<Exported> far_cases(const Statistics& statistics) {
 
 /// What a finding is, whichever run found it.
 auto identity(const Finding& finding) {
-  return std::tuple(finding.what, finding.subject, finding.query.kind, finding.query.x);
+  return std::tuple(finding.what, finding.subject, finding.shrunk.kind, finding.shrunk.x);
 }
 
 ordered_json rates(const Counts& counts) {
@@ -120,8 +133,9 @@ void fill_folder(const Campaign& campaign, const std::optional<Campaign>& baseli
   replace_file(folder / "statistics.csv", statistics_csv(campaign.statistics));
   replace_file(folder / "distances.csv", distances_csv(campaign.statistics));
   replace_file(folder / "findings.csv", findings_csv(campaign));
-  for (const auto& [finding, each] : shown_findings(campaign))
-    write_case(each.content, folder / "cases" / each.file);
+  for (const Shown& each : shown_findings(campaign))
+    for (const Exported& exported : {each.shrunk, each.original})
+      write_case(exported.content, folder / "cases" / exported.file);
   for (const Exported& each : far_cases(campaign.statistics))
     write_case(each.content, folder / "cases" / each.file);
   replace_file(folder / "index.html", report_page(json));
@@ -140,14 +154,19 @@ ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>
     json["histogram_borders"].push_back(Histogram::border(i));
   json["findings_total"] = campaign.findings.size();
   json["findings"] = ordered_json::array();
-  for (const auto& [finding, each] : shown_findings(campaign))
-    json["findings"].push_back({{"what", name(finding->what)},
-                                {"subject", finding->subject},
-                                {"kind", short_name(finding->query.kind)},
-                                {"family", finding->family},
-                                {"provenance", finding->provenance},
-                                {"ratio", finding->ratio},
-                                {"file", "cases/" + each.file}});
+  for (const Shown& each : shown_findings(campaign))
+    json["findings"].push_back({{"what", name(each.finding.what)},
+                                {"subject", each.finding.subject},
+                                {"signature", each.finding.signature},
+                                {"seen", each.seen},
+                                {"kind", short_name(each.finding.query.kind)},
+                                {"family", each.finding.family},
+                                {"provenance", each.finding.provenance},
+                                {"ratio", each.finding.ratio},
+                                {"shrunk", each.finding.shrunk.x},
+                                {"original", each.finding.query.x},
+                                {"file", "cases/" + each.shrunk.file},
+                                {"original_file", "cases/" + each.original.file}});
   if (baseline) json["baseline"] = changes(campaign, *baseline);
   return json;
 }

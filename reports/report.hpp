@@ -10,14 +10,15 @@
 namespace nearmiss {
 
 /// Everything that the page shows: summary_json with the histogram's borders, a verdict for each subject,
-/// the findings (the first ones of each kind, with the names of their case files), and, where there is a
-/// baseline, what changed since.
+/// the findings (the first ones of each signature, with the names of their case files), and, where there is a
+/// baseline, what changed since; a finding is new where the baseline has none with the same shrunk query.
 nlohmann::ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>& baseline);
 
 /// Writes the folder, whole or not at all:
 ///  - index.html: self-contained, opens offline; it only draws report.json, which is inside it;
 ///  - report.json; statistics.csv, distances.csv and findings.csv with everything there is;
-///  - cases/: findings and the farthest false positives as *.case files, ready for nearmiss replay.
+///  - cases/: findings, shrunk and as they were found, and the farthest false positives as *.case files, ready
+///    for nearmiss replay.
 /// An earlier report is replaced. Throws Error where the folder is something else or cannot be written.
 void write_report(const Campaign& campaign, const std::optional<Campaign>& baseline,
                   const std::filesystem::path& folder);

@@ -96,6 +96,7 @@ void Statistics::merge(const Statistics& other) {
   for (const auto& [key, each] : other.counts) counts[key].merge(each);
   for (const auto& [name, each] : other.extremes)
     if (const auto [own, fresh] = extremes.try_emplace(name, each); !fresh) own->second.merge(each);
+  for (const auto& [signature, count] : other.seen) seen[signature] += count;
   oracle_disagreements += other.oracle_disagreements;
   mismatches_with_recorded_truth += other.mismatches_with_recorded_truth;
 }
@@ -110,6 +111,11 @@ OracleCounts Statistics::oracle_total() const {
   OracleCounts sum;
   for (const auto& [key, each] : oracle) sum.merge(each);
   return sum;
+}
+
+std::uint64_t Statistics::times_seen(const Finding& finding) const {
+  const auto it = seen.find(signature_of(finding));
+  return it == seen.end() ? 0 : it->second;
 }
 
 std::uint64_t Statistics::false_negatives() const {

@@ -117,10 +117,40 @@ struct OracleCounts {
   bool operator==(const OracleCounts&) const = default;
 };
 
+/// A case that must not be lost.
+struct Finding {
+  enum class What : std::uint8_t { false_negative, refuted_bound, oracle_disagreement, truth_mismatch };
+
+  What what{};
+  std::string subject;  ///< empty for the oracle's own
+  std::string family;
+  Query query;
+  std::string provenance;
+  double ratio = 0;            ///< of a refuted bound: distance / bound
+  std::string signature = {};  ///< in which way the query fails, such as "vt simple-root inside on-edge"
+  Query shrunk = {};  ///< the simplest query known that fails in the same way; perhaps the query itself
+
+  bool operator==(const Finding&) const = default;
+};
+
+/// A way to fail.
+struct Signature {
+  Finding::What what{};
+  std::string subject;
+  std::string text;  ///< Finding::signature
+
+  auto operator<=>(const Signature&) const = default;
+};
+
+inline Signature signature_of(const Finding& finding) {
+  return {finding.what, finding.subject, finding.signature};
+}
+
 /// All counters of a campaign.
 struct Statistics {
   std::map<Key, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
+  std::map<Signature, std::uint64_t> seen;                      ///< how often a query failed in each way
   std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
   std::uint64_t oracle_disagreements = 0;                       ///< between the oracle's own answers
   std::uint64_t mismatches_with_recorded_truth = 0;             ///< of the oracle with what a case says
@@ -131,24 +161,12 @@ struct Statistics {
   [[nodiscard]] std::map<Key, Counts> by_subject_and_kind() const;
   /// The oracle's counters summed over families and kinds.
   [[nodiscard]] OracleCounts oracle_total() const;
+  /// How often a query failed as this one does.
+  [[nodiscard]] std::uint64_t times_seen(const Finding& finding) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;
 
   bool operator==(const Statistics&) const = default;
-};
-
-/// A case that must not be lost.
-struct Finding {
-  enum class What : std::uint8_t { false_negative, refuted_bound, oracle_disagreement, truth_mismatch };
-
-  What what{};
-  std::string subject;  ///< empty for the oracle's own
-  std::string family;
-  Query query;
-  std::string provenance;
-  double ratio = 0;  ///< of a refuted bound: distance / bound
-
-  bool operator==(const Finding&) const = default;
 };
 
 /// "false-negative" and so on.
@@ -161,7 +179,7 @@ using RunInfo = std::map<std::string, std::string>;
 struct Campaign {
   std::vector<RunInfo> runs;
   Statistics statistics;
-  std::vector<Finding> findings;
+  std::vector<Finding> findings;  ///< of each signature a few; statistics.seen counts all
 };
 
 }  // namespace nearmiss

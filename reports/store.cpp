@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
@@ -17,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int schema_version = 3;
+constexpr int schema_version = 4;
 constexpr int application_id = 0x6e656172;  // "near"
 
 constexpr const char* schema = R"sql(
@@ -38,9 +40,12 @@ constexpr const char* schema = R"sql(
     name TEXT PRIMARY KEY, of TEXT NOT NULL, value TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
     provenance TEXT NOT NULL, queries INTEGER NOT NULL) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
+  CREATE TABLE seen (
+    what TEXT NOT NULL, subject TEXT NOT NULL, signature TEXT NOT NULL, times INTEGER NOT NULL,
+    PRIMARY KEY (what, subject, signature)) STRICT;
   CREATE TABLE finding (
     what TEXT NOT NULL, subject TEXT NOT NULL, family TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
-    provenance TEXT NOT NULL, ratio REAL NOT NULL,
+    provenance TEXT NOT NULL, ratio REAL NOT NULL, signature TEXT NOT NULL, shrunk TEXT NOT NULL,
     PRIMARY KEY (what, subject, provenance, query)) STRICT;
 )sql";
 
@@ -107,6 +112,15 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     extreme.exec();
     extreme.reset();
   }
+  SQLite::Statement seen(db, "INSERT OR REPLACE INTO seen VALUES (?,?,?,?)");
+  for (const auto& [signature, times] : statistics.seen) {
+    seen.bind(1, std::string(name(signature.what)));
+    seen.bind(2, signature.subject);
+    seen.bind(3, signature.text);
+    seen.bind(4, stored(times));
+    seen.exec();
+    seen.reset();
+  }
   SQLite::Statement oracle(db, "UPDATE oracle SET disagreements = ?, truth_mismatches = ?");
   oracle.bind(1, stored(statistics.oracle_disagreements));
   oracle.bind(2, stored(statistics.mismatches_with_recorded_truth));
@@ -114,7 +128,7 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
 }
 
 void write_findings(SQLite::Database& db, std::span<const Finding> findings) {
-  SQLite::Statement insert(db, "INSERT OR IGNORE INTO finding VALUES (?,?,?,?,?,?,?)");
+  SQLite::Statement insert(db, "INSERT OR IGNORE INTO finding VALUES (?,?,?,?,?,?,?,?,?)");
   for (const Finding& finding : findings) {
     insert.bind(1, std::string(name(finding.what)));
     insert.bind(2, finding.subject);
@@ -123,6 +137,8 @@ void write_findings(SQLite::Database& db, std::span<const Finding> findings) {
     insert.bind(5, to_line(finding.query));
     insert.bind(6, finding.provenance);
     insert.bind(7, finding.ratio);
+    insert.bind(8, finding.signature);
+    insert.bind(9, to_line(finding.shrunk));
     insert.exec();
     insert.reset();
   }
@@ -149,6 +165,15 @@ Extreme::Of parse_of(const std::string& text, const std::string& where) {
        {Extreme::Of::accepting_tolerance, Extreme::Of::keeping_tolerance, Extreme::Of::distance})
     if (name(of) == text) return of;
   throw Error(fmt::format("{}: found an extreme of '{}', which this version does not know", where, text));
+}
+
+/// The order of a campaign's findings: those that fail in the same way stand together.
+bool is_before(const Finding& a, const Finding& b) {
+  const auto key = [](const Finding& f) {
+    return std::tie(f.what, f.subject, f.signature, f.provenance, f.query.kind, f.query.x, f.family, f.ratio,
+                    f.shrunk.x);
+  };
+  return key(a) < key(b);
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::exception& error) {
@@ -270,14 +295,22 @@ Campaign load_campaign(const fs::path& file) {
       campaign.statistics.mismatches_with_recorded_truth = count(oracle.getColumn(1));
     }
 
-    SQLite::Statement findings(db, "SELECT * FROM finding ORDER BY what, subject, provenance, query");
+    SQLite::Statement seen(db, "SELECT * FROM seen");
+    while (seen.executeStep())
+      campaign.statistics.seen[{parse_what(seen.getColumn(0).getString(), where),
+                                seen.getColumn(1).getString(), seen.getColumn(2).getString()}] =
+          count(seen.getColumn(3));
+
+    SQLite::Statement findings(db, "SELECT * FROM finding");
     while (findings.executeStep()) {
       const Kind kind = parse_kind(findings.getColumn(3).getString(), where);
-      campaign.findings.push_back({parse_what(findings.getColumn(0).getString(), where),
-                                   findings.getColumn(1).getString(), findings.getColumn(2).getString(),
-                                   parse_line(kind, findings.getColumn(4).getString(), where),
-                                   findings.getColumn(5).getString(), findings.getColumn(6).getDouble()});
+      campaign.findings.push_back(
+          {parse_what(findings.getColumn(0).getString(), where), findings.getColumn(1).getString(),
+           findings.getColumn(2).getString(), parse_line(kind, findings.getColumn(4).getString(), where),
+           findings.getColumn(5).getString(), findings.getColumn(6).getDouble(),
+           findings.getColumn(7).getString(), parse_line(kind, findings.getColumn(8).getString(), where)});
     }
+    std::sort(campaign.findings.begin(), campaign.findings.end(), is_before);
   } catch (const SQLite::Exception& error) {
     fail(file, error);
   } catch (const json::exception& error) {
@@ -294,12 +327,12 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns) {
     merged.findings.insert(merged.findings.end(), each.findings.begin(), each.findings.end());
   }
   std::sort(merged.runs.begin(), merged.runs.end());
-  const auto order = [](const Finding& f) {
-    return std::tie(f.what, f.subject, f.provenance, f.query.kind, f.query.x, f.family, f.ratio);
-  };
-  std::sort(merged.findings.begin(), merged.findings.end(),
-            [&](const Finding& a, const Finding& b) { return order(a) < order(b); });
-  merged.findings.erase(std::unique(merged.findings.begin(), merged.findings.end()), merged.findings.end());
+  // Of those that are shrunk to the same query the first one in their order is kept.
+  std::sort(merged.findings.begin(), merged.findings.end(), is_before);
+  std::set<std::tuple<Signature, Kind, std::array<double, 24>>> known;
+  std::erase_if(merged.findings, [&](const Finding& f) {
+    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x).second;
+  });
   return merged;
 }
 

@@ -32,8 +32,8 @@ class Store {
 /// Reads a whole campaign. Throws Error where the file is missing, is no store, or is of another version.
 Campaign load_campaign(const std::filesystem::path& file);
 
-/// Several campaigns as one: counters add up, findings are united, runs stand side by side in their own
-/// order. The result does not depend on the order of the inputs.
+/// Several campaigns as one: counters add up, findings are united, of those that are shrunk to the same query
+/// one, runs stand side by side in their own order. The result does not depend on the order of the inputs.
 Campaign merge_campaigns(std::span<const Campaign> campaigns);
 
 /// Writes a campaign to a new file, whole or not at all. Throws Error where there is one already.

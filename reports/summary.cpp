@@ -123,6 +123,12 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
     json["oracle"]["families"][std::string(short_name(key.first))][key.second] = oracle_json(counts);
   json["oracle"]["total"] = oracle_json(campaign.statistics.oracle_total());
   for (const auto& [name, each] : campaign.statistics.extremes) json["tightness"][name] = extreme_json(each);
+  json["signatures"] = ordered_json::array();
+  for (const auto& [signature, times] : campaign.statistics.seen)
+    json["signatures"].push_back({{"what", name(signature.what)},
+                                  {"subject", signature.subject},
+                                  {"signature", signature.text},
+                                  {"seen", times}});
   json["subjects"] = ordered_json::object();
   for (const auto& [key, counts] : campaign.statistics.by_subject_and_kind())
     json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(counts);

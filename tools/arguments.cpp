@@ -39,8 +39,8 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
   command
       .add_option(
           "--compare", comparison.one_in,
-          "Ask all three answers of the oracle about one query in N, beside those that its filter leaves "
-          "undecided; 1: about all")
+          "Ask all three answers of the oracle about one query in N, and about eight times as many of those "
+          "that its filter leaves undecided; 1: about all")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
       ->capture_default_str()
       ->type_name("N");

@@ -82,7 +82,8 @@ int Record::finish(bool interrupted) {
   fmt::print("{}{}", summary_table(statistics_), sweep_tables(statistics_));
   if (!first_findings_.empty()) fmt::print("\nthe first findings:\n");
   for (const Finding& finding : first_findings_)
-    fmt::print("  {} {} {}\n", name(finding.what), finding.subject, finding.provenance);
+    fmt::print("  {} {} {} ({})\n", name(finding.what), finding.subject, finding.provenance,
+               finding.signature);
   if (interrupted) return exit_interrupted;
   return found_anything(statistics_) ? exit_found : exit_fine;
 }

@@ -83,16 +83,37 @@ function code(content) {
   return node;
 }
 
+/** A vertex a line: where it is at t = 0, and where it is at t = 1 if it moves. */
+function drawQuery(x) {
+  const node = document.createElement("pre");
+  const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
+  const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);
+  node.textContent = [0, 1, 2, 3].map(vertex).join("\n");
+  return node;
+}
+
+function drawShrunk(finding) {
+  const node = document.createElement("div");
+  node.append(drawQuery(finding.shrunk));
+  const original = document.createElement("details");
+  original.append(document.createElement("summary"), drawQuery(finding.original));
+  original.firstChild.textContent = finding.original_file;
+  node.append(original);
+  return node;
+}
+
 function drawFindings() {
-  const total = report.findings_total;
-  element("findings-note").textContent = total === 0
+  const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
+  element("findings-note").textContent = seen === 0
     ? "None: no false negative, no bound refuted, no disagreement."
-    : `${integer(total)} in all, in findings.csv; the first of each subject and sort are shown here and stand as case ` +
-      "files in cases/. The commands work in this report's folder.";
-  if (total === 0) return;
+    : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. A few of each are kept, shrunk to the simplest query ` +
+      "that fails in the same way; they are in findings.csv and stand as case files in cases/, beside the queries as they " +
+      "were found. The commands work in this report's folder.";
+  if (seen === 0) return;
   fillTable(element("findings"), [
-    text("what", "what"), text("subject", "subject"), text("kind", "kind"), text("family", "family"),
+    text("what", "what"), text("subject", "subject"), text("in which way", "signature"), count("times seen", "seen"),
     text("from", "provenance"), { title: "distance / bound", number: (r) => r.ratio, text: (r) => (r.ratio ? short(r.ratio) : "") },
+    { title: "shrunk", text: drawShrunk },
     { title: "replay", text: (r) => code(`nearmiss replay ${r.file}${r.subject ? " --subject " + r.subject : ""}`) },
   ], report.findings);
 }

@@ -110,6 +110,16 @@ TEST(Root, BecomesAsNarrowAsOneLikes) {
   EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
 }
 
+TEST(Root, ComparisonNarrowsOnlyTheWiderInterval) {
+  auto narrow = roots_in_step(polynomial({-0.5, 0, 1})).at(0);
+  for (int i = 0; i < 3; ++i) narrow.refine();
+  const Number width = narrow.hi() - narrow.lo();
+  auto wide = roots_in_step(polynomial({-0.3, 0, 1})).at(0);
+  EXPECT_TRUE(wide.is_below(narrow));
+  EXPECT_FALSE(narrow.is_below(wide));
+  EXPECT_EQ(narrow.hi() - narrow.lo(), width);
+}
+
 // --- beside CGAL ------------------------------------------------------------------------------------------
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;

@@ -1,4 +1,5 @@
-/* A complete plug-in: answers every query with the fixed return value that it was compiled with. */
+/* A complete plug-in: answers every query with the fixed return value that it was compiled with, and claims the
+ * fixed distance bound, if any. */
 #include <stddef.h>
 
 #include "ccd/nearmiss_subject.h"
@@ -16,6 +17,16 @@ static int answer(const double* x, double* toi) {
   return ANSWER;
 }
 
-static const nearmiss_subject subject = {ABI, "always", "1.0", answer, answer, NULL};
+#ifdef BOUND
+static double distance_bound(const double* x, int is_edge_edge) {
+  (void)x;
+  (void)is_edge_edge;
+  return BOUND;
+}
+#else
+#define distance_bound NULL
+#endif
+
+static const nearmiss_subject subject = {ABI, "always", "1.0", answer, answer, distance_bound};
 
 const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }

@@ -67,6 +67,16 @@ async function showsFindings(browser) {
   assert.equal(await count(page, "#oracle tbody tr"), 48); // 2 kinds, 24 families
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
+  const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
+  assert.match(await page.textContent("#findings-note"), new RegExp(`^${kept.toLocaleString("en-US")} failures in ${report.signatures.length} ways`));
+  const seen = await page.locator("#findings tbody tr td:nth-child(4)").allTextContents();
+  assert.deepEqual(seen.map((text) => Number(text.replaceAll(",", ""))), report.findings.map((each) => each.seen));
+  const shrunk = page.locator("#findings tbody tr").first().locator("pre");
+  assert.match(await shrunk.first().textContent(), /^x0 \(.*, .*, .*\)/);
+  assert.equal(await shrunk.last().isVisible(), false); // the query as it was found
+  await page.locator("#findings summary").first().click();
+  assert.equal(await shrunk.last().isVisible(), true);
+
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
     { status: 1 }); // the command on the page finds it again

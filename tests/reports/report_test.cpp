@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "reports/csv.hpp"
 #include "reports/summary.hpp"
@@ -23,6 +24,7 @@ using ::testing::ThrowsMessage;
 class ReportTest : public testing::TemporaryFolder {};
 
 const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+const Query simple = testing::falling_vertex(0.5, 0.5, 1, -1);
 
 /// `subject` finds one collision, misses one, and has one false positive at half of the bound.
 Campaign some_campaign(const std::string& subject) {
@@ -35,7 +37,9 @@ Campaign some_campaign(const std::string& subject) {
              [] { return "f:1:4"; });
   counts.timed_queries = 3;
   counts.nanoseconds = 300;
-  campaign.findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0});
+  campaign.findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0,
+                               "vt simple-root inside in-face", simple});
+  campaign.statistics.seen[signature_of(campaign.findings.back())] = 1234;
   return campaign;
 }
 
@@ -83,16 +87,44 @@ TEST(Csv, OneRowASubjectKindAndFamily) {
   EXPECT_THAT(text, HasSubstr("\nwang,vt,\"fam,\"\"ily\",3,2,2,1,"));
 }
 
+TEST(Csv, AFindingHasItsShrunkQueryBesideItsOwn) {
+  const std::string text = findings_csv(some_campaign("wang"));
+  EXPECT_THAT(
+      text, HasSubstr("\nfalse-negative,wang,vt simple-root inside in-face,1234,vt,\"fam,\"\"ily\",f:1:2,0," +
+                      to_line(simple) + "," + to_line(query) + "\n"));
+}
+
 TEST_F(ReportTest, WritesEverythingThatItPromises) {
   write_report(some_campaign("wang"), std::nullopt, file("report"));
   for (const char* name : {"index.html", "report.json", "statistics.csv", "distances.csv", "findings.csv"})
     EXPECT_TRUE(std::filesystem::exists(file("report") / name)) << name;
   std::vector<Case> cases;
   read_cases(file("report/cases"), [&](Case&& each) { cases.push_back(std::move(each)); });
-  ASSERT_EQ(cases.size(), 2);
-  for (const Case& each : cases) EXPECT_EQ(each.query, query);
+  ASSERT_EQ(cases.size(), 3);
+  for (const Case& each : cases) {
+    const std::string name = std::filesystem::path(each.name).filename().string();
+    EXPECT_EQ(each.query, name == "false-negative-wang-001.case" ? simple : query) << name;
+    if (name.starts_with("false-negative")) {
+      EXPECT_THAT(each.why, HasSubstr("vt simple-root inside in-face; times seen: 1,234"));
+    }
+  }
   EXPECT_THAT(read("report/index.html"), Not(HasSubstr("src=\"http")));
   EXPECT_FALSE(std::filesystem::exists(file("report.part")));
+}
+
+TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
+  Campaign campaign = some_campaign("wang");
+  for (const char* signature : {"vt planar inside on-edge", "ee planar inside crossing"})
+    for (int i = 0; i < 10; ++i) {
+      campaign.findings.push_back(campaign.findings.front());
+      campaign.findings.back().signature = signature;
+    }
+  const auto json = report_json(campaign, std::nullopt);
+  EXPECT_EQ(json["findings_total"], 21);
+  ASSERT_EQ(json["findings"].size(), 1 + 3 + 3);
+  EXPECT_EQ(json["findings"][0]["seen"], 1234);
+  EXPECT_EQ(json["findings"][6]["file"], "cases/false-negative-wang-007.case");
+  EXPECT_EQ(json["findings"][6]["original_file"], "cases/false-negative-wang-007-original.case");
 }
 
 TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
@@ -116,6 +148,8 @@ TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);
   now.findings.push_back(now.findings.front());
   now.findings.back().query.x[0] += 1;
+  EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);  // the same when shrunk
+  now.findings.back().shrunk.x[0] += 1;
   const auto json = report_json(now, before);
   EXPECT_EQ(json["baseline"]["new_findings"], 1);
   EXPECT_EQ(json["baseline"]["changes"][0]["before"]["false_positive_rate"], 1);

@@ -41,13 +41,22 @@ Statistics some_statistics(const std::string& subject) {
   oracle.missed_by_parity = 1;
   statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
   statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
+  statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
   statistics.oracle_disagreements = 3;
   statistics.mismatches_with_recorded_truth = 4;
   return statistics;
 }
 
+/// A finding; those with provenances of one length are shrunk to the same query.
 Finding some_finding(const std::string& provenance) {
-  return {Finding::What::false_negative, "basic", "uniform", query, provenance, 0};
+  return {Finding::What::false_negative,
+          "basic",
+          "uniform",
+          query,
+          provenance,
+          0,
+          "ee simple-root inside crossing",
+          testing::falling_edge(static_cast<double>(provenance.size()), -1)};
 }
 
 TEST_F(StoreTest, GivesBackWhatWasSaved) {
@@ -105,8 +114,8 @@ TEST_F(StoreTest, MergingDoesNotDependOnTheOrder) {
     return Campaign{
         {{{"seed", seed}}}, some_statistics(subject), {some_finding(provenance), some_finding("both")}};
   };
-  const std::vector campaigns{campaign("wang", "1", "x"), campaign("basic", "2", "y"),
-                              campaign("wang", "3", "z")};
+  const std::vector campaigns{campaign("wang", "1", "x"), campaign("basic", "2", "yy"),
+                              campaign("wang", "3", "zzz")};
   std::vector reversed(campaigns.rbegin(), campaigns.rend());
   const Campaign merged = merge_campaigns(campaigns);
   write_campaign(merged, file("a.db"));
@@ -118,6 +127,22 @@ TEST_F(StoreTest, MergingDoesNotDependOnTheOrder) {
   EXPECT_EQ(again.statistics, merged.statistics);
   EXPECT_EQ(again.findings, merged.findings);
   EXPECT_EQ(again.runs, merged.runs);
+}
+
+TEST_F(StoreTest, MergingKeepsOneOfThoseThatAreShrunkToTheSame) {
+  const auto campaign = [](const std::string& provenance) {
+    return Campaign{{}, some_statistics("basic"), {some_finding(provenance)}};
+  };
+  const std::vector campaigns{campaign("c"), campaign("a"), campaign("bb"), campaign("b")};
+  std::vector reversed(campaigns.rbegin(), campaigns.rend());
+  const Campaign merged = merge_campaigns(campaigns);
+  EXPECT_EQ(merged.findings, (std::vector{some_finding("a"), some_finding("bb")}));
+  EXPECT_EQ(merge_campaigns(reversed).findings, merged.findings);
+  EXPECT_EQ(merged.statistics.seen.begin()->second, 20);
+  // In steps too.
+  const std::vector halves{merge_campaigns(std::span(campaigns).first(2)),
+                           merge_campaigns(std::span(campaigns).last(2))};
+  EXPECT_EQ(merge_campaigns(halves).findings, merged.findings);
 }
 
 TEST_F(StoreTest, NeverTakesAFileThatIsThereAlready) {
@@ -139,6 +164,16 @@ TEST_F(StoreTest, RefusesWhatIsNoStore) {
   sqlite3_close(other);
   EXPECT_THAT([&] { load_campaign(file("other.db")); },
               ThrowsMessage<Error>(HasSubstr("expected a store of nearmiss")));
+}
+
+TEST_F(StoreTest, RefusesAnotherVersion) {
+  write_campaign({}, file("old.db"));
+  sqlite3* db = nullptr;
+  sqlite3_open(file("old.db").c_str(), &db);
+  sqlite3_exec(db, "PRAGMA user_version = 3", nullptr, nullptr, nullptr);
+  sqlite3_close(db);
+  EXPECT_THAT([&] { load_campaign(file("old.db")); },
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 3, expected 4")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

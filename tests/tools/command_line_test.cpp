@@ -211,6 +211,33 @@ TEST_F(CommandLine, TightnessGoesIntoTheReport) {
   EXPECT_GT(read_json("report/report.json")["tightness"]["vertex-edge"]["queries"], 0);
 }
 
+TEST_F(CommandLine, ShrinkWritesACaseThatFailsInTheSameWay) {
+  write("q.vt", "0.3 0.37 1.1  0.1 0 0  1.7 0 0.2  0 1.3 0   0.31 0.2 -1.9  0 0.01 0  1.1 0 0.3  0 1.2 0\n");
+  const std::string never = " --subject " + plugin("never");
+  const Answer answer = run("shrink q.vt" + never);
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_THAT(answer.out, StartsWith("# false-negative of always: vt simple-root inside in-face\n"
+                                     "# 11 distinct numbers of "));
+  EXPECT_THAT(answer.out, HasSubstr("kind vt\ntruth 1\nprovenance shrunk from q.vt:1\nx0 "));
+  const Answer silent = run("shrink q.vt -o shrunk.case" + never);
+  EXPECT_THAT(
+      silent.out,
+      MatchesRegex(
+          "11 distinct numbers of [0-9]+ bits in all -> [12] distinct numbers? of [12] bits? in all\n"));
+  EXPECT_EQ(read("shrunk.case"), answer.out);
+  EXPECT_EQ(run("replay shrunk.case" + never).code, 1);
+  EXPECT_EQ(run("shrink shrunk.case" + never).code, 0);
+}
+
+TEST_F(CommandLine, ShrinkKeepsAReportBeyondItsBound) {
+  write("q.ee", "0 0 1  1 0 1.1  0.5 -1 0  0.5 1 0.2   0 0 3  1 0 3.3  0.5 -1 0.1  0.5 1 0\n");
+  const Answer answer = run("shrink q.ee -o shrunk.case --subject " + plugin("bounded"));
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_THAT(read("shrunk.case"), StartsWith("# refuted-bound of always: ee unspecified\n"));
+  EXPECT_EQ(run("replay shrunk.case --json new.json --subject " + plugin("bounded")).code, 1);
+  EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "refuted-bound");
+}
+
 TEST_F(CommandLine, BenchWritesItsResults) {
   write("own.vt", hit);
   const Answer answer = run("bench own.vt --queries 50 --runs 3 --json new.json");
@@ -232,8 +259,8 @@ TEST_F(CommandLine, SubjectsAreListed) {
 }
 
 TEST_F(CommandLine, EverySubcommandHasHelp) {
-  for (const char* name : {"oracle", "verdict", "replay", "fuzz", "scene", "merge", "report", "power",
-                           "tightness", "bench", "subjects"}) {
+  for (const char* name : {"oracle", "verdict", "replay", "fuzz", "shrink", "scene", "merge", "report",
+                           "power", "tightness", "bench", "subjects"}) {
     const Answer answer = run(std::string(name) + " --help");
     EXPECT_EQ(answer.code, 0) << name;
     EXPECT_THAT(answer.out, HasSubstr("Usage: nearmiss ")) << name;
@@ -262,6 +289,21 @@ TEST_F(CommandLine, BadQueries) {
     expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
     expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});
   }
+}
+
+TEST_F(CommandLine, BadShrinks) {
+  write("hit.vt", hit);
+  write("two.vt", hit + miss);
+  write("nan.vt", "nan" + hit.substr(hit.find(' ')));
+  const std::string never = " --subject " + plugin("never");
+  expect_refused("shrink hit.vt -o new", {"hit.vt:1", "wang does not fail", "expected a missed collision"});
+  expect_refused("shrink two.vt -o new" + never, {"two.vt: found 2 queries, expected one"});
+  expect_refused("shrink nan.vt -o new" + never, {"nan.vt:1", "'nan'"});
+  expect_refused("shrink absent.case -o new" + never, {"absent.case: cannot be read"});
+  expect_refused("shrink hit.vt -o new --subject wong", {"unknown subject 'wong'"});
+  expect_refused("shrink hit.vt -o new --subject " + plugin("error"), {"error.so: the plug-in returned -7"});
+  expect_refused("shrink hit.vt -o no/folder/new.case" + never, {"no/folder/new.case: cannot be written"});
+  expect_refused("shrink", {"CASE"});
 }
 
 TEST_F(CommandLine, BadNames) {
@@ -358,7 +400,7 @@ TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
 TEST_F(CommandLine, AFullDiskIsSaidAndLosesNothingThatWasSaved) {
   // A limit on the size of files stands for the full disk.
   const Answer answer =
-      run("fuzz --time 60s --subject basic --family planted --db a.db", "ulimit -f 1600; trap '' XFSZ;");
+      run("fuzz --time 60s --subject basic --family planted --db a.db", "ulimit -f 300; trap '' XFSZ;");
   EXPECT_EQ(answer.code, 2);
   EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1) << answer.error;
   EXPECT_THAT(answer.error, HasSubstr("a.db: "));

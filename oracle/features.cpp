@@ -1,0 +1,45 @@
+#include "oracle/features.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "oracle/first_contact.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Multiplicity = ContactFeatures::Multiplicity;
+using Time = ContactFeatures::Time;
+using Place = ContactFeatures::Place;
+
+Multiplicity multiplicity(const exact::Polynomial& F, exact::Root& t) {
+  if (F.is_zero()) return Multiplicity::planar;
+  return t.sign_of(F.derivative()) == 0 ? Multiplicity::multiple : Multiplicity::simple;
+}
+
+Time time_class(const exact::Root& t) { return t.is(0) ? Time::start : t.is(1) ? Time::end : Time::inside; }
+
+}  // namespace
+
+std::optional<ContactFeatures> contact_features(const Query& query) {
+  const exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
+  if (!contact) return std::nullopt;
+  return ContactFeatures{multiplicity(predicates.F(), contact->time), time_class(contact->time),
+                         static_cast<Place>(contact->meeting.vanishing_weights), contact->meeting.degenerate};
+}
+
+std::string to_text(Kind kind, const ContactFeatures& features) {
+  static constexpr std::array<std::string_view, 3> multiplicities{"planar", "simple-root", "multiple-root"};
+  static constexpr std::array<std::string_view, 3> times{"at-start", "inside", "at-end"};
+  static constexpr std::array<std::array<std::string_view, 3>, 2> places{
+      {{"in-face", "on-edge", "on-vertex"}, {"crossing", "end-on-edge", "end-on-end"}}};
+  std::string text(multiplicities[static_cast<std::size_t>(features.multiplicity)]);
+  text.append(" ").append(times[static_cast<std::size_t>(features.time)]);
+  text.append(" ").append(places[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.place)]);
+  if (features.degenerate) text += " degenerate";
+  return text;
+}
+
+}  // namespace nearmiss

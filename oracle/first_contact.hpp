@@ -1,0 +1,29 @@
+// The first contact of a query's figures, in exact arithmetic.
+#pragma once
+
+#include <optional>
+
+#include "oracle/predicates.hpp"
+#include "oracle/root.hpp"
+
+namespace nearmiss::exact {
+
+/// How the figures meet at a time.
+struct Meeting {
+  /// How many weights vanish: none inside of triangle or edges, one on an edge or at one end, two in a vertex or
+  /// at two ends. Figures without a common normal always meet at a border: one or two.
+  int vanishing_weights = 0;
+  bool degenerate =
+      false;  ///< no common normal: a triangle without an area, edges parallel or without a length
+};
+
+/// The earliest time at which they meet, and how.
+struct FirstContact {
+  Root time;
+  Meeting meeting;
+};
+
+/// Nothing where they never meet in [0, 1].
+std::optional<FirstContact> first_contact(const Predicates& predicates);
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,188 @@
+// Shrinking: simpler, and still failing in the same way.
+#include "fuzz/shrink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include "ccd/error.hpp"
+#include "fuzz/failure.hpp"
+#include "fuzz/families.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+/// The first queries of every family that basic misses, of each kind one.
+std::vector<Finding> missed_by_basic() {
+  const auto basic = make_subject("basic");
+  std::vector<Finding> missed;
+  for (const Family& family : families())
+    for (const Kind kind : kinds)
+      for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 2000; i += 2) {
+        const Query query = make_query(family, 1, i);
+        const auto signature = failure(Finding::What::false_negative, basic.get(), query);
+        if (!signature) continue;
+        missed.push_back({Finding::What::false_negative, "basic", std::string(family.name), query,
+                          std::string(family.name) + ":1:" + std::to_string(i), 0, *signature, query});
+        break;
+      }
+  return missed;
+}
+
+TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
+  const auto basic = make_subject("basic");
+  const auto missed = missed_by_basic();
+  ASSERT_GE(missed.size(), 17);
+  std::vector<int> distinct;
+  for (const Finding& finding : missed) {
+    const auto start = std::chrono::steady_clock::now();
+    const Query shrunk = shrunk_query(finding, basic.get());
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    const Complexity before = complexity(finding.query);
+    const Complexity after = complexity(shrunk);
+    std::cout << finding.provenance << " " << finding.signature << ": " << before.distinct
+              << " distinct numbers of " << before.bits << " bits -> " << after.distinct << " of "
+              << after.bits << ", " << time.count() << " ms\n";
+
+    EXPECT_EQ(failure(Finding::What::false_negative, basic.get(), shrunk), finding.signature)
+        << finding.provenance;
+    EXPECT_EQ(shrunk.kind, finding.query.kind);
+    EXPECT_LE(after, before);
+    EXPECT_EQ(shrunk_query(finding, basic.get()), shrunk) << finding.provenance;  // deterministic
+    Finding again = finding;
+    again.query = shrunk;
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // nothing is left to do
+    distinct.push_back(after.distinct);
+  }
+  std::sort(distinct.begin(), distinct.end());
+  EXPECT_LE(distinct[distinct.size() / 2],
+            4);  // most have few numbers; all but the coplanar ones had 20 or so
+}
+
+TEST(Shrink, KeepsOnlyWhatMatters) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  ASSERT_GT(query.x[3], 0.25);
+  const Query shrunk = nearmiss::shrunk(query, [](const Query& q) { return q.x[3] > 0.25; });
+  Query expected{.kind = query.kind};
+  expected.x[3] = expected.x[12 + 3] = 1;  // it rests
+  EXPECT_EQ(shrunk, expected);
+}
+
+TEST(Shrink, ChangesEqualNumbersTogether) {
+  Query query{.kind = Kind::edge_edge};
+  for (const std::size_t i : {std::size_t{1}, std::size_t{9}, std::size_t{17}}) query.x[i] = 0.7;
+  query.x[9] = -0.7;
+  const Query shrunk = nearmiss::shrunk(
+      query, [](const Query& q) { return q.x[1] != 0 && q.x[1] == -q.x[9] && q.x[1] == q.x[17]; });
+  EXPECT_EQ(complexity(shrunk).distinct, 1);
+  EXPECT_EQ(complexity(shrunk).bits, 1);
+  EXPECT_EQ(std::abs(shrunk.x[1]), 1);
+}
+
+TEST(Shrink, LeavesAloneWhatDoesNotFail) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  EXPECT_EQ(shrunk(query, [](const Query&) { return false; }), query);
+}
+
+TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
+  Query query{.kind = Kind::vertex_triangle};
+  for (std::size_t i = 0; i < 24; ++i)
+    query.x[i] = std::ldexp(1 + static_cast<double>(i) / 31, i % 2 == 0 ? 1023 - static_cast<int>(i) : -1040);
+  long asked = 0;
+  shrunk(query, [&](const Query& q) {
+    EXPECT_TRUE(is_finite(q));
+    ++asked;
+    return q.x[0] > 0x1p1000 && q.x[1] != 0 && std::abs(q.x[1]) < 0x1p-1000;  // stays as hard as it is
+  });
+  EXPECT_GT(asked, 100);
+  EXPECT_LT(asked, 200000);
+}
+
+TEST(Complexity, CountsWhatThereIsToSay) {
+  EXPECT_EQ(complexity(Query{}), Complexity{});
+  const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
+  // x and y at rest, z from 1 to -1, the triangle's two ones.
+  EXPECT_EQ(falling,
+            (Complexity{.numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
+  Query third{};
+  third.x[0] = 1.0 / 3;
+  third.x[12] = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(complexity(third).numbers, 2);
+  EXPECT_EQ(complexity(third).bits, 54);
+  EXPECT_EQ(complexity(third).exponents, 2 + 1074);
+}
+
+// --- what it means to fail ----------------------------------------------------------------------------------
+
+/// Reports everything; claims a bound; refuses a vertex that starts at z = 0.
+class Alarmist final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (query.x[2] == 0) throw Error("alarmist: refused");
+    return {true, Stage::vv, 0};
+  }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0.125; }
+
+ private:
+  std::string name_ = "alarmist";
+};
+
+TEST(Failure, OfABoundIsShrunkAndStaysBeyondIt) {
+  const Alarmist subject;
+  Query query = make_query(find_family("uniform"), 1, 0);
+  for (int i = 1; failure(Finding::What::refuted_bound, &subject, query) == std::nullopt; ++i)
+    query = make_query(find_family("uniform"), 1, 2 * static_cast<std::uint64_t>(i));
+  const auto signature = failure(Finding::What::refuted_bound, &subject, query);
+  EXPECT_EQ(signature, "vt vv");
+  const Query shrunk =
+      shrunk_query({Finding::What::refuted_bound, "alarmist", "", query, "", 0, *signature, query}, &subject);
+  EXPECT_TRUE(distance_exceeds(shrunk, 0.125));
+  EXPECT_NE(shrunk.x[2], 0);  // where it is refused nothing fails
+  EXPECT_LE(complexity(shrunk).numbers, 2);
+}
+
+TEST(Failure, IsOfOneSort) {
+  const auto basic = make_subject("basic");
+  const auto wang = make_subject("wang");
+  const Query hit = falling_vertex(0.25, 0.25, 1, -1);
+  for (const auto what : {Finding::What::false_negative, Finding::What::refuted_bound,
+                          Finding::What::oracle_disagreement, Finding::What::truth_mismatch}) {
+    EXPECT_EQ(failure(what, wang.get(), hit), std::nullopt);
+    EXPECT_EQ(failure(what, wang.get(), falling_vertex(0.25, 0.25, 2, 1)), std::nullopt);
+  }
+  const Finding missed = missed_by_basic().front();
+  EXPECT_EQ(failure(Finding::What::refuted_bound, basic.get(), missed.query), std::nullopt);
+  EXPECT_EQ(failure(Finding::What::false_negative, wang.get(), missed.query), std::nullopt);
+}
+
+TEST(Failure, OfTheOracleSaysWhatDoesNotFit) {
+  const auto signature = [](const Answers& answers, bool collision) {
+    return disagreement_signature(Kind::edge_edge, answers, collision);
+  };
+  const Answers one_root{.exact = true,
+                         .sturm = {.collision = true, .distinct = 1, .with_multiplicity = 1},
+                         .parity = {.odd = true}};
+  EXPECT_EQ(signature(one_root, true), "");
+  EXPECT_EQ(signature(one_root, false), "ee filter");
+  Answers wrong = one_root;
+  wrong.exact = false;
+  EXPECT_EQ(signature(wrong, true), "ee exact filter");
+  wrong = one_root;
+  wrong.parity.odd = false;
+  EXPECT_EQ(signature(wrong, true), "ee parity");
+  wrong.parity.on_boundary = true;
+  EXPECT_EQ(signature(wrong, true), "ee boundary");
+}
+
+}  // namespace
+}  // namespace nearmiss

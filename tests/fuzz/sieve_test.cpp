@@ -1,0 +1,96 @@
+// Of each way to fail a few are kept.
+#include "fuzz/sieve.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fuzz/failure.hpp"
+#include "fuzz/families.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+Subjects basic() {
+  Subjects subjects;
+  subjects.push_back(make_subject("basic"));
+  return subjects;
+}
+
+/// A finding that cannot be shrunk: no subject of the sieve, and a recorded truth.
+Finding mismatch(const std::string& signature, int number) {
+  const Query query = falling_vertex(0.25, 0.25, number, -1);
+  return {Finding::What::truth_mismatch, "", "f", query, std::to_string(number), 0, signature, query};
+}
+
+std::vector<std::string> provenances(const std::vector<Finding>& findings) {
+  std::vector<std::string> all;
+  for (const Finding& finding : findings) all.push_back(finding.provenance);
+  return all;
+}
+
+TEST(Sieve, KeepsTheFirstOfEverySignature) {
+  const Subjects subjects = basic();
+  const std::atomic<bool> stop{false};
+  Sieve sieve(subjects, 2, stop);
+  std::vector<Finding> some{mismatch("a", 1), mismatch("a", 2), mismatch("b", 3)};
+  sieve.sift(some);
+  EXPECT_EQ(provenances(some), (std::vector<std::string>{"1", "2", "3"}));
+  some = {mismatch("a", 4), mismatch("b", 5), mismatch("a", 6), mismatch("c", 7)};
+  sieve.sift(some);
+  EXPECT_EQ(provenances(some), (std::vector<std::string>{"4", "5", "7"}));
+}
+
+TEST(Sieve, KeepsOneOfThoseThatAreShrunkToTheSame) {
+  const Subjects subjects = basic();
+  const std::atomic<bool> stop{false};
+  Sieve sieve(subjects, 2, stop);
+  Finding again = mismatch("a", 1);
+  again.provenance = "again";
+  std::vector<Finding> some{mismatch("a", 1), again};
+  sieve.sift(some);
+  EXPECT_EQ(provenances(some), std::vector<std::string>{"1"});
+  some = {again, mismatch("a", 2)};
+  sieve.sift(some);
+  EXPECT_TRUE(some.empty());  // three have been looked at
+}
+
+/// What basic misses of a family.
+std::vector<Finding> missed(const Subjects& subjects) {
+  Batch batch{
+      .kind = Kind::edge_edge, .family = "planted-ulp", .queries = {}, .truths = {}, .provenance = {}};
+  for (std::uint64_t i = 1; i < 1000; i += 2)
+    batch.queries.push_back(make_query(find_family("planted-ulp"), 1, i));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  return hold_trial(subjects, batch).findings;
+}
+
+TEST(Sieve, ShrinksWhatItKeeps) {
+  const Subjects subjects = basic();
+  const std::atomic<bool> stop{false};
+  Sieve sieve(subjects, 2, stop);
+  std::vector<Finding> findings = missed(subjects);
+  const std::size_t before = findings.size();
+  for (const Finding& finding : findings) EXPECT_EQ(finding.shrunk, finding.query);
+  sieve.sift(findings);
+  EXPECT_GT(findings.size(), 3);
+  EXPECT_LT(findings.size(), before);
+  for (const Finding& finding : findings) {
+    EXPECT_NE(finding.shrunk, finding.query);
+    EXPECT_EQ(failure(finding.what, subjects.front().get(), finding.shrunk), finding.signature);
+  }
+}
+
+TEST(Sieve, ShrinksNothingOnceItIsToStop) {
+  const Subjects subjects = basic();
+  const std::atomic<bool> stop{true};
+  Sieve sieve(subjects, 2, stop);
+  std::vector<Finding> findings = missed(subjects);
+  sieve.sift(findings);
+  EXPECT_GT(findings.size(), 3);
+  for (const Finding& finding : findings) EXPECT_EQ(finding.shrunk, finding.query);
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,92 @@
+// nearmiss shrink: the simplest query that fails in the same way.
+#include "fuzz/shrink.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "ccd/error.hpp"
+#include "corpus/readers.hpp"
+#include "fuzz/failure.hpp"
+#include "fuzz/subjects.hpp"
+#include "oracle/oracle.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::filesystem::path in, out;
+  std::string subject = "wang";
+};
+
+Case read_one(const std::filesystem::path& path) {
+  std::vector<Case> cases;
+  read_cases(path, [&](Case&& each) { cases.push_back(std::move(each)); });
+  if (cases.size() != 1)
+    throw Error(fmt::format("{}: found {} queries, expected one", path.string(), cases.size()));
+  return cases.front();
+}
+
+/// How a query fails; the oracle first, by whom the subject is judged.
+Finding find_failure(const Case& each, const Subject& subject) {
+  for (const auto what :
+       {Finding::What::oracle_disagreement, Finding::What::false_negative, Finding::What::refuted_bound})
+    if (const auto signature = failure(what, &subject, each.query))
+      return {.what = what,
+              .subject = subject.name(),
+              .family = {},
+              .query = each.query,
+              .provenance = each.name,
+              .signature = *signature};
+  throw Error(
+      fmt::format("{}: {} does not fail, expected a missed collision, a report beyond its bound or an oracle "
+                  "disagreement",
+                  each.name, subject.name()));
+}
+
+std::string show(const Complexity& complexity) {
+  return fmt::format("{} distinct numbers of {} bits in all", complexity.distinct, complexity.bits);
+}
+
+void run(const Options& options) {
+  const auto subject = make_any_subject(options.subject);
+  const Case each = read_one(options.in);
+  const Finding finding = find_failure(each, *subject);
+  const Query shrunk = shrunk_query(finding, subject.get());
+  const std::string became = fmt::format("{} -> {}", show(complexity(each.query)), show(complexity(shrunk)));
+  const Case result{
+      .name = {},
+      .query = shrunk,
+      .truth = collides(shrunk),
+      .why = fmt::format("{} of {}: {}\n{}", name(finding.what), finding.subject, finding.signature, became),
+      .provenance = "shrunk from " + finding.provenance};
+  if (options.out.empty()) {
+    fmt::print("{}", to_text(result));
+  } else {
+    write_case(result, options.out);
+    fmt::print("{}\n", became);
+  }
+}
+
+}  // namespace
+
+void add_shrink(CLI::App& app, int& /*exit_code*/) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
+  command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
+  command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->out, "Write the case to this file, not to stdout")
+      ->type_name("FILE");
+  command->footer(
+      "\nThe same way: the same kind of failure, by the same stage where a subject reports too much, with "
+      "the same\n"
+      "features of the first contact where it misses a collision.\n"
+      "Example: nearmiss shrink corpus/cases/rounding/vt-planted.case --subject basic");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nearmiss::tools
