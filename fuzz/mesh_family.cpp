@@ -17,16 +17,18 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A sample of all that is added: those with the smallest random numbers, which are a function of the
+using Vertices = decltype(Candidate::vertices);
+
+/// A sample of the candidates of a kind: those with the smallest random numbers, which are a function of the
 /// vertices alone, so that the order in which they come does not matter.
 class Sample {
  public:
-  explicit Sample(std::size_t most) : most_(most) {}
+  Sample(Kind kind, std::size_t most) : kind_(kind), most_(most) {}
 
-  void add(const Candidate& candidate) {
-    const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(candidate.vertices[i]); };
+  void add(const Vertices& vertices) {
+    const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(vertices[i]); };
     Random random(vertex(0), vertex(1), vertex(2) << 32 | vertex(3));
-    kept_.emplace_back(random.bits(), candidate);
+    kept_.emplace_back(random.bits(), vertices);
     std::push_heap(kept_.begin(), kept_.end());
     if (kept_.size() <= most_) return;
     std::pop_heap(kept_.begin(), kept_.end());
@@ -37,13 +39,14 @@ class Sample {
   [[nodiscard]] std::vector<Query> queries(const MovingMesh& mesh) && {
     std::sort_heap(kept_.begin(), kept_.end());
     std::vector<Query> made;
-    for (const auto& [number, candidate] : kept_) made.push_back(make_query(mesh, candidate));
+    for (const auto& [number, vertices] : kept_) made.push_back(make_query(mesh, {kind_, vertices}));
     return made;
   }
 
  private:
+  Kind kind_;
   std::size_t most_;
-  std::vector<std::pair<std::uint64_t, Candidate>> kept_;
+  std::vector<std::pair<std::uint64_t, Vertices>> kept_;  ///< a heap
 };
 
 /// The largest side of the box that the pair sweeps.
@@ -68,8 +71,9 @@ Query perturbed(Random& random, Query query, double size) {
 
 /// Moves the first figure, over the whole step alike, so that it touches the second one where the aim says.
 Query touching(Query query, const Aim& aim) {
-  const auto& [alpha, beta, time] = aim;
-  const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(time); };
+  const double alpha = aim.alpha;
+  const double beta = aim.beta;
+  const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(aim.time); };
   const bool triangle = query.kind == Kind::vertex_triangle;
   const Vector first = triangle ? at(0) : Vector((1 - alpha) * at(0) + alpha * at(1));
   const Vector second = triangle ? Vector((1 - alpha - beta) * at(1) + alpha * at(2) + beta * at(3))
@@ -100,9 +104,9 @@ Query changed(Random& random, const Query& pair, double size) {
 }  // namespace
 
 Family mesh_family(const MovingMesh& mesh, std::size_t most) {
-  std::array<Sample, kinds.size()> samples{Sample(most), Sample(most)};
+  std::array samples{Sample(kinds[0], most), Sample(kinds[1], most)};
   const auto number = [](Kind kind) { return static_cast<std::size_t>(kind); };
-  find_candidates(mesh, [&](const Candidate& candidate) { samples[number(candidate.kind)].add(candidate); });
+  find_candidates(mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each.vertices); });
 
   auto pairs = std::make_shared<std::array<std::vector<Query>, kinds.size()>>();
   for (const Kind kind : kinds) {
