@@ -64,7 +64,8 @@ Query query_of(Kind kind, const Meeting& m) {
   return query;
 }
 
-/// Figures of all sizes, thin ones, motion of all speeds and in their plane, contact on borders and ends.
+/// Figures of all sizes, thin ones, motion of all speeds and in their plane, or all of it near one plane,
+/// contact on borders and ends.
 Meeting draw(Random& random) {
   const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
@@ -84,6 +85,10 @@ Meeting draw(Random& random) {
   if (random.one_in(3))
     m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
           random.vector(some(1e-6, 1e-1));
+  if (random.one_in(4)) {
+    const double out_of_plane = random.log_uniform(1e-14, 1e-2);
+    for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
+  }
   m.gap.setZero();
   return m;
 }
