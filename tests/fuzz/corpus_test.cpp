@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "ccd/subject.hpp"
 #include "corpus/readers.hpp"
+#include "fuzz/defects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -45,6 +47,21 @@ TEST(Corpus, NoFalsePositiveIsBeyondTheBound) {
       EXPECT_FALSE(distance_exceeds(each.query, subject->distance_bound(each.query))) << each.name;
     }
   }
+}
+
+// A defect that misses nothing any more would measure nothing.
+TEST(Corpus, EachDefectMissesItsOwnCase) {
+  std::set<std::string> missed;
+  read_cases(NEARMISS_CORPUS "/defects", [&](const Case& each) {
+    const std::string start = "Missed by ";
+    ASSERT_TRUE(each.why.starts_with(start)) << each.name;
+    const std::string name = each.why.substr(start.size(), each.why.find(' ', start.size()) - start.size());
+    const auto defect = try_make_defect(name);
+    ASSERT_TRUE(defect) << each.name;
+    EXPECT_FALSE(defect->decide(each.query).hit) << each.name;
+    missed.insert(name);
+  });
+  EXPECT_GE(missed.size(), 35U);
 }
 
 // Each of Algorithm 2's candidate cases is needed by a query that no other case reports.
