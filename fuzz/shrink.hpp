@@ -1,8 +1,8 @@
 // Shrinking: the simplest query that still fails in the same way.
 #pragma once
 
-#include <compare>
 #include <functional>
+#include <tuple>
 
 #include "ccd/query.hpp"
 
@@ -17,7 +17,13 @@ struct Complexity {
   int exponents = 0;  ///< magnitudes of their exponents, all together
   int negative = 0;   ///< coordinates with a sign
 
-  auto operator<=>(const Complexity&) const = default;
+  bool operator==(const Complexity&) const = default;
+  bool operator<(const Complexity& other) const {
+    const auto key = [](const Complexity& c) {
+      return std::tie(c.numbers, c.moving, c.distinct, c.bits, c.exponents, c.negative);
+    };
+    return key(*this) < key(other);
+  }
 };
 
 Complexity complexity(const Query& query);

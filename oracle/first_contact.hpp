@@ -24,6 +24,6 @@ struct FirstContact {
 };
 
 /// Nothing where they never meet in [0, 1].
-std::optional<FirstContact> first_contact(const Predicates& predicates);
+std::optional<FirstContact> first_contact(Predicates& predicates);
 
 }  // namespace nearmiss::exact
