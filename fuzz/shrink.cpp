@@ -93,8 +93,8 @@ class Shrinker {
     return true;
   }
 
-  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a moving
-  /// one. No contact is lost where that is exact.
+  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a
+  /// moving one. No contact is lost where that is exact.
   void move_axes() {
     for (std::size_t k = 0; k < 3; ++k) {
       take([&](Coordinates& x) { replace(x, axis_set(k), [](double) { return 0.0; }); });
@@ -139,8 +139,8 @@ class Shrinker {
         });
   }
 
-  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of edges
-  /// thereby stay in their plane.
+  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of
+  /// edges thereby stay in their plane.
   void combine_vertices() {
     for (std::size_t vertex = 0; vertex < 4; ++vertex)
       for (std::size_t from = 0; from < 4; ++from)
@@ -164,8 +164,8 @@ class Shrinker {
         });
   }
 
-  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or by
-  /// a small number.
+  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or
+  /// by a small number.
   void scale() {
     std::vector<Set> sets{everything};
     for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -202,8 +202,8 @@ class Shrinker {
     return set;
   }
 
-  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in rounding
-  /// beside 1, or beside which 1 is; one with fewer bits.
+  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in
+  /// rounding beside 1, or beside which 1 is; one with fewer bits.
   void change_number(Set set) {
     const double magnitude = std::abs(best_.x[static_cast<std::size_t>(std::countr_zero(set))]);
     if (magnitude == 0) return;

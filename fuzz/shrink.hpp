@@ -28,10 +28,11 @@ struct Complexity {
 
 Complexity complexity(const Query& query);
 
-/// The simplest query that a failing one leads to by steps that each make it simpler, where `fails` tells of a
-/// query of the same kind whether it still fails: numbers become 0, small, short, or like others; vertices rest
-/// or coincide; all is moved, sheared and scaled. Greedy, until no step is left: what has been shrunk stays as
-/// it is. A pure function of both, and no more work than for some seconds. What does not fail stays as it is.
+/// The simplest query that a failing one leads to by steps that each make it simpler, where `fails` tells of
+/// a query of the same kind whether it still fails: numbers become 0, small, short, or like others; vertices
+/// rest or coincide; all is moved, sheared and scaled. Greedy, until no step is left: what has been shrunk
+/// stays as it is. A pure function of both, and no more work than for some seconds. What does not fail stays
+/// as it is.
 Query shrunk(const Query& query, const std::function<bool(const Query&)>& fails);
 
 }  // namespace nearmiss

@@ -18,8 +18,8 @@ struct OnSegment {
   Polynomial dot;
 };
 
-/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are first asked for. The
-/// coordinates are the query's, times one power of two that makes the largest about 1.
+/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are first asked for.
+/// The coordinates are the query's, times one power of two that makes the largest about 1.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they

@@ -120,7 +120,7 @@ TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(third).exponents, 2 + 1074);
 }
 
-// --- what it means to fail ----------------------------------------------------------------------------------
+// --- what it means to fail --------------------------------------------------------------------------------
 
 /// Reports everything; claims a bound; refuses a vertex that starts at z = 0.
 class Alarmist final : public Subject {
