@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is, and so is what is
-/// found; the queries of all shards together are those of the whole.
+/// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is, and so is what
+/// is found; the queries of all shards together are those of the whole.
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;

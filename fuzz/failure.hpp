@@ -22,9 +22,9 @@ std::string report_signature(Kind kind, Stage stage);
 /// together, such as "vt parity filter"; "" where all does.
 std::string disagreement_signature(Kind kind, const Answers& answers, bool collision);
 
-/// The signature with which a query fails by this kind of failure; nothing where it does not. Asks the oracle,
-/// and the subject where it is one of the subject's failures. By a recorded truth none fails: that is the truth
-/// of one query alone. Throws Error as the subject does.
+/// The signature with which a query fails by this kind of failure; nothing where it does not. Asks the
+/// oracle, and the subject where it is one of the subject's failures. By a recorded truth none fails: that is
+/// the truth of one query alone. Throws Error as the subject does.
 std::optional<std::string> failure(Finding::What what, const Subject* subject, const Query& query);
 
 /// The finding's query, shrunk to one that fails by the same kind of failure with the same signature. A query

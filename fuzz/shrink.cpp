@@ -13,9 +13,10 @@ namespace {
 
 using Coordinates = std::array<double, 24>;
 
-/// The number of coordinate k of a vertex at t = 0, 12 less than at t = 1. A path is both.
+/// The path of a vertex along axis k is two coordinates: this one at t = 0, and 12 later that at t = 1.
 constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * vertex + k; }
 constexpr std::size_t paths = 12;
+constexpr std::array<std::size_t, 2> times{0, paths};
 
 /// A set of coordinates, by the bits of their numbers.
 using Set = std::uint32_t;
@@ -47,7 +48,7 @@ int words(const Coordinates& x) {
   const auto all = magnitudes(x);
   if (all.empty()) return 1;
   int lowest = std::ilogb(all.front());
-  for (const double m : all) lowest = std::min(lowest, std::ilogb(m) - significant_bits(m));
+  for (const double m : all) lowest = std::min(lowest, std::ilogb(m) - significant_bits(m) + 1);
   return 1 + (std::ilogb(all.back()) - lowest) / 64;
 }
 
@@ -58,18 +59,19 @@ class Shrinker {
       : best_(query), complexity_(complexity(query)), fails_(fails) {}
 
   Query run() {
-    for (Query before{.kind = {}, .x = {1}}; best_ != before && work_ > 0;) {
+    Query before;
+    do {
       before = best_;
+      change_numbers();
       move_axes();
       shear_axes();
       join_vertices();
       combine_vertices();
       change_times();
       scale();
-      change_numbers();
       copy_paths();
       reorder();
-    }
+    } while (best_ != before && work_ > 0);
     return best_;
   }
 
@@ -83,8 +85,7 @@ class Shrinker {
     for (double& c : candidate.x) c += 0.0;  // of -0 makes 0
     if (!is_finite(candidate)) return false;
     const Complexity own = complexity(candidate);
-    if (own > complexity_ || (own == complexity_ && candidate.x >= best_.x)) return false;
-    if (work_ <= 0) return false;
+    if (complexity_ < own || (own == complexity_ && candidate.x >= best_.x) || work_ <= 0) return false;
     work_ -= words(candidate.x);
     if (!fails_(candidate)) return false;
     best_ = candidate;
@@ -92,8 +93,8 @@ class Shrinker {
     return true;
   }
 
-  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a moving
-  /// one. No contact is lost where that is exact.
+  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a
+  /// moving one. No contact is lost where that is exact.
   void move_axes() {
     for (std::size_t k = 0; k < 3; ++k) {
       take([&](Coordinates& x) { replace(x, axis_set(k), [](double) { return 0.0; }); });
@@ -133,13 +134,13 @@ class Shrinker {
     for (std::size_t to = 0; to < 4; ++to)
       for (std::size_t from = 0; from < 4; ++from)
         take([&](Coordinates& x) {
-          for (const std::size_t time : {std::size_t{0}, paths})
+          for (const std::size_t time : times)
             std::copy_n(x.begin() + time + path(from, 0), 3, x.begin() + time + path(to, 0));
         });
   }
 
-  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of edges
-  /// thereby stay in their plane.
+  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of
+  /// edges thereby stay in their plane.
   void combine_vertices() {
     for (std::size_t vertex = 0; vertex < 4; ++vertex)
       for (std::size_t from = 0; from < 4; ++from)
@@ -147,7 +148,7 @@ class Shrinker {
           for (const double factor : {1.0, 0.5, 2.0})
             take([&](Coordinates& x) {
               for (std::size_t k = 0; k < 3; ++k)
-                for (const std::size_t time : {std::size_t{0}, paths})
+                for (const std::size_t time : times)
                   x[time + path(vertex, k)] +=
                       factor * (best_.x[time + path(to, k)] - best_.x[time + path(from, k)]);
             });
@@ -156,15 +157,15 @@ class Shrinker {
   /// Motion starts or ends sooner or later.
   void change_times() {
     for (const double t : {-1.0, 0.25, 0.5, 0.75, 2.0})
-      for (const std::size_t end : {std::size_t{0}, paths})
+      for (const std::size_t end : times)
         take([&](Coordinates& x) {
           for (std::size_t i = 0; i < paths; ++i)
             x[end + i] = best_.x[i] + t * (best_.x[paths + i] - best_.x[i]);
         });
   }
 
-  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or by
-  /// a small number.
+  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or
+  /// by a small number.
   void scale() {
     std::vector<Set> sets{everything};
     for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -201,28 +202,27 @@ class Shrinker {
     return set;
   }
 
-  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in rounding
-  /// beside 1, or beside which 1 is; one with fewer bits.
-  bool change_number(Set set) {
+  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in
+  /// rounding beside 1, or beside which 1 is; one with fewer bits.
+  void change_number(Set set) {
     const double magnitude = std::abs(best_.x[static_cast<std::size_t>(std::countr_zero(set))]);
-    if (magnitude == 0) return false;
+    if (magnitude == 0) return;
     const auto become = [&](double other) {
       return take([&](Coordinates& x) { replace(x, set, [&](double c) { return c < 0 ? -other : other; }); });
     };
-    if (become(0)) return true;
+    if (become(0)) return;
     std::vector<double> others = magnitudes(best_.x);
     others.insert(others.begin(), {1, 2, 3, 4});
     others.insert(others.end(), {0x1p-53, 0x1p53});
     for (const double other : others)
-      if (become(other) || become(-other)) return true;
+      if (become(other) || become(-other)) return;
     const int bits = significant_bits(magnitude);
     for (const int fewer : {1, 2, 3, 4, 6, 8, 11, 15, 20, 26, 34, 44, bits - 1}) {
-      if (fewer >= bits) break;
+      if (fewer < 1 || fewer >= bits) continue;
       const double unit = std::ldexp(1.0, std::ilogb(magnitude) - fewer + 1);
       const double down = std::floor(magnitude / unit) * unit;
-      if (become(down) || become(down + unit)) return true;
+      if (become(down) || become(down + unit)) return;
     }
-    return false;
   }
 
   /// A coordinate rests at 0, or moves like another one or its negative.
@@ -231,7 +231,7 @@ class Shrinker {
       for (std::size_t from = 0; from < paths; ++from)
         for (const double sign : {0.0, 1.0, -1.0})
           take([&](Coordinates& x) {
-            for (const std::size_t time : {std::size_t{0}, paths}) x[time + to] = sign * x[time + from];
+            for (const std::size_t time : times) x[time + to] = sign * x[time + from];
           });
   }
 

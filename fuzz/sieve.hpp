@@ -19,8 +19,8 @@ class Sieve {
   Sieve(const Subjects& subjects, int jobs, const std::atomic<bool>& stop)
       : subjects_(subjects), jobs_(jobs), stop_(stop) {}
 
-  /// Takes the findings of the next trials and leaves those that are kept. Of several that are shrunk to the same
-  /// query only the first one is.
+  /// Takes the findings of the next trials and leaves those that are kept. Of several that are shrunk to the
+  /// same query only the first one is.
   void sift(std::vector<Finding>& findings);
 
  private:

@@ -15,7 +15,7 @@ namespace exact {
 namespace {
 
 /// How the figures meet at a time at which all four points are in one plane (see Predicates), if they do.
-std::optional<Meeting> meet_at(const Predicates& predicates, Root& t) {
+std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int side = t.sign_of(predicates.N(k));
     if (side == 0) continue;
@@ -55,29 +55,28 @@ bool are_proportional(const Polynomial& p, const Polynomial& q) {
 /// t*; were t* neither 0 nor a root of a predicate that is not identically zero, no predicate would change
 /// its sign in a neighbourhood of t*, and there would be collisions before t*. Of those with the same roots,
 /// as the three components of what stays in one plane, one is enough.
-std::vector<Polynomial> deciding_polynomials(const Predicates& predicates) {
+std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
-  const auto add = [&](Polynomial p) {
+  const auto add = [&](const Polynomial& p) {
     const auto same = [&](const Polynomial& q) { return are_proportional(p, q); };
-    if (p.degree() > 0 && std::none_of(deciding.begin(), deciding.end(), same))
-      deciding.push_back(std::move(p));
+    if (p.degree() > 0 && std::none_of(deciding.begin(), deciding.end(), same)) deciding.push_back(p);
   };
   for (std::size_t k = 0; k < 3; ++k) {
     add(predicates.N(k));
-    for (Polynomial& weight : predicates.weights(k)) add(std::move(weight));
+    for (const Polynomial& weight : predicates.weights(k)) add(weight);
   }
-  for (OnSegment& on : predicates.segments()) {
-    for (Polynomial& c : on.cross) add(std::move(c));
-    add(std::move(on.dot));
+  for (const OnSegment& on : predicates.segments()) {
+    for (const Polynomial& c : on.cross) add(c);
+    add(on.dot);
   }
   return deciding;
 }
 
 bool any_collision(const Query& query) {
-  const Predicates predicates(query);
+  Predicates predicates(query);
   const auto meet = [&](Root& t) { return meet_at(predicates, t).has_value(); };
   const auto meet_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, meet); };
-  const Polynomial F = predicates.F();
+  const Polynomial& F = predicates.F();
   if (!F.is_zero()) return meet_at_a_root(F);  // only there are the points in one plane
   Root start{Number(0)};
   if (meet(start)) return true;
@@ -118,8 +117,8 @@ std::string to_text(const std::optional<CGAL::Gmpq>& rational) {
 
 }  // namespace
 
-std::optional<FirstContact> first_contact(const Predicates& predicates) {
-  const Polynomial F = predicates.F();
+std::optional<FirstContact> first_contact(Predicates& predicates) {
+  const Polynomial& F = predicates.F();
   if (!F.is_zero()) {
     for (Root& t : roots_in_step(F))
       if (const auto meeting = meet_at(predicates, t)) return FirstContact{t, *meeting};
@@ -128,7 +127,8 @@ std::optional<FirstContact> first_contact(const Predicates& predicates) {
   Root start{Number(0)};
   if (const auto meeting = meet_at(predicates, start)) return FirstContact{start, *meeting};
   std::optional<FirstContact> first;
-  for (const Polynomial& p : deciding_polynomials(predicates))
+  for (const Polynomial& p : deciding_polynomials(predicates)) {
+    if (first && OnInterval(p, 0, first->time.hi()).changes() == 0) continue;  // no root before
     for (Root& t : roots_in_step(p)) {
       if (first && !t.is_below(first->time)) break;
       const auto meeting = meet_at(predicates, t);
@@ -136,6 +136,7 @@ std::optional<FirstContact> first_contact(const Predicates& predicates) {
       first = {t, *meeting};
       break;
     }
+  }
   return first;
 }
 
@@ -168,7 +169,8 @@ std::optional<ContactTime> earliest_time(const Query& query, double width) {
   if (!boxes_meet(query)) return std::nullopt;
   if (const FilterStage stage = filter(query); stage != FilterStage::undecided && !is_collision(stage))
     return std::nullopt;
-  auto contact = exact::first_contact(exact::Predicates(query));
+  exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
   if (!contact) return std::nullopt;
   return ContactTime{exact::enclose(contact->time, width), exact::to_text(contact->time.as_rational())};
 }

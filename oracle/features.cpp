@@ -23,7 +23,7 @@ Time time_class(const exact::Root& t) { return t.is(0) ? Time::start : t.is(1) ?
 }  // namespace
 
 std::optional<ContactFeatures> contact_features(const Query& query) {
-  const exact::Predicates predicates(query);
+  exact::Predicates predicates(query);
   auto contact = exact::first_contact(predicates);
   if (!contact) return std::nullopt;
   return ContactFeatures{multiplicity(predicates.F(), contact->time), time_class(contact->time),

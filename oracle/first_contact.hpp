@@ -10,11 +10,11 @@ namespace nearmiss::exact {
 
 /// How the figures meet at a time.
 struct Meeting {
-  /// How many weights vanish: none inside of triangle or edges, one on an edge or at one end, two in a vertex or
-  /// at two ends. Figures without a common normal always meet at a border: one or two.
+  /// How many weights vanish: none inside of triangle or edges, one on an edge or at one end, two in a vertex
+  /// or at two ends. Figures without a common normal always meet at a border: one or two.
   int vanishing_weights = 0;
-  bool degenerate =
-      false;  ///< no common normal: a triangle without an area, edges parallel or without a length
+  /// No common normal: a triangle without an area, edges parallel or without a length.
+  bool degenerate = false;
 };
 
 /// The earliest time at which they meet, and how.
@@ -24,6 +24,6 @@ struct FirstContact {
 };
 
 /// Nothing where they never meet in [0, 1].
-std::optional<FirstContact> first_contact(const Predicates& predicates);
+std::optional<FirstContact> first_contact(Predicates& predicates);
 
 }  // namespace nearmiss::exact

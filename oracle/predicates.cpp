@@ -14,16 +14,29 @@ OnSegment on_segment(const Vector& x, const Vector& a, const Vector& b) {
 
 Predicates::Predicates(const Query& query) : kind_(query.kind), x_(moving_points(query, unit(query))) {}
 
-Polynomial Predicates::F() const {
-  return dot(kind_ == Kind::vertex_triangle ? x_[0] - x_[1] : x_[2] - x_[0], {N(0), N(1), N(2)});
+const Polynomial& Predicates::F() {
+  if (!F_) F_ = dot(kind_ == Kind::vertex_triangle ? x_[0] - x_[1] : x_[2] - x_[0], {N(0), N(1), N(2)});
+  return *F_;
 }
 
-Polynomial Predicates::N(std::size_t k) const {
-  return kind_ == Kind::vertex_triangle ? cross(x_[2] - x_[1], x_[3] - x_[1], k)
-                                        : cross(x_[1] - x_[0], x_[3] - x_[2], k);
+const Polynomial& Predicates::N(std::size_t k) {
+  if (!N_[k])
+    N_[k] = kind_ == Kind::vertex_triangle ? cross(x_[2] - x_[1], x_[3] - x_[1], k)
+                                           : cross(x_[1] - x_[0], x_[3] - x_[2], k);
+  return *N_[k];
 }
 
-std::vector<Polynomial> Predicates::weights(std::size_t k) const {
+const std::vector<Polynomial>& Predicates::weights(std::size_t k) {
+  if (weights_[k].empty()) weights_[k] = make_weights(k);
+  return weights_[k];
+}
+
+const std::vector<OnSegment>& Predicates::segments() {
+  if (segments_.empty()) segments_ = make_segments();
+  return segments_;
+}
+
+std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
   if (kind_ == Kind::vertex_triangle) {
     const Vector a = x_[1] - x_[0];
     const Vector b = x_[2] - x_[0];
@@ -31,13 +44,13 @@ std::vector<Polynomial> Predicates::weights(std::size_t k) const {
     return {cross(b, c, k), cross(c, a, k), cross(a, b, k)};
   }
   const Vector x20 = x_[2] - x_[0];
-  const Polynomial normal = N(k);
+  const Polynomial& normal = N(k);
   const Polynomial alpha = cross(x20, x_[3] - x_[2], k);
   const Polynomial beta = cross(x20, x_[1] - x_[0], k);
   return {alpha, normal - alpha, beta, normal - beta};
 }
 
-std::vector<OnSegment> Predicates::segments() const {
+std::vector<OnSegment> Predicates::make_segments() const {
   const auto& [x0, x1, x2, x3] = x_;
   if (kind_ == Kind::vertex_triangle)
     return {on_segment(x0, x1, x2), on_segment(x0, x2, x3), on_segment(x0, x3, x1)};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "ccd/query.hpp"
@@ -17,8 +18,8 @@ struct OnSegment {
   Polynomial dot;
 };
 
-/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are asked for. The
-/// coordinates are the query's, times one power of two that makes the largest about 1.
+/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are first asked for.
+/// The coordinates are the query's, times one power of two that makes the largest about 1.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they
@@ -31,14 +32,21 @@ class Predicates {
  public:
   explicit Predicates(const Query& query);
 
-  [[nodiscard]] Polynomial F() const;
-  [[nodiscard]] Polynomial N(std::size_t k) const;
-  [[nodiscard]] std::vector<Polynomial> weights(std::size_t k) const;
-  [[nodiscard]] std::vector<OnSegment> segments() const;
+  const Polynomial& F();
+  const Polynomial& N(std::size_t k);
+  const std::vector<Polynomial>& weights(std::size_t k);
+  const std::vector<OnSegment>& segments();
 
  private:
+  [[nodiscard]] std::vector<Polynomial> make_weights(std::size_t k);
+  [[nodiscard]] std::vector<OnSegment> make_segments() const;
+
   Kind kind_;
   std::array<Vector, 4> x_;
+  std::optional<Polynomial> F_;
+  std::array<std::optional<Polynomial>, 3> N_;
+  std::array<std::vector<Polynomial>, 3> weights_;
+  std::vector<OnSegment> segments_;
 };
 
 }  // namespace nearmiss::exact

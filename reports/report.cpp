@@ -61,7 +61,7 @@ Shown shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
   return {finding, seen, {file + ".case", std::move(shrunk)}, {file + "-original.case", std::move(original)}};
 }
 
-/// The findings to show, with their files, numbered for each subject and sort: the first ones of each signature.
+/// The findings to show, the first ones of each signature, with files numbered for each subject and sort.
 std::vector<Shown> shown_findings(const Campaign& campaign) {
   std::map<Signature, std::size_t> count;
   std::map<std::pair<Finding::What, std::string>, std::size_t> number;

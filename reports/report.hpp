@@ -17,8 +17,8 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const std::optional
 /// Writes the folder, whole or not at all:
 ///  - index.html: self-contained, opens offline; it only draws report.json, which is inside it;
 ///  - report.json; statistics.csv, distances.csv and findings.csv with everything there is;
-///  - cases/: findings, shrunk and as they were found, and the farthest false positives as *.case files, ready
-///    for nearmiss replay.
+///  - cases/: findings, shrunk and as they were found, and the farthest false positives as *.case files, for
+///    nearmiss replay.
 /// An earlier report is replaced. Throws Error where the folder is something else or cannot be written.
 void write_report(const Campaign& campaign, const std::optional<Campaign>& baseline,
                   const std::filesystem::path& folder);

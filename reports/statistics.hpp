@@ -139,7 +139,10 @@ struct Signature {
   std::string subject;
   std::string text;  ///< Finding::signature
 
-  auto operator<=>(const Signature&) const = default;
+  bool operator==(const Signature&) const = default;
+  bool operator<(const Signature& other) const {
+    return std::tie(what, subject, text) < std::tie(other.what, other.subject, other.text);
+  }
 };
 
 inline Signature signature_of(const Finding& finding) {

@@ -46,16 +46,15 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-std::string show(const Complexity& complexity) {
-  return fmt::format("{} distinct numbers of {} bits in all", complexity.distinct, complexity.bits);
-}
-
 void run(const Options& options) {
   const auto subject = make_any_subject(options.subject);
   const Case each = read_one(options.in);
   const Finding finding = find_failure(each, *subject);
   const Query shrunk = shrunk_query(finding, subject.get());
-  const std::string became = fmt::format("{} -> {}", show(complexity(each.query)), show(complexity(shrunk)));
+  const Complexity before = complexity(each.query);
+  const Complexity after = complexity(shrunk);
+  const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
+                                         before.distinct, after.distinct, before.bits, after.bits);
   const Case result{
       .name = {},
       .query = shrunk,

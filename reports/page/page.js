@@ -92,13 +92,14 @@ function drawQuery(x) {
   return node;
 }
 
+/** How to see it again, the shrunk query, and, when asked for, the query as it was found. */
 function drawShrunk(finding) {
   const node = document.createElement("div");
-  node.append(drawQuery(finding.shrunk));
   const original = document.createElement("details");
   original.append(document.createElement("summary"), drawQuery(finding.original));
   original.firstChild.textContent = finding.original_file;
-  node.append(original);
+  node.append(code(`nearmiss replay ${finding.file}${finding.subject ? " --subject " + finding.subject : ""}`),
+    drawQuery(finding.shrunk), original);
   return node;
 }
 
@@ -114,7 +115,6 @@ function drawFindings() {
     text("what", "what"), text("subject", "subject"), text("in which way", "signature"), count("times seen", "seen"),
     text("from", "provenance"), { title: "distance / bound", number: (r) => r.ratio, text: (r) => (r.ratio ? short(r.ratio) : "") },
     { title: "shrunk", text: drawShrunk },
-    { title: "replay", text: (r) => code(`nearmiss replay ${r.file}${r.subject ? " --subject " + r.subject : ""}`) },
   ], report.findings);
 }
 

@@ -1,5 +1,5 @@
-/* A complete plug-in: answers every query with the fixed return value that it was compiled with, and claims the
- * fixed distance bound, if any. */
+/* A complete plug-in: answers every query with the fixed return value that it was compiled with, and claims
+ * the fixed distance bound, if any. */
 #include <stddef.h>
 
 #include "ccd/nearmiss_subject.h"
