@@ -11,6 +11,7 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/csv.hpp"
+#include "reports/finding_case.hpp"
 #include "reports/page.hpp"
 #include "reports/summary.hpp"
 
@@ -31,31 +32,15 @@ struct Exported {
   Case content;
 };
 
-/// A name that is a good file name: letters, digits, '-', '.' and '_' stay.
-std::string file_name(std::string text) {
-  for (char& c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
-  return text;
-}
-
-Exported exported(const Finding& finding, std::size_t number) {
-  const std::string subject = finding.subject.empty() ? "oracle" : finding.subject;
-  std::string why = fmt::format("{} of {}", name(finding.what), subject);
-  if (finding.ratio > 0) why += fmt::format(", at {:.3g} of the bound", finding.ratio);
-  Case content{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
-  if (finding.what == Finding::What::false_negative) content.truth = true;
-  if (finding.what == Finding::What::refuted_bound) content.truth = false;
-  return {file_name(fmt::format("{}-{}-{:03}.case", name(finding.what), subject, number)),
-          std::move(content)};
-}
-
 /// The findings to show, with their files: the first ones of each subject and sort.
 std::vector<std::pair<const Finding*, Exported>> shown_findings(const Campaign& campaign) {
   std::map<std::pair<Finding::What, std::string>, std::size_t> numbers;
   std::vector<std::pair<const Finding*, Exported>> shown;
   for (const Finding& finding : campaign.findings) {
     const std::size_t number = ++numbers[{finding.what, finding.subject}];
-    if (number <= shown_of_each) shown.emplace_back(&finding, exported(finding, number));
+    if (number > shown_of_each) continue;
+    shown.emplace_back(&finding,
+                       Exported{case_file_name(finding, fmt::format("{:03}", number)), to_case(finding)});
   }
   return shown;
 }
