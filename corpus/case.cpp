@@ -36,7 +36,7 @@ Line split_line(std::string_view text) {
 
 std::string to_text(const Case& each) {
   std::string text;
-  std::istringstream why(each.why);
+  std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // an empty last line counts
   for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", line);
   text += fmt::format("kind {}\n", short_name(each.query.kind));
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);
@@ -51,6 +51,7 @@ std::string to_text(const Case& each) {
 Case parse_case(std::istream& in, const std::string& file) {
   Case result;
   result.name = file;
+  bool why_seen = false;
   bool kind_seen = false;
   std::array<bool, 8> seen{};
   int number = 0;
@@ -59,7 +60,8 @@ Case parse_case(std::istream& in, const std::string& file) {
     const auto [label, value] = split_line(text);
     if (label.empty()) continue;
     if (label.starts_with('#')) {
-      if (!result.why.empty()) result.why += '\n';
+      if (why_seen) result.why += '\n';
+      why_seen = true;
       result.why += trimmed(std::string_view(text).substr(text.find('#') + 1));
       continue;
     }

@@ -1,7 +1,5 @@
 #include "fuzz/mesh.hpp"
 
-#include <CGAL/IO/OBJ.h>
-#include <CGAL/Simple_cartesian.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
@@ -36,66 +35,81 @@ long face_vertex(const std::string& word, const std::string& where) {
   return index;
 }
 
-/// The library's reader says only that something is wrong; this says what and where. It keeps nothing.
-void check_obj(std::istream& in, const std::string& name) {
-  struct Face {
-    long line;
-    long largest;
-  };
-  std::vector<Face> faces;
-  long vertices = 0;
-  long number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::string where = fmt::format("{}:{}", name, ++number);
-    const auto found = words(line);
-    if (found.empty()) continue;
-    if (found[0] == "v") {
-      if (found.size() < 4)
-        throw Error(fmt::format("{}: found {} coordinates of a vertex, expected 3", where, found.size() - 1));
-      for (std::size_t i = 1; i < 4; ++i) parse_number(found[i], where);
-      ++vertices;
-    } else if (found[0] == "f") {
-      if (found.size() < 4)
-        throw Error(
-            fmt::format("{}: found a face of {} vertices, expected at least 3", where, found.size() - 1));
-      Face face{number, 0};
-      for (std::size_t i = 1; i < found.size(); ++i) {
-        const long index = face_vertex(found[i], where);
-        if (index == 0 || index < -vertices)
-          throw Error(fmt::format("{}: found vertex {} in a face, expected 1 or more, or -{} to -1", where,
-                                  index, vertices));
-        face.largest = std::max(face.largest, index);
-      }
-      faces.push_back(face);
-    }
+Vector3<double> coordinates(const std::vector<std::string>& statement, const std::string& where) {
+  if (statement.size() < 4)
+    throw Error(fmt::format("{}: found {} coordinates of a vertex, expected 3", where, statement.size() - 1));
+  return {parse_number(statement[1], where), parse_number(statement[2], where),
+          parse_number(statement[3], where)};
+}
+
+/// The vertices of a face, counted from 1; `vertices` were defined before it.
+std::vector<long> face_vertices(const std::vector<std::string>& statement, long vertices,
+                                const std::string& where) {
+  if (statement.size() < 4)
+    throw Error(
+        fmt::format("{}: found a face of {} vertices, expected at least 3", where, statement.size() - 1));
+  std::vector<long> found;
+  for (std::size_t i = 1; i < statement.size(); ++i) {
+    const long index = face_vertex(statement[i], where);
+    if (index == 0 || index < -vertices)
+      throw Error(fmt::format("{}: found vertex {} in a face, expected 1 or more, or -{} to -1", where, index,
+                              vertices));
+    found.push_back(index > 0 ? index : vertices + 1 + index);
   }
-  if (faces.empty()) throw Error(fmt::format("{}: found no face in {} lines, expected a mesh", name, number));
-  for (const Face& face : faces)
-    if (face.largest > vertices)
-      throw Error(fmt::format("{}:{}: found vertex {} in a face, expected at most {}, the number of vertices",
-                              name, face.line, face.largest, vertices));
+  return found;
+}
+
+/// What else the format has; a line that starts with another word is none of an OBJ file.
+bool is_passed_over(const std::string& keyword) {
+  static const std::set<std::string_view> keywords{
+      "vt",     "vn",     "vp",         "cstype",    "deg",  "bmat",     "step",     "p",      "l",
+      "curv",   "curv2",  "surf",       "parm",      "trim", "hole",     "scrv",     "sp",     "end",
+      "con",    "g",      "s",          "mg",        "o",    "bevel",    "lod",      "usemap", "maplib",
+      "usemtl", "mtllib", "shadow_obj", "ctech",     "call", "c_interp", "d_interp", "csh",    "stech",
+      "bsp",    "bzp",    "cdc",        "trace_obj", "cdp",  "res"};
+  return keyword.starts_with('#') || keywords.contains(keyword);
 }
 
 }  // namespace
 
-Mesh read_obj(const fs::path& file) {
-  const std::string name = file.string();
-  std::ifstream in(file);
-  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", name));
-  check_obj(in, name);
-  in.clear();
-  in.seekg(0);
-  std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-  if (!CGAL::IO::read_OBJ(in, points, polygons))
-    throw Error(fmt::format("{}: found a line that is not of the OBJ format", name));
-
+Mesh parse_obj(std::istream& in, const std::string& name) {
+  struct Face {
+    long line;
+    std::vector<long> vertices;
+  };
   Mesh mesh;
-  for (const auto& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
-  for (const auto& polygon : polygons)
-    for (std::size_t i = 2; i < polygon.size(); ++i)
+  std::vector<Face> faces;
+  long number = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string where = fmt::format("{}:{}", name, ++number);
+    const auto statement = words(line);
+    if (statement.empty()) continue;
+    if (statement[0] == "v")
+      mesh.points.push_back(coordinates(statement, where));
+    else if (statement[0] == "f")
+      faces.push_back({number, face_vertices(statement, static_cast<long>(mesh.points.size()), where)});
+    else if (!is_passed_over(statement[0]))
+      throw Error(fmt::format("{}: found '{}', expected a line of the OBJ format", where, statement[0]));
+  }
+  if (faces.empty()) throw Error(fmt::format("{}: found no face in {} lines, expected a mesh", name, number));
+  const auto vertices = static_cast<long>(mesh.points.size());
+  for (const auto& [line, face] : faces) {
+    const long largest = *std::max_element(face.begin(), face.end());
+    if (largest > vertices)  // a face may come before its vertices
+      throw Error(fmt::format("{}:{}: found vertex {} in a face, expected at most {}, the number of vertices",
+                              name, line, largest, vertices));
+    for (std::size_t i = 2; i < face.size(); ++i)
       mesh.triangles.push_back(
-          {static_cast<int>(polygon[0]), static_cast<int>(polygon[i - 1]), static_cast<int>(polygon[i])});
+          {static_cast<int>(face[0] - 1), static_cast<int>(face[i - 1] - 1), static_cast<int>(face[i] - 1)});
+  }
+  return mesh;
+}
+
+Mesh read_obj(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
+  Mesh mesh = parse_obj(in, file.string());
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", file.string()));
   return mesh;
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <filesystem>
+#include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "ccd/query.hpp"
@@ -15,9 +17,13 @@ struct Mesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Reads an OBJ file: vertices and faces (polygons become fans of triangles), all else is passed over. Throws
-/// Error with file and line for what is no finite number, a face with a vertex that does not exist or with
-/// fewer than three, and for a file that cannot be read or has no face.
+/// Reads an OBJ file: vertices and faces (polygons become fans of triangles), all else that the format has is
+/// passed over. `name` stands for the file in messages. Throws Error with file and line for what is no finite
+/// number, a face with a vertex that does not exist or with fewer than three, a line that is not of the format,
+/// and for a file without a face.
+Mesh parse_obj(std::istream& in, const std::string& name);
+
+/// The same from a file; throws Error where it cannot be read, too.
 Mesh read_obj(const std::filesystem::path& file);
 
 /// A mesh whose points move linearly.

@@ -11,6 +11,7 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/csv.hpp"
+#include "reports/finding_case.hpp"
 #include "reports/page.hpp"
 #include "reports/summary.hpp"
 
@@ -37,28 +38,19 @@ struct Shown {
   Exported shrunk, original;
 };
 
-/// A name that is a good file name: letters, digits, '-', '.' and '_' stay.
-std::string file_name(std::string text) {
-  for (char& c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
-  return text;
-}
-
 Shown shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
-  const std::string subject = finding.subject.empty() ? "oracle" : finding.subject;
-  const std::string file = file_name(fmt::format("{}-{}-{:03}", name(finding.what), subject, number));
-  const std::string why = fmt::format("{} of {}: {}; times seen: {}", name(finding.what), subject,
-                                      finding.signature, with_separators(seen));
-  Case shrunk{.name = {}, .query = finding.shrunk, .truth = {}, .why = why, .provenance = {}};
-  if (finding.what == Finding::What::false_negative) shrunk.truth = true;
-  if (finding.what == Finding::What::refuted_bound) shrunk.truth = false;
-  Case original = shrunk;
-  shrunk.provenance = "shrunk from " + finding.provenance;
-  original.query = finding.query;
-  original.provenance = finding.provenance;
-  original.why += "; before it was shrunk";
-  if (finding.ratio > 0) original.why += fmt::format(", at {:.3g} of the bound", finding.ratio);
-  return {finding, seen, {file + ".case", std::move(shrunk)}, {file + "-original.case", std::move(original)}};
+  Finding simplest = finding;
+  simplest.query = finding.shrunk;
+  simplest.ratio = 0;  // that of the query that was found
+  simplest.provenance = "shrunk from " + finding.provenance;
+  const auto exported = [&](const Finding& what, std::string_view suffix) {
+    Exported result{case_file_name(what, fmt::format("{:03}{}", number, suffix)), to_case(what)};
+    result.content.why += fmt::format(": {}; times seen: {}", finding.signature, with_separators(seen));
+    return result;
+  };
+  Shown result{finding, seen, exported(simplest, ""), exported(finding, "-original")};
+  result.original.content.why += "; before it was shrunk";
+  return result;
 }
 
 /// The findings to show, the first ones of each signature, with files numbered for each subject and sort.

@@ -93,6 +93,15 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
+TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
+  for (const char* why : {"\nsecond", "first\n", "first\n\nthird", "\n"}) {
+    Case each;
+    each.why = why;
+    std::istringstream in(to_text(each));
+    EXPECT_EQ(parse_case(in, "x.case").why, why);
+  }
+}
+
 TEST_F(Files, AWrittenCaseIsRead) {
   Case each;
   each.query = testing::falling_edge(1, -1);

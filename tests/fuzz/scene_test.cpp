@@ -44,6 +44,14 @@ TEST_F(MeshTest, CoordinatesAreReadToTheLastBit) {
   EXPECT_EQ(mesh.points[0], Vector3<double>(0.087606608360884852, 0.1, 1e-310));
 }
 
+TEST_F(MeshTest, AnyBlanksSeparate) {
+  const std::string long_word = "3/" + std::string(300, '0') + "1";
+  const Mesh mesh =
+      read_obj(write("a.obj", "v\t0 0\t 0\nv 1 0 0\n v 0 1 0\nf 1\t2/1/1\t" + long_word + "\n"));
+  EXPECT_EQ(mesh.points[2], Vector3<double>(0, 1, 0));
+  EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}));
+}
+
 TEST_F(MeshTest, PolygonsBecomeTriangles) {
   const Mesh mesh = read_obj(write("a.obj", std::string(square) + "f 1 2 3 4\n"));
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
@@ -64,7 +72,8 @@ TEST_F(MeshTest, BadInputIsNamedWithItsLine) {
   expect_refused("v 0 0\n", ":1: found 2 coordinates of a vertex");
   expect_refused(square, ": found no face");
   expect_refused("", ": found no face");
-  expect_refused(std::string(square) + "f 1 2 3\nrubbish\n", ": found a line that is not of the OBJ format");
+  expect_refused(std::string(square) + "f 1 2 3\nrubbish\n",
+                 ":6: found 'rubbish', expected a line of the OBJ format");
   EXPECT_THAT([&] { read_obj(file("none.obj")); },
               ThrowsMessage<Error>(HasSubstr("none.obj: cannot be read")));
 }

@@ -17,6 +17,7 @@ endif()
 
 if(NEARMISS_LIBFUZZER)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage in all of our code
+  add_link_options(-fsanitize=undefined)  # a runtime for it where libFuzzer is none
 endif()
 
 # nearmiss_options(TARGET): our own code compiles without a warning; includes are from the top, "folder/file.hpp".

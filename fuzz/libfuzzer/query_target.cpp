@@ -1,0 +1,125 @@
+#include "fuzz/libfuzzer/query_target.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/libfuzzer/query_bytes.hpp"
+#include "fuzz/mutation.hpp"
+#include "fuzz/subjects.hpp"
+#include "reports/finding_case.hpp"
+
+namespace nearmiss::libfuzzer {
+
+namespace {
+
+constexpr std::size_t signals = 7;
+constexpr std::size_t values = 128;
+
+// libFuzzer clears these before each run, and takes each that is set afterwards for something covered.
+[[gnu::used,
+  gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds.size() * values>
+    counters;
+
+std::string environment(const char* name, const char* otherwise) {
+  const char* const value = std::getenv(name);
+  return value != nullptr ? value : otherwise;
+}
+
+}  // namespace
+
+const Subject& subject() {
+  static const auto subject = make_any_subject(environment("NEARMISS_SUBJECT", "wang"));
+  return *subject;
+}
+
+void show(Signal signal, Kind kind, std::size_t value) {
+  const auto row = static_cast<std::size_t>(signal) * kinds.size() + static_cast<std::size_t>(kind);
+  counters[row * values + std::min(value, values - 1)] = 1;
+}
+
+void show_factor(Signal signal, Kind kind, double factor) {
+  if (std::isnan(factor)) return;
+  // Four steps whenever the exponent -log2(factor) halves, from 2^8 down to 2^-10.
+  const double exponent = std::clamp(-std::log2(factor), 0x1p-10, 0x1p8);
+  show(signal, kind, static_cast<std::size_t>(4 * (std::log2(exponent) + 10)));
+}
+
+void fail(Finding::What what, const Query& query, double ratio) {
+  Finding finding{.what = what,
+                  .subject = subject().name(),
+                  .family = "libfuzzer",
+                  .query = query,
+                  .provenance = "libfuzzer",
+                  .ratio = ratio};
+  if (what == Finding::What::oracle_disagreement) finding.subject.clear();
+  const std::string line = to_line(query);
+  const std::filesystem::path folder = environment("NEARMISS_CASES", ".");
+  std::filesystem::create_directories(folder);
+  const auto id = fmt::format("{:016x}", std::hash<std::string>()(line));
+  const auto file = folder / case_file_name(finding, id);
+  write_case(to_case(finding), file);
+  fmt::print(stderr, "{}: {}: {} {}\n", to_case(finding).why, file.string(), short_name(query.kind), line);
+  std::abort();
+}
+
+}  // namespace nearmiss::libfuzzer
+
+// --- the functions that libFuzzer looks for --------------------------------------------------------------
+
+namespace {
+
+using namespace nearmiss;
+using namespace nearmiss::libfuzzer;
+
+/// What is no query is mended by starting from one.
+Query query_of(const std::uint8_t* data, std::size_t size) {
+  return from_bytes(data, size).value_or(Query{});
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  try {
+    (void)subject();
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    std::exit(2);
+  }
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto query = from_bytes(data, size);
+  if (!query) return -1;
+  examine(*query);
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+  if (max_size < query_bytes) return 0;
+  Random random(seed, 0, 0);
+  to_bytes(mutated(random, query_of(data, size)), data);
+  return query_bytes;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* first, std::size_t first_size,
+                                                 const std::uint8_t* second, std::size_t second_size,
+                                                 std::uint8_t* out, std::size_t max_size, unsigned seed) {
+  if (max_size < query_bytes) return 0;
+  Random random(seed, 1, 0);
+  to_bytes(crossed(random, query_of(first, first_size), query_of(second, second_size)), out);
+  return query_bytes;
+}

@@ -1,0 +1,50 @@
+#include "fuzz/libfuzzer/reader_target.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+
+namespace nearmiss::libfuzzer {
+
+namespace {
+
+/// Unlike ==, tells 0 from -0.
+bool same_bits(const Query& a, const Query& b) {
+  return a.kind == b.kind && std::memcmp(a.x.data(), b.x.data(), sizeof a.x) == 0;
+}
+
+}  // namespace
+
+void expect(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "expected %s\n", what);
+  std::abort();
+}
+
+void expect_round_trip(const Case& each) {
+  std::istringstream text(to_text(each));
+  const Case again = parse_case(text, "again");
+  expect(same_bits(again.query, each.query), "the same query");
+  expect(again.truth == each.truth, "the same truth");
+  expect(again.why == each.why, "the same reason");
+  expect(again.provenance == each.provenance, "the same provenance");
+  expect(same_bits(parse_line(each.query.kind, to_line(each.query), "again"), each.query), "the same line");
+}
+
+}  // namespace nearmiss::libfuzzer
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream in(std::string(reinterpret_cast<const char*>(data), size));
+  try {
+    nearmiss::libfuzzer::read(in);
+  } catch (const nearmiss::Error&) {
+    return 0;  // refused
+  }
+  return 0;
+}

@@ -1,0 +1,22 @@
+// libFuzzer: a false positive that is farther away than the subject claims.
+#include <cmath>
+
+#include "fuzz/libfuzzer/query_target.hpp"
+#include "fuzz/libfuzzer/untraced.hpp"
+#include "oracle/oracle.hpp"
+
+void nearmiss::libfuzzer::examine(const Query& query) {
+  const Verdict verdict = subject().decide(query);
+  if (!verdict.hit) return;
+  const Decision truth = untraced([&] { return decide(query); });
+  show(Signal::filter_stage, query.kind, static_cast<std::size_t>(truth.stage));
+  show(truth.collision ? Signal::true_stage : Signal::false_stage, query.kind,
+       static_cast<std::size_t>(verdict.stage));
+  if (truth.collision) return;
+  const double bound = subject().distance_bound(query);
+  if (!std::isfinite(bound)) return;  // nothing is claimed
+  const double ratio = untraced([&] { return closest_approach(query).hi; }) / bound;
+  if (ratio > 1 && untraced([&] { return distance_exceeds(query, bound); }))
+    fail(Finding::What::refuted_bound, query, ratio);
+  show_factor(Signal::distance, query.kind, ratio);
+}

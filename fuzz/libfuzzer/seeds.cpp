@@ -1,0 +1,97 @@
+// Writes the inputs that libFuzzer starts from: fuzz_seeds CASES FOLDER makes FOLDER/TARGET/... for every target
+// of the cases in CASES and of some queries of each family.
+#include <fmt/format.h>
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "corpus/file.hpp"
+#include "corpus/query_text.hpp"
+#include "corpus/readers.hpp"
+#include "fuzz/families.hpp"
+#include "fuzz/libfuzzer/query_bytes.hpp"
+
+namespace nearmiss::libfuzzer {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
+  constexpr std::uint64_t of_each_family = 10;
+  std::vector<Case> cases;
+  for (const fs::path& folder : folders)
+    read_cases(folder, [&](Case&& each) {
+      std::replace(each.name.begin(), each.name.end(), '/', '-');
+      cases.push_back(std::move(each));
+    });
+  for (const Family& family : families()) {
+    for (std::uint64_t i = 0; i < of_each_family; ++i) {
+      Case each;
+      each.query = make_query(family, 1, i);
+      each.name = fmt::format("{}-{}", family.name, i);
+      cases.push_back(std::move(each));
+    }
+  }
+  return cases;
+}
+
+std::string bytes(const Query& query) {
+  std::array<std::uint8_t, query_bytes> data{};
+  to_bytes(query, data.data());
+  return {data.begin(), data.end()};
+}
+
+std::string sample_csv(const Case& each) {
+  std::string text;
+  for (std::size_t i = 0; i < 24; ++i) {
+    const mpq_class c(each.query.x[i]);
+    text += fmt::format("{},{},", c.get_num().get_str(), c.get_den().get_str());
+    if (i % 3 == 2) text += fmt::format("{}\n", each.truth.value_or(false) ? 1 : 0);
+  }
+  return text;
+}
+
+std::string obj(const Query& query) {
+  std::string text = "# eight points\no figure\n";
+  for (std::size_t i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", query.x[3 * i], query.x[3 * i + 1], query.x[3 * i + 2]);
+  return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";
+}
+
+void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
+  const auto write = [&](const char* target, const std::string& name, const std::string& text) {
+    fs::create_directories(folder / target);
+    replace_file(folder / target / name, text);
+  };
+  for (const Case& each : make_cases(cases)) {
+    for (const char* target : {"false_negative", "refuted_bound", "oracle_disagreement"})
+      write(target, each.name, bytes(each.query));
+    write("read_case", each.name, to_text(each));
+    write("read_csv", each.name, sample_csv(each));
+    write("read_queries", each.name, fmt::format("# {}\n{}\n", each.name, to_line(each.query)));
+    write("read_obj", each.name, obj(each.query));
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss::libfuzzer
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "usage: fuzz_seeds FOLDER CASES...\n");
+    return 2;
+  }
+  try {
+    nearmiss::libfuzzer::write_seeds(argv[1], {argv + 2, argv + argc});
+  } catch (const nearmiss::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,421 @@
+// Mutations: finite, pure functions, and each changes what its name says.
+#include "fuzz/mutation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "ccd/cubic.hpp"
+#include "fuzz/families.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/sturm.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+const Mutation& mutation(std::string_view name) {
+  const auto all = mutations();
+  return *std::find_if(all.begin(), all.end(), [&](const Mutation& each) { return each.name == name; });
+}
+
+std::vector<Query> some_queries(std::string_view family) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < 1000; ++i) queries.push_back(make_query(find_family(family), 1, i));
+  return queries;
+}
+
+/// Applies a sort of mutation to queries of a family; the check must hold for all that change, and at least
+/// half must.
+void expect_of(std::string_view name, std::string_view family,
+               const std::function<bool(const Query& before, const Query& after)>& holds) {
+  int changed = 0;
+  std::uint64_t number = 0;
+  const auto queries = some_queries(family);
+  for (const Query& before : queries) {
+    Random random(2, 0, number++);
+    const Query after = mutation(name).apply(random, before);
+    if (after == before) continue;
+    ++changed;
+    ASSERT_TRUE(holds(before, after)) << name << ", " << family << ", " << number - 1;
+  }
+  EXPECT_GE(changed, static_cast<int>(queries.size() / 2)) << name << ", " << family;
+}
+
+/// How many queries of a family collide after a sort of mutation, of 1000.
+int collisions_after(std::string_view name, std::string_view family) {
+  int collisions = 0;
+  std::uint64_t number = 0;
+  for (const Query& before : some_queries(family)) {
+    Random random(2, 0, number++);
+    collisions += collides(mutation(name).apply(random, before)) ? 1 : 0;
+  }
+  std::cout << name << " " << family << ": " << collisions << " of 1000 collide\n";
+  return collisions;
+}
+
+/// The positions, 0 .. 3 at t = 0 and 4 .. 7 at t = 1, that differ.
+std::set<int> changed_positions(const Query& before, const Query& after) {
+  std::set<int> changed;
+  for (std::size_t i = 0; i < 24; ++i)
+    if (before.x[i] != after.x[i]) changed.insert(static_cast<int>(i / 3));
+  return changed;
+}
+
+std::set<int> changed_vertices(const Query& before, const Query& after) {
+  std::set<int> vertices;
+  for (const int position : changed_positions(before, after)) vertices.insert(position % 4);
+  return vertices;
+}
+
+double largest(const Query& query) {
+  double result = 0;
+  for (const double c : query.x) result = std::max(result, std::abs(c));
+  return result;
+}
+
+double velocity_difference(const Query& query, int i, const Vector3<double>& velocity) {
+  return (query.end(i) - query.start(i) - velocity).norm();
+}
+
+TEST(Mutation, UlpsAreFew) {
+  expect_of("ulps", "uniform", [](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i)
+      if (std::abs(after.x[i] - before.x[i]) > 256 * std::numeric_limits<double>::epsilon() * largest(before))
+        return false;
+    return true;
+  });
+}
+
+TEST(Mutation, AFractionIsAtMostTheExtent) {
+  expect_of("fraction", "uniform", [](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i)
+      if (std::abs(after.x[i] - before.x[i]) > 3) return false;  // coordinates are in [-1, 2]
+    const std::size_t positions = changed_positions(before, after).size();
+    return positions == 1 || positions == 8;
+  });
+}
+
+TEST(Mutation, ExponentsChangeAloneOrGoToAnEndOfTheirRange) {
+  const auto digits = [](double c) {
+    int exponent = 0;
+    return std::abs(std::frexp(c, &exponent));
+  };
+  const std::set<double> ends{0.0, 0.5, digits(std::numeric_limits<double>::max())};
+  expect_of("exponent", "uniform", [&](const Query& before, const Query& after) {
+    int changed = 0;
+    for (std::size_t i = 0; i < 24; ++i) {
+      if (digits(after.x[i]) != digits(before.x[i]) && ends.count(digits(after.x[i])) == 0) return false;
+      changed += after.x[i] != before.x[i] ? 1 : 0;
+    }
+    return changed <= 3;
+  });
+}
+
+TEST(Mutation, ACopiedCoordinateIsAnotherOrItsNegation) {
+  expect_of("copy-coordinate", "uniform", [](const Query& before, const Query& after) {
+    std::set<double> magnitudes;
+    for (const double c : before.x) magnitudes.insert(std::abs(c));
+    return std::all_of(after.x.begin(), after.x.end(),
+                       [&](double c) { return magnitudes.count(std::abs(c)) == 1; });
+  });
+}
+
+TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
+  expect_of("round", "uniform", [](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i) {
+      const double units = std::ldexp(after.x[i], 30);  // the largest is in [1/2, 2]
+      const bool multiple = units == std::nearbyint(units);
+      if (after.x[i] != before.x[i] && (!multiple || std::abs(after.x[i] - before.x[i]) > 1)) return false;
+    }
+    return true;
+  });
+}
+
+// Contact is planted next to borders and ends too, where half of the time rounding takes it away.
+TEST(Mutation, PlantMakesCollisionsByMovingOnePosition) {
+  for (const char* family : {"uniform", "uniform-slow", "sliver"}) {
+    expect_of("plant", family, [](const Query& before, const Query& after) {
+      return changed_positions(before, after).size() == 1;
+    });
+    EXPECT_GE(collisions_after("plant", family), 500) << family;
+  }
+}
+
+TEST(Mutation, RestoreMakesCollisionsByMovingOnePosition) {
+  for (const char* family : {"uniform", "uniform-slow", "sliver"}) {
+    expect_of("restore", family, [](const Query& before, const Query& after) {
+      return changed_positions(before, after).size() == 1;
+    });
+    EXPECT_GE(collisions_after("restore", family), 500) << family;
+  }
+}
+
+TEST(Mutation, RestoreKeepsACollisionWhereItIs) {
+  int kept = 0;
+  int collisions = 0;
+  std::uint64_t number = 0;
+  for (const Query& before : some_queries("uniform")) {
+    Random random(2, 0, number++);
+    const auto time = earliest_time(before);
+    if (!time) continue;
+    ++collisions;
+    const Query after = mutation("restore").apply(random, before);
+    double moved = 0;
+    for (std::size_t i = 0; i < 24; ++i) moved = std::max(moved, std::abs(after.x[i] - before.x[i]));
+    kept += moved < 1e-9 ? 1 : 0;
+  }
+  std::cout << kept << " of " << collisions << " kept\n";
+  EXPECT_GE(collisions, 50);
+  EXPECT_GE(kept, collisions / 2);  // the others are at another root of F
+}
+
+template <Kind kind>
+bool has_root_of(const Query& query) {
+  return solve_cubic(coplanarity(make_pair<kind, double>(query)), 0.0).count > 0;
+}
+bool has_root(const Query& query) {
+  return query.kind == Kind::vertex_triangle ? has_root_of<Kind::vertex_triangle>(query)
+                                             : has_root_of<Kind::edge_edge>(query);
+}
+
+TEST(Mutation, CoplanarMakesARootOfFByMovingOnePosition) {
+  int without = 0;
+  int made = 0;
+  std::uint64_t number = 0;
+  for (const Query& before : some_queries("uniform-slow")) {
+    if (has_root(before)) continue;
+    Random random(2, 0, number++);
+    const Query after = mutation("coplanar").apply(random, before);
+    EXPECT_EQ(changed_positions(before, after).size(), 1);
+    ++without;
+    made += has_root(after) ? 1 : 0;
+  }
+  std::cout << made << " of " << without << " have a root\n";
+  EXPECT_GE(without, 500);
+  EXPECT_GE(made, without * 3 / 4);  // at an end rounding may take it away
+}
+
+TEST(Mutation, PlanarMakesFZeroIdentically) {
+  for (const char* family : {"uniform", "small-integer"}) {
+    int planar = 0;
+    std::uint64_t number = 0;
+    for (const Query& before : some_queries(family)) {
+      Random random(2, 0, number++);
+      planar += count_roots(mutation("planar").apply(random, before)).planar ? 1 : 0;
+    }
+    std::cout << family << ": " << planar << " of 1000 planar\n";
+    EXPECT_GE(planar, 350) << family;  // rounding leaves only those that keep to an axis' plane
+  }
+}
+
+TEST(Mutation, AShrunkEdgeIsShorter) {
+  bool to_one_point = false;
+  expect_of("shrink-edge", "uniform", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    if (vertices.size() != 1) return false;
+    const int moved = *vertices.begin();
+    const auto length = [&](const Query& query, int to) {
+      return (query.start(moved) - query.start(to)).norm() + (query.end(moved) - query.end(to)).norm();
+    };
+    bool shorter = false;
+    for (int to = 0; to < 4; ++to) {
+      shorter |= to != moved && length(after, to) < length(before, to);
+      to_one_point |= to != moved && after.start(to) == after.start(moved);
+    }
+    return shorter;
+  });
+  EXPECT_TRUE(to_one_point);
+}
+
+TEST(Mutation, VelocitiesAreZeroAnothersOrAlongEdges) {
+  std::array<int, 3> sorts{};
+  expect_of("velocity", "small-integer", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    const int first = *vertices.begin();
+    const Vector3<double> velocity = after.end(first) - after.start(first);
+    for (const int i : vertices)
+      if (velocity_difference(after, i, velocity) > 1e-12) return false;
+    if (velocity.isZero()) return ++sorts[0] > 0;
+    for (int i = 0; i < 4; ++i)
+      if (velocity_difference(before, i, velocity) < 1e-12) return ++sorts[1] > 0;
+    for (int i = 0; i < 4; ++i) {
+      const Vector3<double> a = before.start((i + 1) % 4) - before.start(i);
+      const Vector3<double> b = before.start((i + 2) % 4) - before.start(i);
+      if (std::abs(velocity.dot(a.cross(b))) < 1e-9) return ++sorts[2] > 0;
+    }
+    return false;
+  });
+  for (const int count : sorts) EXPECT_GT(count, 50);
+}
+
+TEST(Mutation, ACopiedVertexIsAnother) {
+  expect_of("copy-vertex", "uniform", [](const Query& before, const Query& after) {
+    const auto positions = changed_positions(before, after);
+    if (changed_vertices(before, after).size() != 1) return false;
+    return std::all_of(positions.begin(), positions.end(), [&](int to) {
+      for (int from = 0; from < 4; ++from) {
+        if (to < 4 ? after.start(to) == before.start(from) : after.end(to - 4) == before.end(from))
+          return true;
+      }
+      return false;
+    });
+  });
+}
+
+TEST(Mutation, ReverseExchangesStartAndEnd) {
+  bool all = false;
+  expect_of("reverse", "uniform", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    all |= vertices.size() == 4;
+    return std::all_of(vertices.begin(), vertices.end(), [&](int i) {
+      return after.start(i) == before.end(i) && after.end(i) == before.start(i);
+    });
+  });
+  EXPECT_TRUE(all);
+}
+
+TEST(Mutation, ScaleIsByOnePowerOfTwo) {
+  expect_of("scale", "small-integer", [](const Query& before, const Query& after) {
+    int exponent = 0;
+    const double factor = largest(after) / largest(before);
+    return std::frexp(factor, &exponent) == 0.5 && after == testing::scaled(before, factor);
+  });
+}
+
+TEST(Mutation, TranslateKeepsTheFigures) {
+  bool to_the_origin = false;
+  expect_of("translate", "small-integer", [&](const Query& before, const Query& after) {
+    for (int i = 0; i < 4; ++i) {
+      to_the_origin |= after.start(i).isZero() && !before.start(i).isZero();
+      const auto offset = [&](const Query& query) { return query.end(i) - query.start(0); };
+      // offsets are up to 2^43, where an ulp is 2^-9
+      if ((offset(after) - offset(before)).norm() > 0.01) return false;
+    }
+    return true;
+  });
+  EXPECT_TRUE(to_the_origin);
+}
+
+TEST(Mutation, ReorderKeepsTheTruth) {
+  expect_of("reorder", "grazing", [](const Query& before, const Query& after) {
+    return collides(after) == collides(before) &&
+           std::is_permutation(after.x.begin(), after.x.end(), before.x.begin());
+  });
+}
+
+// --- all together -----------------------------------------------------------------------------------
+
+TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  Random one(3, 4, 5);
+  Random same(3, 4, 5);
+  Random other(3, 4, 6);
+  const Query result = mutated(one, query);
+  EXPECT_EQ(mutated(same, query), result);
+  EXPECT_NE(mutated(other, query), result);
+}
+
+/// Queries to start from: of all families, and of extreme coordinates.
+std::vector<Query> seeds() {
+  std::vector<Query> queries;
+  for (const Family& family : families())
+    for (std::uint64_t i = 0; i < 16; ++i) queries.push_back(make_query(family, 5, i));
+  using Limits = std::numeric_limits<double>;
+  for (const Kind kind : kinds) {
+    for (const double size : {1e-100, 1e-150, 1e-300}) {  // small figures, far apart along x
+      Query query{.kind = kind};
+      for (std::size_t i = 0; i < 24; ++i) query.x[i] = size * std::sqrt(i);
+      for (int i = split(kind); i < 4; ++i) {
+        query.x[3 * static_cast<std::size_t>(i)] = 1 / size;
+        query.x[12 + 3 * static_cast<std::size_t>(i)] = 1 / size;
+      }
+      queries.push_back(query);
+    }
+    for (const double extreme : {0.0, Limits::max(), Limits::min(), Limits::denorm_min()}) {
+      Query query{.kind = kind};
+      for (std::size_t i = 0; i < 24; ++i) query.x[i] = i % 3 == 0 ? -extreme : extreme;
+      queries.push_back(query);
+      query.x[7] = 1;
+      queries.push_back(query);
+    }
+  }
+  return queries;
+}
+
+TEST(Mutated, IsAnotherFiniteQueryHoweverLongTheChain) {
+  const auto starts = seeds();
+  for (std::uint64_t chain = 0; chain < 100'000; ++chain) {
+    Query query = starts[chain % starts.size()];
+    for (std::uint64_t step = 0; step < 8; ++step) {
+      Random random(6, chain, step);
+      const Query next = mutated(random, query);
+      ASSERT_TRUE(is_finite(next)) << chain << ", " << step;
+      ASSERT_NE(next, query) << chain << ", " << step;
+      query = next;
+    }
+  }
+}
+
+TEST(Mutated, KeepsToCollisions) {
+  int collisions = 0;
+  constexpr int chains = 200;
+  constexpr int steps = 10;
+  for (std::uint64_t chain = 0; chain < chains; ++chain) {
+    Query query = make_query(find_family("uniform"), 7, chain);
+    for (std::uint64_t step = 0; step < steps; ++step) {
+      Random random(7, chain, step);
+      query = mutated(random, query);
+      collisions += collides(query) ? 1 : 0;
+    }
+  }
+  std::cout << collisions << " of " << chains * steps << " collide\n";
+  EXPECT_GE(collisions, chains * steps / 2);
+}
+
+/// Whether the choice between two parents, by coordinate, is one by the parts alone.
+bool is_by(const std::array<bool, 24>& choice, const std::function<std::size_t(std::size_t)>& part) {
+  std::array<std::set<bool>, 24> seen;
+  for (std::size_t i = 0; i < 24; ++i) seen[part(i)].insert(choice[i]);
+  return std::all_of(seen.begin(), seen.end(), [](const auto& choices) { return choices.size() <= 1; });
+}
+
+TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
+  const Query first = make_query(find_family("uniform"), 8, 0);
+  const Query second = make_query(find_family("uniform"), 8, 1);
+  std::set<Kind> seen_kinds;
+  int vertices = 0;
+  int axes = 0;
+  int moments = 0;
+  int coordinates = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(9, 0, i);
+    const Query child = crossed(random, first, second);
+    seen_kinds.insert(child.kind);
+    std::array<bool, 24> from_first{};
+    for (std::size_t k = 0; k < 24; ++k) {
+      from_first[k] = child.x[k] == first.x[k];
+      ASSERT_TRUE(from_first[k] || child.x[k] == second.x[k]);
+    }
+    if (is_by(from_first, [](std::size_t) { return 0; })) continue;  // all of one
+    if (is_by(from_first, [](std::size_t k) { return k / 3 % 4; }))
+      ++vertices;
+    else if (is_by(from_first, [](std::size_t k) { return k % 3; }))
+      ++axes;
+    else if (is_by(from_first, [](std::size_t k) { return k / 12; }))
+      ++moments;
+    else
+      ++coordinates;
+  }
+  for (const int count : {vertices, axes, moments, coordinates}) EXPECT_GT(count, 50);
+  EXPECT_EQ(seen_kinds.size(), 2);
+}
+
+}  // namespace
+}  // namespace nearmiss
