@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <nlopt.hpp>
 #include <vector>
@@ -109,6 +110,8 @@ std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& 
           ratio(std::max(q.norm(), r.norm()), relative.norm())};
 }
 
+constexpr double nothing = -1e3;  ///< the objective of what is not looked for, far below all others
+
 /// Shows queries to an objective, from drawn starts on, and remembers the best.
 class Climb {
  public:
@@ -126,7 +129,9 @@ class Climb {
   }
 
  private:
-  [[nodiscard]] bool over() const { return shown_ >= search_evaluations || best_value_ == HUGE_VAL; }
+  [[nodiscard]] bool over() const {
+    return shown_ >= search_evaluations || best_value_ == HUGE_VAL || error_ != nullptr;
+  }
 
   double show(const Meeting& meeting) {
     ++shown_;
@@ -153,9 +158,14 @@ class Climb {
     optimiser.set_max_objective(
         [](const std::vector<double>& x, std::vector<double>& /*gradient*/, void* self) {
           auto& climb = *static_cast<Climb*>(self);
+          double value = nothing;
+          try {
+            value = climb.show(climb.meeting_at(x));
+          } catch (...) {
+            climb.error_ = std::current_exception();  // the optimiser would take it for its own
+          }
           if (climb.over()) climb.optimiser_->force_stop();
-          // Optimisers compute with values, so the best is finite for them.
-          return std::clamp(climb.show(climb.meeting_at(x)), -1e3, 1e3);
+          return std::min(value, 1e3);  // optimisers compute with it, so it is finite for them
         },
         this);
     optimiser_ = &optimiser;
@@ -169,6 +179,7 @@ class Climb {
     } catch (const nlopt::roundoff_limited&) {  // steps became too small to tell values apart
     } catch (const std::runtime_error&) {       // BOBYQA where its model breaks down
     }
+    if (error_) std::rethrow_exception(error_);
   }
 
   [[nodiscard]] Meeting meeting_at(const std::vector<double>& point) const {
@@ -189,6 +200,7 @@ class Climb {
   int shown_ = 0;
   double best_value_ = -HUGE_VAL;
   Meeting best_;
+  std::exception_ptr error_;  ///< of the objective
 };
 
 Query search_miss(const Subject& subject, Random& random, Kind kind) {
@@ -199,8 +211,9 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
   const auto objective = [&](const Meeting& anywhere) {
     const Meeting m = placed(anywhere);
     const Query query = query_of(kind, m);
+    if (!is_finite(query)) return nothing;
     const bool hit = subject.decide(query).hit;
-    if (!(hit && exactly) && !(is_finite(query) && collides(query))) return -1e3;
+    if (!(hit && exactly) && !collides(query)) return nothing;
     if (!hit) return HUGE_VAL;
     const double needed = subject.needed_tolerance(query);
     if (!std::isnan(needed)) return std::log2(needed);
@@ -216,7 +229,7 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
   const auto wang = make_subject("wang");
   const auto objective = [&](const Meeting& m) {
     const Query query = query_of(kind, m);
-    if (!is_finite(query)) return -1e3;
+    if (!is_finite(query)) return nothing;
     if (!subject.decide(query).hit) {
       const double needed = subject.needed_tolerance(query);
       return std::isnan(needed) ? -1 : -std::log2(needed);
@@ -235,11 +248,9 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
   }));
 }
 
-}  // namespace
-
-namespace {
 constexpr std::uint64_t block_cases = 4;  // each takes as long as some thousand others
-}
+
+}  // namespace
 
 Family miss_search(const Subject& subject) {
   return {.name = "search-miss-" + subject.name(),

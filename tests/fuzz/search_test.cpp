@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ccd/error.hpp"
 #include "fuzz/subjects.hpp"
 #include "oracle/oracle.hpp"
 
@@ -44,6 +45,24 @@ TEST(MissSearch, IsAPureFunction) {
   const auto wang = make_subject("wang");
   for (std::uint64_t i = 0; i < 2; ++i)
     EXPECT_EQ(search(miss_search(*wang), i), search(miss_search(*wang), i));
+}
+
+TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
+  class Failing final : public Subject {
+   public:
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
+      if (++asked_ == 100) throw Error("that is all");
+      return {.hit = true, .stage = Stage::unspecified};
+    }
+    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 1; }
+
+   private:
+    std::string name_ = "failing";
+    mutable int asked_ = 0;
+  };
+  const Failing subject;
+  EXPECT_THROW(search(miss_search(subject), 0), Error);
 }
 
 TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) {
