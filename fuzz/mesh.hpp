@@ -19,8 +19,8 @@ struct Mesh {
 
 /// Reads an OBJ file: vertices and faces (polygons become fans of triangles), all else that the format has is
 /// passed over. `name` stands for the file in messages. Throws Error with file and line for what is no finite
-/// number, a face with a vertex that does not exist or with fewer than three, a line that is not of the format,
-/// and for a file without a face.
+/// number, a face with a vertex that does not exist or with fewer than three, and a line that is not of the
+/// format; and for a file without a face.
 Mesh parse_obj(std::istream& in, const std::string& name);
 
 /// The same from a file; throws Error where it cannot be read, too.

@@ -76,9 +76,12 @@ Query by_ulps(Random& random, const Query& query) {
   return nudged(random, query, random.integer(1, 4), random.one_in(4) ? 64 : 4);
 }
 
-/// A position, or all coordinates a little, by any fraction of the whole extent.
+/// A position, or all coordinates a little, by a fraction of the distance between two positions.
 Query by_a_fraction(Random& random, const Query& query) {
-  const double step = extent(query) * random.log_uniform(0x1p-53, 1);
+  const Vector from = position(query, random.integer(0, 7));
+  const Vector to = position(query, random.integer(0, 7));
+  const double distance = from == to ? extent(query) : (to - from).norm();
+  const double step = distance * random.log_uniform(random.one_in(2) ? 0x1p-8 : 0x1p-53, 1);
   Query result = query;
   if (random.one_in(4)) {
     for (double& c : result.x) c += step * random.uniform(-1, 1);
@@ -262,7 +265,7 @@ Query translated(Random& random, const Query& query) {
 
 constexpr std::array table{
     Mutation{"ulps", "some coordinates by a few ulps", by_ulps},
-    Mutation{"fraction", "a position, or everything, by a fraction of the extent", by_a_fraction},
+    Mutation{"fraction", "a position, or everything, by a fraction of a distance", by_a_fraction},
     Mutation{"exponent", "some coordinates by powers of two, or to the ends of their range", exponents},
     Mutation{"copy-coordinate", "some coordinates become others, or their negation", coordinate_copied},
     Mutation{"round", "a position, or everything, to few bits", rounded},
@@ -295,7 +298,7 @@ Query mutated(Random& random, const Query& query) {
   Query result = query;
   do {
     for (int count = random.integer(1, 3); count > 0; --count)
-      result = applied(one_of(random, table).apply, random, result);
+      result = applied(random.one_in(2) ? by_a_fraction : one_of(random, table).apply, random, result);
     if (random.one_in(2)) result = applied(restored, random, result);
   } while (result == query);
   return result;

@@ -21,8 +21,9 @@ struct Mutation {
 /// All sorts, in the order in which they are listed.
 std::span<const Mutation> mutations();
 
-/// Another query: one to three mutations of random sorts, and then, every other time, contact restored where
-/// the figures nearly touch, so that chains of mutations keep to collisions. Finite where `query` is.
+/// Another query: one to three mutations, every other one of them by a fraction, which climbs, the others of
+/// random sorts, which explore; and then, every other time, contact restored where the figures nearly touch,
+/// so that chains of mutations keep to collisions. Finite where `query` is.
 Query mutated(Random& random, const Query& query);
 
 /// Vertices, axes, the starts and the ends, or single coordinates of one query and the rest of the other.

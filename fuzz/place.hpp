@@ -27,9 +27,10 @@ std::vector<int> movable_points(Kind kind, const Place& place);
 /// A place inside of both figures, or in vertices, on edges, at t = 0 and t = 1, or next to these.
 Place random_place(Random& random, Kind kind);
 
-/// The place where the figures touch or nearly do, as far as double arithmetic can tell: at a root of F, or at
-/// a random time where it has none, with the weights at that time. Weights that are outside are moved to the
-/// border, or a random little way inside. Where the figures have no area, or are too far apart, random weights.
+/// The place where the figures touch or nearly do, as far as double arithmetic can tell: at a root of F, or
+/// at a random time where it has none, with the weights at that time. Weights that are outside are moved to
+/// the border, or a random little way inside. Where the figures have no area, or are too far apart, random
+/// weights.
 Place own_place(Random& random, const Query& query);
 
 }  // namespace nearmiss
