@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -93,6 +94,8 @@ Mesh parse_obj(std::istream& in, const std::string& name) {
   }
   if (faces.empty()) throw Error(fmt::format("{}: found no face in {} lines, expected a mesh", name, number));
   const auto vertices = static_cast<long>(mesh.points.size());
+  if (vertices > std::numeric_limits<int>::max())
+    throw Error(fmt::format("{}: found {} vertices, expected fewer than 2^31", name, vertices));
   for (const auto& [line, face] : faces) {
     const long largest = *std::max_element(face.begin(), face.end());
     if (largest > vertices)  // a face may come before its vertices
