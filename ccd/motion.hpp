@@ -165,9 +165,12 @@ bool in_range(T B) {
 template <Kind kind, class T, class Steps = AllSteps>
 Frame normalising_frame(const Query& query, const Steps& steps = {}) {
   Frame frame;
-  T B = make_pair<kind, T>(query, frame, given_order, steps).B;
-  if (in_range(B) || !steps.does(Step::normalisation)) return frame;
-  if (!(B <= std::numeric_limits<T>::max() / 16)) {
+  const auto pair = make_pair<kind, T>(query, frame, given_order, steps);
+  // Where a position overflows at both times its velocity is not a number, and B may be any.
+  const bool finite = pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
+  T B = pair.B;
+  if ((finite && in_range(B)) || !steps.does(Step::normalisation)) return frame;
+  if (!finite || !(B <= std::numeric_limits<T>::max() / 16)) {
     frame.reduced = true;
     B = make_pair<kind, T>(query, frame, given_order, steps).B;
   }

@@ -124,6 +124,22 @@ TEST_P(EveryWang, ReportsCollisionsWhoseDifferencesOverflow) {
       decide(make_query(Kind::vertex_triangle, {{0, 0, big}, a, b, c}, {{0, 0, big / 2}, a, b, c})).hit);
 }
 
+// At both times x0 and x1, or x0 and x2, are farther apart than the largest double, and the relative velocity is
+// infinity less infinity.
+TEST_P(EveryWang, ReportsCollisionsWhosePositionsOverflowAtBothTimes) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3<double> far = std::numeric_limits<double>::max() * Vector3<double>::Unit(axis);
+    const Vector3<double> m = Vector3<double>::Unit((axis + 1) % 3);
+    const Vector3<double> n = Vector3<double>::Unit((axis + 2) % 3);
+    const Query vt =
+        make_query(Kind::vertex_triangle, {-far, far + m, far + n, far}, {-far, far + m, -far + n, -far});
+    EXPECT_TRUE(decide(vt).hit) << axis;
+    const Query ee =
+        make_query(Kind::edge_edge, {-far, -far + m, far, far + n}, {-far, -far + m, far, -far + m});
+    EXPECT_TRUE(decide(ee).hit) << axis;
+  }
+}
+
 // §3.3, small triangle: the residual of F is small although the vertex is far away in units of the triangle.
 TEST_P(EveryWang, ReportsAVertexThroughATinyTriangle) {
   const double s = 1e-9;
