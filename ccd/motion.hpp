@@ -167,7 +167,9 @@ Frame normalising_frame(const Query& query, const Steps& steps = {}) {
   Frame frame;
   const auto pair = make_pair<kind, T>(query, frame, given_order, steps);
   // Where a position overflows at both times its velocity is not a number, and B may be any.
-  const bool finite = pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
+  const bool finite =
+      !steps.does(Step::overflow) ||
+      (pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all());
   T B = pair.B;
   if ((finite && in_range(B)) || !steps.does(Step::normalisation)) return frame;
   if (!finite || !(B <= std::numeric_limits<T>::max() / 16)) {

@@ -16,6 +16,7 @@ enum class Step : std::uint8_t {
   // motion.hpp
   velocity_in_bound,  ///< B = E + W; without: E
   normalisation,      ///< powers of two against over- and underflow
+  overflow,           ///< a velocity that is not a number asks for them too; without: B alone decides
   reordering,         ///< the closest end points come first; without: the given order is used as it is
   closest_pair,       ///< without: a pair out of reach in its given order is taken for apart
   // quadratic.hpp, cubic.hpp

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "fuzz/failures/sieve.hpp"
 #include "fuzz/parallel.hpp"
-#include "fuzz/sieve.hpp"
 
 namespace nearmiss {
 

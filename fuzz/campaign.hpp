@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/trial.hpp"
 
 namespace nearmiss {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
 #include "fuzz/place.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <nlopt.hpp>
 #include <vector>
 
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

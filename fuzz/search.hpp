@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ccd/subject.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 
 namespace nearmiss {
 

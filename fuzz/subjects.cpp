@@ -1,6 +1,6 @@
 #include "fuzz/subjects.hpp"
 
-#include "fuzz/defects.hpp"
+#include "fuzz/power/defects.hpp"
 #include "oracle/subjects.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
-#include "fuzz/failure.hpp"
+#include "fuzz/failures/failure.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fuzz/sieve.hpp"
+#include "fuzz/failures/sieve.hpp"
 #include "fuzz/trial.hpp"
 
 namespace nearmiss {

@@ -27,27 +27,44 @@ Interval squared_norm(const Vector& a) {
   return CGAL::square(a[0]) + CGAL::square(a[1]) + CGAL::square(a[2]);
 }
 
+/// value * 2^exponent.
+Interval scaled(const Interval& value, int exponent) {
+  const int half = exponent / 2;
+  return value * Interval(std::ldexp(1.0, half)) * Interval(std::ldexp(1.0, exponent - half));
+}
+
 /// The differences x_i - x_j of all vertices i of one primitive and j of the other at both ends of the step,
 /// in units of 2^exponent: each contains the exact value.
 class Differences {
  public:
   explicit Differences(const Query& query) : kind_(query.kind) {
-    double largest = 0;
-    for (const double c : query.x) largest = std::max(largest, std::abs(c));
-    exponent_ = largest > 0 ? std::ilogb(largest) : 0;
-    // Coordinates are brought into [-2, 2]; what underflows is enclosed, for the product is an interval's.
-    const auto scaled = [&](double c) {
-      const int half = exponent_ / 2;
-      return Interval(c) * Interval(std::ldexp(1.0, -half)) * Interval(std::ldexp(1.0, half - exponent_));
+    // Halves do not overflow; what underflows is enclosed.
+    const auto half = [&](std::size_t time, std::size_t i, std::size_t k) {
+      return Interval(query.x[12 * time + 3 * i + k]) * Interval(0.5);
     };
-    for (std::size_t time = 0; time < 2; ++time) {
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t k = 0; k < 3; ++k) points_[time][i][k] = scaled(query.x[12 * time + 3 * i + k]);
-    }
+    const auto difference = [&](std::size_t i, std::size_t j) {
+      std::array<Vector, 2> at_ends;
+      for (std::size_t time = 0; time < 2; ++time)
+        for (std::size_t k = 0; k < 3; ++k) at_ends[time][k] = half(time, i, k) - half(time, j, k);
+      return at_ends;
+    };
     const auto middle = static_cast<std::size_t>(split(kind_));
     for (std::size_t i = 0; i < middle; ++i)
-      for (std::size_t j = middle; j < 4; ++j)
-        pairs_.push_back({i, j, {difference(0, i, j), difference(1, i, j)}});
+      for (std::size_t j = middle; j < 4; ++j) pairs_.push_back({i, j, difference(i, j)});
+    for (std::size_t i = 0; i < 4; ++i) from_last_[i] = difference(i, 3);
+
+    double largest = 0;
+    for (const Pair& pair : pairs_)
+      for (const Vector& v : pair.at_ends)
+        for (const Interval& c : v) largest = std::max(largest, CGAL::abs(c).sup());
+    const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+    exponent_ = exponent + 1;
+    const auto scale_down = [&](std::array<Vector, 2>& at_ends) {
+      for (Vector& v : at_ends)
+        for (Interval& c : v) c = scaled(c, -exponent);
+    };
+    for (Pair& pair : pairs_) scale_down(pair.at_ends);
+    for (auto& at_ends : from_last_) scale_down(at_ends);
   }
 
   struct Pair {
@@ -74,25 +91,17 @@ class Differences {
     for (std::size_t i = 0; i < 4; ++i)
       for (int k = 0; k < 3; ++k) {
         const auto n = static_cast<std::size_t>(k);
-        const auto relative = [&](std::size_t time) {
-          return CGAL::to_double(points_[time][i][n] - points_[time][3][n]);
-        };
+        const auto relative = [&](std::size_t time) { return CGAL::to_double(from_last_[i][time][n]); };
         x[i][k] = (1 - t) * relative(0) + t * relative(1);
       }
     return x;
   }
 
  private:
-  [[nodiscard]] Vector difference(std::size_t time, std::size_t i, std::size_t j) const {
-    Vector d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = points_[time][i][k] - points_[time][j][k];
-    return d;
-  }
-
   Kind kind_;
   int exponent_;
-  std::array<std::array<Vector, 4>, 2> points_;
   std::vector<Pair> pairs_;
+  std::array<std::array<Vector, 2>, 4> from_last_;
 };
 
 /// A time, a certified upper bound of the distance then, and a guess of the direction between closest points.
@@ -191,10 +200,8 @@ Enclosure refine(const Differences& differences, const std::function<bool(double
 
 /// value * 2^exponent, rounded outward.
 Enclosure scale(const Enclosure& value, int exponent) {
-  const int half = exponent / 2;
-  const Interval scaled = Interval(value.lo, value.hi) * Interval(std::ldexp(1.0, half)) *
-                          Interval(std::ldexp(1.0, exponent - half));
-  return {scaled.inf(), scaled.sup()};
+  const Interval result = scaled(Interval(value.lo, value.hi), exponent);
+  return {result.inf(), result.sup()};
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
 /// The same by interval arithmetic alone: lo is 0 for a collision, but hi need not be. It is as narrow where
-/// double intervals can tell: not where the distance is below about 2^-45 of the largest coordinate.
+/// double intervals can tell: not where the distance is below about 2^-45 of the figures' extent, or of the
+/// rounding of coordinates' differences.
 Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.

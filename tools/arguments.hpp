@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ccd/query.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/trial.hpp"
 
 namespace nearmiss::tools {

@@ -9,7 +9,7 @@
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "oracle/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

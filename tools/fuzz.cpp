@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "fuzz/campaign.hpp"
-#include "fuzz/mesh_family.hpp"
+#include "fuzz/families/mesh_family.hpp"
 #include "fuzz/search.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"

@@ -11,8 +11,8 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
-#include "fuzz/defects.hpp"
-#include "fuzz/power.hpp"
+#include "fuzz/power/defects.hpp"
+#include "fuzz/power/power.hpp"
 #include "fuzz/search.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"

@@ -1,5 +1,5 @@
 // nearmiss shrink: the simplest query that fails in the same way.
-#include "fuzz/shrink.hpp"
+#include "fuzz/failures/shrink.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/failure.hpp"
+#include "fuzz/failures/failure.hpp"
 #include "fuzz/subjects.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/commands.hpp"

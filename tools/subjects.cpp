@@ -1,7 +1,7 @@
 // nearmiss subjects: which CCDs can be put on trial.
 #include <fmt/format.h>
 
-#include "fuzz/defects.hpp"
+#include "fuzz/power/defects.hpp"
 #include "fuzz/subjects.hpp"
 #include "tools/commands.hpp"
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fuzz/tightness.hpp"
+#include "fuzz/power/tightness.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

@@ -14,7 +14,7 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
 
 namespace nearmiss::libfuzzer {

@@ -1,5 +1,5 @@
 // The library of defects: the real code but for one thing.
-#include "fuzz/defects.hpp"
+#include "fuzz/power/defects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "ccd/error.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 

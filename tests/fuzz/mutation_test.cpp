@@ -12,7 +12,7 @@
 #include <string>
 
 #include "ccd/cubic.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm.hpp"
 #include "tests/queries.hpp"

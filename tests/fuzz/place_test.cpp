@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 

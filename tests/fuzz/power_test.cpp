@@ -1,5 +1,5 @@
 // The time to the first failure.
-#include "fuzz/power.hpp"
+#include "fuzz/power/power.hpp"
 
 #include <gtest/gtest.h>
 

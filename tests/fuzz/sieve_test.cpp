@@ -1,10 +1,10 @@
 // Of each way to fail a few are kept.
-#include "fuzz/sieve.hpp"
+#include "fuzz/failures/sieve.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fuzz/failure.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/failures/failure.hpp"
+#include "fuzz/families/families.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

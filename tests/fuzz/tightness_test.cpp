@@ -1,11 +1,11 @@
 // How tight tolerances are, as measured on known ones.
-#include "fuzz/tightness.hpp"
+#include "fuzz/power/tightness.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
-#include "fuzz/defects.hpp"
+#include "fuzz/power/defects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

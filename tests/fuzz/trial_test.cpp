@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/trial_stream.hpp"
 #include "tests/queries.hpp"
 

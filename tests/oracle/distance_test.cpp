@@ -72,6 +72,15 @@ TEST(Distance, IsKnownFarBelowWhatIntervalsCanTell) {
   EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // doubles are no nearer to each other
 }
 
+TEST(Distance, FromTheOriginDoesNotMatterWhereDifferencesAreExact) {
+  Query query = falling_vertex(0.25, 0.25, 3, 2);
+  for (double& c : query.x) c = 4 * c + 0x1p52;
+  const Enclosure d = closest_approach(query);
+  EXPECT_LE(d.lo, 8);
+  EXPECT_GE(d.hi, 8);
+  EXPECT_LE(d.hi - d.lo, 0.01);
+}
+
 TEST(ComesWithin, AgreesWithTheEnclosuresOfIntervals) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-1, 1);

@@ -58,13 +58,15 @@ async function showsFindings(browser) {
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
   await page.check("#by-family");
-  assert.equal(await count(page, "#counts tbody tr"), 96); // 2 subjects, 2 kinds, 24 families
+  const families = Object.keys(report.oracle.families.vt).length;
+  assert.ok(families >= 24);
+  assert.equal(await count(page, "#counts tbody tr"), 4 * families); // 2 subjects, 2 kinds
   const column = (n) => page.locator(`#counts tbody tr td:nth-child(${n})`).allTextContents();
   await page.click("#counts th:has-text('false positives')");
   const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
   assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
 
-  assert.equal(await count(page, "#oracle tbody tr"), 48); // 2 kinds, 24 families
+  assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/family_tables.hpp"
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
+#include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "fuzz/family_tables.hpp"
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
+#include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
 
@@ -63,6 +63,24 @@ Query scale(Random& random, Kind kind, double x) {
   const int exponent = static_cast<int>(x) - std::ilogb(largest);
   for (double& c : query.x) c = std::ldexp(c, exponent);
   return query;
+}
+
+/// Small integers, times 2^1022 along some axes: there a difference of two coordinates overflows as often as
+/// not. Figures start in a plane across the axis half of the time, and half of the coordinates are at rest.
+Query overflow(Random& random, Kind kind) {
+  Query query{.kind = kind};
+  const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double size = random.one_in(2) ? 0x1p1022 : 1;
+    const bool flat = random.one_in(2);
+    for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+      double& start = query.x[3 * vertex + axis];
+      const bool beside_last = flat && vertex != 0 && vertex != first_vertices;
+      start = beside_last ? query.x[3 * (vertex - 1) + axis] : size * random.integer(-3, 3);
+      query.x[3 * (vertex + 4) + axis] = random.one_in(2) ? start : size * random.integer(-3, 3);
+    }
+  }
+  return finished(random, query);
 }
 
 /// Each vertex and each axis has an exponent of its own. The figures touch at the origin, and go on touching
@@ -178,6 +196,10 @@ std::vector<Family> extreme_families() {
                      {"distance / size of the figures = 10^x", 0, 16, false, offset}),
       with_parameter("scale", "subnormal to nearly overflowing",
                      {"largest coordinate is from 2^x to 2^(x + 1)", -1074, 1023, true, scale}),
+      {.name = "overflow",
+       .about = "differences of coordinates overflow, along some axes",
+       .make = overflow,
+       .block_cases = 10},  // exact arithmetic takes its time
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",

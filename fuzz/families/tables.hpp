@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 
 namespace nearmiss {
 

@@ -1,4 +1,4 @@
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "fuzz/failure.hpp"
+#include "fuzz/failures/failure.hpp"
 
 #include <cmath>
 #include <span>
 
 #include "ccd/error.hpp"
-#include "fuzz/shrink.hpp"
+#include "fuzz/failures/shrink.hpp"
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
 

@@ -1,4 +1,4 @@
-#include "fuzz/shrink.hpp"
+#include "fuzz/failures/shrink.hpp"
 
 #include <algorithm>
 #include <array>

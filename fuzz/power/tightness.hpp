@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "reports/extreme.hpp"
 
 namespace nearmiss {

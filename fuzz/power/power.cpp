@@ -1,4 +1,4 @@
-#include "fuzz/power.hpp"
+#include "fuzz/power/power.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "fuzz/defects.hpp"
+#include "fuzz/power/defects.hpp"
 
 #include <fmt/format.h>
 
@@ -120,6 +120,7 @@ constexpr std::array left_out_table{
     left_out("touching", Step::touching_meets, "plane culling takes touching figures for separate"),
     left_out("velocity", Step::velocity_in_bound, "B = E, without the velocities"),
     left_out("normalisation", Step::normalisation, "no powers of two against over- and underflow"),
+    left_out("overflow", Step::overflow, "a velocity that is not a number goes unseen where B is in range"),
     left_out("reordering", Step::reordering, "edge-edge with the end points in their given order"),
     left_out("closest-pair", Step::closest_pair, "edges whose given first end points are beyond B are apart"),
     left_out("discriminant", Step::clamped_discriminant, "a negative discriminant has no root"),

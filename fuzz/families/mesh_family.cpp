@@ -1,4 +1,4 @@
-#include "fuzz/mesh_family.hpp"
+#include "fuzz/families/mesh_family.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
 #include "fuzz/scene.hpp"
 
 namespace nearmiss {

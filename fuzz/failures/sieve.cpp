@@ -1,8 +1,8 @@
-#include "fuzz/sieve.hpp"
+#include "fuzz/failures/sieve.hpp"
 
 #include <algorithm>
 
-#include "fuzz/failure.hpp"
+#include "fuzz/failures/failure.hpp"
 #include "fuzz/parallel.hpp"
 
 namespace nearmiss {

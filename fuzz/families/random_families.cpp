@@ -1,6 +1,6 @@
 // Queries at random, exact collisions, and what the paper names: parallel, small, thin and planar figures.
-#include "fuzz/family_tables.hpp"
-#include "fuzz/figures.hpp"
+#include "fuzz/families/figures.hpp"
+#include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
 

@@ -1,4 +1,4 @@
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/family_tables.hpp"
+#include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
 

@@ -1,7 +1,7 @@
 // The family `mesh`: queries like those of a simulation.
 #pragma once
 
-#include "fuzz/families.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/mesh.hpp"
 
 namespace nearmiss {

@@ -1,4 +1,4 @@
-#include "fuzz/tightness.hpp"
+#include "fuzz/power/tightness.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "ccd/error.hpp"
-#include "fuzz/defects.hpp"
 #include "fuzz/parallel.hpp"
+#include "fuzz/power/defects.hpp"
 #include "fuzz/search.hpp"
 #include "fuzz/subjects.hpp"
 #include "oracle/oracle.hpp"
