@@ -44,7 +44,10 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 /// Queries [first, last) of a family.
 struct Block {
   const Family* family;
+  std::uint64_t round;
   std::uint64_t first, last;
+
+  [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
 /// The block of family number f in a round; empty behind the family's last case.
@@ -52,7 +55,7 @@ Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   const std::uint64_t first = round * plan.families[f].block_cases;
   std::uint64_t last = first + plan.families[f].block_cases;
   if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
-  return {&plan.families[f], first, last};
+  return {&plan.families[f], round, first, last};
 }
 
 TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjects& subjects) {
@@ -70,65 +73,87 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjec
     };
     if (!batch.queries.empty()) result.merge(hold_trial(subjects, batch, plan.comparison));
   }
+  for (Finding& finding : result.findings) finding.round = block.round;
   return result;
 }
 
-/// The rounds of a shard, in waves of enough blocks for all cores.
+std::vector<Block> blocks_of(const CampaignPlan& plan, std::uint64_t round) {
+  std::vector<Block> blocks;
+  for (std::size_t f = 0; f < plan.families.size(); ++f)
+    if (const Block block = block_of(plan, round, f); block.cases() != 0) blocks.push_back(block);
+  return blocks;
+}
+
+/// The rounds of a shard, one after the other.
 class Rounds {
  public:
-  explicit Rounds(const CampaignPlan& plan)
-      : plan_(plan),
-        round_(plan.shard),
-        rounds_a_wave_(1 + 16 * static_cast<std::uint64_t>(plan.jobs) / plan.families.size()) {}
+  explicit Rounds(const CampaignPlan& plan) : plan_(plan) {
+    for (; done_ < plan.rounds_before; ++done_) cases_before_ += cases(next_round());
+  }
 
-  /// Empty when everything is done.
+  [[nodiscard]] std::uint64_t done() const { return done_; }
+  [[nodiscard]] std::uint64_t cases_before() const { return cases_before_; }
+
+  /// The blocks of the next rounds, enough for all cores. Empty when everything is done.
   std::vector<Block> next_wave() {
+    const std::uint64_t rounds = 1 + 16 * static_cast<std::uint64_t>(plan_.jobs) / plan_.families.size();
     std::vector<Block> wave;
-    for (std::uint64_t i = 0; i < rounds_a_wave_; ++i) {
-      if (!add_round(round_, wave)) break;
-      round_ += plan_.shards;
+    for (std::uint64_t i = 0; i < rounds; ++i) {
+      const auto blocks = next_round();
+      if (blocks.empty()) break;
+      wave.insert(wave.end(), blocks.begin(), blocks.end());
+      ++done_;
     }
     return wave;
   }
 
+  static std::uint64_t cases(const std::vector<Block>& blocks) {
+    std::uint64_t sum = 0;
+    for (const Block& block : blocks) sum += block.cases();
+    return sum;
+  }
+
  private:
-  bool add_round(std::uint64_t round, std::vector<Block>& blocks) const {
-    const std::size_t before = blocks.size();
-    for (std::size_t f = 0; f < plan_.families.size(); ++f)
-      if (const Block block = block_of(plan_, round, f); block.first < block.last) blocks.push_back(block);
-    return blocks.size() > before;
+  [[nodiscard]] std::vector<Block> next_round() const {
+    return blocks_of(plan_, plan_.shard + done_ * plan_.shards);
   }
 
   const CampaignPlan& plan_;
-  std::uint64_t round_;
-  std::uint64_t rounds_a_wave_;
+  std::uint64_t done_ = 0;
+  std::uint64_t cases_before_ = 0;
 };
 
 }  // namespace
 
-void run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
-                  const std::atomic<bool>& stop) {
+CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
+                              const std::atomic<bool>& stop) {
   const auto start = Clock::now();
-  const auto is_over = [&] { return stop || (plan.time && Clock::now() - start >= *plan.time); };
-  const std::uint64_t of = cases_of_shard(plan);
-  std::uint64_t cases = 0;
   Rounds rounds(plan);
+  CampaignProgress progress{.cases = rounds.cases_before(),
+                            .cases_before = rounds.cases_before(),
+                            .of = cases_of_shard(plan),
+                            .rounds = rounds.done()};
+  const auto is_over = [&] { return stop || (plan.time && Clock::now() - start >= *plan.time); };
   Sieve sieve(subjects, plan.jobs, stop);
-  for (auto wave = rounds.next_wave(); !wave.empty() && !is_over(); wave = rounds.next_wave()) {
+  sieve.know(plan.findings_before);
+  while (!is_over()) {
+    const auto wave = rounds.next_wave();
+    progress.complete = wave.empty();
+    if (progress.complete) break;
     std::vector<TrialResult> results(wave.size());
     in_parallel(plan.jobs, wave.size(), [&](std::size_t i) {
       if (!stop) results[i] = try_block(plan, wave[i], subjects);
     });
-    if (stop) break;  // a wave counts as a whole or not at all
     TrialResult sum;
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-      sum.merge(std::move(results[i]));
-      cases += wave[i].last - wave[i].first;
-    }
-    const auto elapsed = Clock::now() - start;
+    for (TrialResult& result : results) sum.merge(std::move(result));
     sieve.sift(sum.findings);
-    if (!sink(std::move(sum), {cases, of, elapsed})) break;
+    if (stop) break;  // a wave counts as a whole or not at all
+    progress.cases += Rounds::cases(wave);
+    progress.rounds = rounds.done();
+    progress.elapsed = Clock::now() - start;
+    if (!sink(std::move(sum), progress)) break;
   }
+  return progress;
 }
 
 }  // namespace nearmiss

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reports/statistics.hpp"
+#include "reports/campaign.hpp"
 
 namespace nearmiss {
 

@@ -33,7 +33,7 @@ struct Exported {
 
 /// A finding on its way there and into the page: its shrunk query, and the query that was found.
 struct Shown {
-  const Finding& finding;
+  Finding finding;
   std::uint64_t seen;
   Exported shrunk, original;
 };
@@ -58,7 +58,7 @@ std::vector<Shown> shown_findings(const Campaign& campaign) {
   std::map<Signature, std::size_t> count;
   std::map<std::pair<Finding::What, std::string>, std::size_t> number;
   std::vector<Shown> result;
-  for (const Finding& finding : campaign.findings)
+  for (Finding& finding : campaign.findings())
     if (++count[signature_of(finding)] <= shown_of_each)
       result.push_back(
           shown(finding, campaign.statistics.times_seen(finding), ++number[{finding.what, finding.subject}]));
@@ -100,11 +100,11 @@ ordered_json rates(const Counts& counts) {
 
 ordered_json changes(const Campaign& now, const Campaign& before) {
   ordered_json json;
-  json["runs"] = before.runs;
+  json["runs"] = runs_json(before.runs);
   std::set<decltype(identity(std::declval<const Finding&>()))> known;
-  for (const Finding& finding : before.findings) known.insert(identity(finding));
+  for (const Finding& finding : before.findings()) known.insert(identity(finding));
   std::uint64_t fresh = 0;
-  for (const Finding& finding : now.findings) fresh += known.contains(identity(finding)) ? 0 : 1;
+  for (const Finding& finding : now.findings()) fresh += known.contains(identity(finding)) ? 0 : 1;
   json["new_findings"] = fresh;
   json["changes"] = ordered_json::array();
   const auto earlier = before.statistics.by_subject_and_kind();
@@ -144,7 +144,7 @@ ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>
   json["histogram_borders"] = ordered_json::array();
   for (std::size_t i = 0; i <= Histogram::bin_count; ++i)
     json["histogram_borders"].push_back(Histogram::border(i));
-  json["findings_total"] = campaign.findings.size();
+  json["findings_total"] = campaign.findings().size();
   json["findings"] = ordered_json::array();
   for (const Shown& each : shown_findings(campaign))
     json["findings"].push_back({{"what", name(each.finding.what)},

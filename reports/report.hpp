@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "reports/statistics.hpp"
+#include "reports/campaign.hpp"
 
 namespace nearmiss {
 

@@ -128,7 +128,8 @@ struct Finding {
   std::string provenance;
   double ratio = 0;            ///< of a refuted bound: distance / bound
   std::string signature = {};  ///< in which way the query fails, such as "vt simple-root inside on-edge"
-  Query shrunk = {};  ///< the simplest query known that fails in the same way; perhaps the query itself
+  Query shrunk = {};        ///< the simplest query known that fails in the same way; perhaps the query itself
+  std::uint64_t round = 0;  ///< of its campaign, in which it was found
 
   bool operator==(const Finding&) const = default;
 };
@@ -174,15 +175,5 @@ struct Statistics {
 
 /// "false-negative" and so on.
 std::string_view name(Finding::What what);
-
-/// Where one comes from: what made it, and with what.
-using RunInfo = std::map<std::string, std::string>;
-
-/// Everything that a store holds and a report shows.
-struct Campaign {
-  std::vector<RunInfo> runs;
-  Statistics statistics;
-  std::vector<Finding> findings;  ///< of each signature a few; statistics.seen counts all
-};
 
 }  // namespace nearmiss

@@ -2,15 +2,13 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 
-#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <tuple>
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
+#include "reports/file_lock.hpp"
 
 namespace nearmiss {
 
@@ -19,11 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int schema_version = 4;
+constexpr int schema_version = 5;
 constexpr int application_id = 0x6e656172;  // "near"
 
 constexpr const char* schema = R"sql(
-  CREATE TABLE run (id INTEGER PRIMARY KEY, info TEXT NOT NULL) STRICT;
+  CREATE TABLE run (id INTEGER PRIMARY KEY, info TEXT NOT NULL UNIQUE) STRICT;
+  CREATE TABLE part (
+    run INTEGER NOT NULL REFERENCES run, shard INTEGER NOT NULL, shards INTEGER NOT NULL,
+    rounds INTEGER NOT NULL, complete INTEGER NOT NULL, started TEXT NOT NULL, seconds REAL NOT NULL,
+    environment TEXT NOT NULL,
+    PRIMARY KEY (run, shard)) STRICT;
   CREATE TABLE statistics (
     subject TEXT NOT NULL, kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL,
     queries INTEGER NOT NULL, collisions INTEGER NOT NULL, positives INTEGER NOT NULL,
@@ -44,9 +47,9 @@ constexpr const char* schema = R"sql(
     what TEXT NOT NULL, subject TEXT NOT NULL, signature TEXT NOT NULL, times INTEGER NOT NULL,
     PRIMARY KEY (what, subject, signature)) STRICT;
   CREATE TABLE finding (
+    id INTEGER PRIMARY KEY, run INTEGER NOT NULL REFERENCES run, round INTEGER NOT NULL,
     what TEXT NOT NULL, subject TEXT NOT NULL, family TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
-    provenance TEXT NOT NULL, ratio REAL NOT NULL, signature TEXT NOT NULL, shrunk TEXT NOT NULL,
-    PRIMARY KEY (what, subject, provenance, query)) STRICT;
+    provenance TEXT NOT NULL, ratio REAL NOT NULL, signature TEXT NOT NULL, shrunk TEXT NOT NULL) STRICT;
 )sql";
 
 json far_json(const std::vector<FarCase>& cases) {
@@ -127,30 +130,60 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
   oracle.exec();
 }
 
-void write_findings(SQLite::Database& db, std::span<const Finding> findings) {
-  SQLite::Statement insert(db, "INSERT OR IGNORE INTO finding VALUES (?,?,?,?,?,?,?,?,?)");
+void write_findings(SQLite::Database& db, std::int64_t run, std::span<const Finding> findings) {
+  SQLite::Statement insert(db, "INSERT INTO finding VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?)");
   for (const Finding& finding : findings) {
-    insert.bind(1, std::string(name(finding.what)));
-    insert.bind(2, finding.subject);
-    insert.bind(3, finding.family);
-    insert.bind(4, std::string(short_name(finding.query.kind)));
-    insert.bind(5, to_line(finding.query));
-    insert.bind(6, finding.provenance);
-    insert.bind(7, finding.ratio);
-    insert.bind(8, finding.signature);
-    insert.bind(9, to_line(finding.shrunk));
+    int i = 0;
+    insert.bind(++i, run);
+    insert.bind(++i, stored(finding.round));
+    insert.bind(++i, std::string(name(finding.what)));
+    insert.bind(++i, finding.subject);
+    insert.bind(++i, finding.family);
+    insert.bind(++i, std::string(short_name(finding.query.kind)));
+    insert.bind(++i, to_line(finding.query));
+    insert.bind(++i, finding.provenance);
+    insert.bind(++i, finding.ratio);
+    insert.bind(++i, finding.signature);
+    insert.bind(++i, to_line(finding.shrunk));
     insert.exec();
     insert.reset();
   }
 }
 
-void write_runs(SQLite::Database& db, std::span<const RunInfo> runs) {
+void write_part(SQLite::Database& db, std::int64_t run, const Part& part) {
+  SQLite::Statement insert(db, "INSERT OR REPLACE INTO part VALUES (?,?,?,?,?,?,?,?)");
+  int i = 0;
+  insert.bind(++i, run);
+  for (const std::uint64_t n : {part.shard, part.shards, part.rounds, std::uint64_t{part.complete}})
+    insert.bind(++i, stored(n));
+  insert.bind(++i, part.started);
+  insert.bind(++i, part.seconds);
+  insert.bind(++i, json(part.environment).dump());
+  insert.exec();
+}
+
+/// The new run's id.
+std::int64_t write_run(SQLite::Database& db, const RunInfo& info) {
   SQLite::Statement insert(db, "INSERT INTO run (info) VALUES (?)");
-  for (const RunInfo& run : runs) {
-    insert.bind(1, json(run).dump());
-    insert.exec();
-    insert.reset();
-  }
+  insert.bind(1, json(info).dump());
+  insert.exec();
+  return db.getLastInsertRowid();
+}
+
+void make_schema(SQLite::Database& db) {
+  db.exec(schema);
+  db.exec(
+      fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}; INSERT INTO oracle VALUES (0, 0);",
+                  schema_version, application_id));
+}
+
+/// Throws Error where it is no store, or one of another version.
+void check_version(SQLite::Database& db, const std::string& where) {
+  if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
+    throw Error(fmt::format("{}: found another kind of database, expected a store of nearmiss", where));
+  const int version = db.execAndGet("PRAGMA user_version").getInt();
+  if (version != schema_version)
+    throw Error(fmt::format("{}: found store version {}, expected {}", where, version, schema_version));
 }
 
 Finding::What parse_what(const std::string& text, const std::string& where) {
@@ -167,26 +200,18 @@ Extreme::Of parse_of(const std::string& text, const std::string& where) {
   throw Error(fmt::format("{}: found an extreme of '{}', which this version does not know", where, text));
 }
 
-/// The order of a campaign's findings: those that fail in the same way stand together.
-bool is_before(const Finding& a, const Finding& b) {
-  const auto key = [](const Finding& f) {
-    return std::tie(f.what, f.subject, f.signature, f.provenance, f.query.kind, f.query.x, f.family, f.ratio,
-                    f.shrunk.x);
-  };
-  return key(a) < key(b);
-}
-
 [[noreturn]] void fail(const fs::path& file, const std::exception& error) {
   throw Error(fmt::format("{}: {}", file.string(), error.what()));
 }
 
-}  // namespace
-
-struct Store::Database {
-  Database(fs::path path, int flags) : file(std::move(path)), db(file.string(), flags) {}
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
-  ~Database() {
+/// A connection for writing.
+struct Connection {
+  Connection(const fs::path& file, int flags) : db(file.string(), SQLite::OPEN_READWRITE | flags) {
+    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection() {
     try {
       db.exec("PRAGMA journal_mode = DELETE");  // one plain file is left, for readers that may not write
     } catch (const SQLite::Exception&) {
@@ -194,37 +219,64 @@ struct Store::Database {
     }
   }
 
-  fs::path file;
   SQLite::Database db;
+};
+
+void refuse_existing(const fs::path& file) {
+  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+}
+
+}  // namespace
+
+struct Store::Database {
+  explicit Database(fs::path path) : file(std::move(path)), lock(file) {}
+
+  fs::path file;
+  FileLock lock;
+  std::int64_t run = 0;
+  std::unique_ptr<Connection> connection;
 };
 
 Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
-Store::Store(const fs::path& file, std::span<const RunInfo> runs) {
-  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+Store::Store(const fs::path& file, const RunInfo& info, const Part& part)
+    : database_(std::make_unique<Database>(file)) {
+  refuse_existing(file);
   try {
-    database_ = std::make_unique<Database>(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    auto& db = database_->db;
-    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    database_->connection = std::make_unique<Connection>(file, SQLite::OPEN_CREATE);
+    auto& db = database_->connection->db;
     SQLite::Transaction transaction(db);
-    db.exec(schema);
-    db.exec(
-        fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {}; INSERT INTO oracle VALUES (0, 0);",
-                    schema_version, application_id));
-    write_runs(db, runs);
+    make_schema(db);
+    database_->run = write_run(db, info);
+    write_part(db, database_->run, part);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     fail(file, error);
   }
 }
 
-void Store::save(const Statistics& statistics, std::span<const Finding> new_findings) {
+Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
   try {
-    SQLite::Transaction transaction(database_->db);
-    write_statistics(database_->db, statistics);
-    write_findings(database_->db, new_findings);
+    database_->connection = std::make_unique<Connection>(file, 0);
+    auto& db = database_->connection->db;
+    check_version(db, file.string());
+    if (db.execAndGet("SELECT count(*) FROM part").getInt() != 1)
+      throw Error(fmt::format("{}: found several parts or runs, expected one to go on with", file.string()));
+    database_->run = db.execAndGet("SELECT run FROM part").getInt64();
+  } catch (const SQLite::Exception& error) {
+    fail(file, error);
+  }
+}
+
+void Store::save(const Statistics& statistics, const Part& part, std::span<const Finding> new_findings) {
+  try {
+    auto& db = database_->connection->db;
+    SQLite::Transaction transaction(db);
+    write_statistics(db, statistics);
+    write_part(db, database_->run, part);
+    write_findings(db, database_->run, new_findings);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     fail(database_->file, error);
@@ -237,15 +289,24 @@ Campaign load_campaign(const fs::path& file) {
   Campaign campaign;
   try {
     SQLite::Database db(where, SQLite::OPEN_READONLY);
-    if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
-      throw Error(fmt::format("{}: found another kind of database, expected a store of nearmiss", where));
-    const int version = db.execAndGet("PRAGMA user_version").getInt();
-    if (version != schema_version)
-      throw Error(fmt::format("{}: found store version {}, expected {}", where, version, schema_version));
+    check_version(db, where);
 
-    SQLite::Statement runs(db, "SELECT info FROM run ORDER BY id");
-    while (runs.executeStep())
-      campaign.runs.push_back(json::parse(runs.getColumn(0).getString()).get<RunInfo>());
+    std::map<std::int64_t, std::size_t> index;  // of each run's id
+    SQLite::Statement runs(db, "SELECT id, info FROM run ORDER BY id");
+    while (runs.executeStep()) {
+      index[runs.getColumn(0).getInt64()] = campaign.runs.size();
+      campaign.runs.push_back({json::parse(runs.getColumn(1).getString()).get<RunInfo>(), {}, {}});
+    }
+    SQLite::Statement parts(db, "SELECT * FROM part ORDER BY run, shard");
+    while (parts.executeStep())
+      campaign.runs.at(index.at(parts.getColumn(0).getInt64()))
+          .parts.push_back({.shard = count(parts.getColumn(1)),
+                            .shards = count(parts.getColumn(2)),
+                            .rounds = count(parts.getColumn(3)),
+                            .complete = parts.getColumn(4).getInt() != 0,
+                            .started = parts.getColumn(5).getString(),
+                            .seconds = parts.getColumn(6).getDouble(),
+                            .environment = json::parse(parts.getColumn(7).getString()).get<RunInfo>()});
 
     SQLite::Statement rows(db, "SELECT * FROM statistics");
     while (rows.executeStep()) {
@@ -301,51 +362,57 @@ Campaign load_campaign(const fs::path& file) {
                                 seen.getColumn(1).getString(), seen.getColumn(2).getString()}] =
           count(seen.getColumn(3));
 
-    SQLite::Statement findings(db, "SELECT * FROM finding");
+    SQLite::Statement findings(db, "SELECT * FROM finding ORDER BY id");
     while (findings.executeStep()) {
-      const Kind kind = parse_kind(findings.getColumn(3).getString(), where);
-      campaign.findings.push_back(
-          {parse_what(findings.getColumn(0).getString(), where), findings.getColumn(1).getString(),
-           findings.getColumn(2).getString(), parse_line(kind, findings.getColumn(4).getString(), where),
-           findings.getColumn(5).getString(), findings.getColumn(6).getDouble(),
-           findings.getColumn(7).getString(), parse_line(kind, findings.getColumn(8).getString(), where)});
+      const auto text = [&](int i) { return findings.getColumn(i).getString(); };
+      const Kind kind = parse_kind(text(6), where);
+      campaign.runs.at(index.at(findings.getColumn(1).getInt64()))
+          .findings.push_back({.what = parse_what(text(3), where),
+                               .subject = text(4),
+                               .family = text(5),
+                               .query = parse_line(kind, text(7), where),
+                               .provenance = text(8),
+                               .ratio = findings.getColumn(9).getDouble(),
+                               .signature = text(10),
+                               .shrunk = parse_line(kind, text(11), where),
+                               .round = count(findings.getColumn(2))});
     }
-    std::sort(campaign.findings.begin(), campaign.findings.end(), is_before);
-  } catch (const SQLite::Exception& error) {
-    fail(file, error);
-  } catch (const json::exception& error) {
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {  // SQLite's, or what is in a field is not what a store has there
     fail(file, error);
   }
   return campaign;
 }
 
-Campaign merge_campaigns(std::span<const Campaign> campaigns) {
-  Campaign merged;
-  for (const Campaign& each : campaigns) {
-    merged.statistics.merge(each.statistics);
-    merged.runs.insert(merged.runs.end(), each.runs.begin(), each.runs.end());
-    merged.findings.insert(merged.findings.end(), each.findings.begin(), each.findings.end());
+Campaign load_campaigns(std::span<const fs::path> files) {
+  std::vector<Campaign> campaigns;
+  std::vector<std::string> names;
+  for (const fs::path& file : files) {
+    campaigns.push_back(load_campaign(file));
+    names.push_back(file.string());
   }
-  std::sort(merged.runs.begin(), merged.runs.end());
-  // Of those that are shrunk to the same query the first one in their order is kept.
-  std::sort(merged.findings.begin(), merged.findings.end(), is_before);
-  std::set<std::tuple<Signature, Kind, std::array<double, 24>>> known;
-  std::erase_if(merged.findings, [&](const Finding& f) {
-    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x).second;
-  });
-  return merged;
+  return merge_campaigns(campaigns, names);
 }
 
 void write_campaign(const Campaign& campaign, const fs::path& file) {
-  if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
+  refuse_existing(file);
   const fs::path part = file.string() + ".part";
   fs::remove(part);
   try {
-    Store store(part, campaign.runs);
-    store.save(campaign.statistics, campaign.findings);
-  } catch (...) {
+    Connection connection(part, SQLite::OPEN_CREATE);
+    SQLite::Transaction transaction(connection.db);
+    make_schema(connection.db);
+    for (const Run& run : campaign.runs) {
+      const std::int64_t id = write_run(connection.db, run.info);
+      for (const Part& each : run.parts) write_part(connection.db, id, each);
+      write_findings(connection.db, id, run.findings);
+    }
+    write_statistics(connection.db, campaign.statistics);
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
     fs::remove(part);
-    throw;
+    fail(file, error);
   }
   fs::rename(part, file);
 }

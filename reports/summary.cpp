@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "corpus/query_text.hpp"
 #include "reports/confidence.hpp"
@@ -114,9 +115,30 @@ std::string with_separators(std::uint64_t number) {
   return digits;
 }
 
+nlohmann::ordered_json runs_json(const std::vector<Run>& runs) {
+  ordered_json json = ordered_json::array();
+  for (const Run& run : runs) {
+    ordered_json each = run.info;
+    std::set<RunInfo> environments;
+    std::string started;
+    double seconds = 0;
+    for (const Part& part : run.parts) {
+      environments.insert(part.environment);
+      if (started.empty() || part.started < started) started = part.started;
+      seconds += part.seconds;
+    }
+    if (const std::string missing = missing_parts(run); !missing.empty()) each["missing"] = missing;
+    each["environments"] = environments;
+    each["started"] = started;
+    each["seconds"] = seconds;
+    json.push_back(std::move(each));
+  }
+  return json;
+}
+
 nlohmann::ordered_json summary_json(const Campaign& campaign) {
   ordered_json json;
-  json["runs"] = campaign.runs;
+  json["runs"] = runs_json(campaign.runs);
   json["oracle"]["disagreements"] = campaign.statistics.oracle_disagreements;
   json["oracle"]["mismatches_with_recorded_truth"] = campaign.statistics.mismatches_with_recorded_truth;
   for (const auto& [key, counts] : campaign.statistics.oracle)

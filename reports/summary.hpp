@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/statistics.hpp"
+#include "reports/campaign.hpp"
 
 namespace nearmiss {
 
@@ -14,6 +14,10 @@ namespace nearmiss {
 /// where nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth; sweeps where
 /// there are some (reports/sweep.hpp). More fields stand beside them.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
+
+/// The runs: their facts, what is missing of them, when they began, how long all parts took together, and each
+/// environment once.
+nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 /// Whether there is a false negative, a refuted bound, an oracle disagreement or a truth mismatch.
 bool found_anything(const Statistics& statistics);

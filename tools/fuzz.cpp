@@ -31,7 +31,7 @@ struct Options {
 
 std::string show(const CampaignProgress& now, const Statistics& statistics) {
   const double seconds = now.elapsed.count();
-  const double rate = static_cast<double>(now.cases) / seconds;
+  const double rate = static_cast<double>(now.cases - now.cases_before) / seconds;
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
   line += fmt::format(" cases, {:.0f}/s, {} false negatives, {} refuted bounds", rate,
@@ -66,6 +66,23 @@ std::string list_of_families() {
   return lines;
 }
 
+/// What the campaign's results depend on. Its time does not change what a round gives, only how many there are.
+RunInfo info_of(const Options& options, const CampaignPlan& plan) {
+  RunInfo info = run_info("fuzz");
+  info["subjects"] = fmt::format("{}", fmt::join(options.subjects, ","));
+  info["seed"] = fmt::format("{}", plan.seed);
+  info["families"] = options.sweeps.empty()
+                         ? fmt::format("{}", fmt::join(options.families, ","))
+                         : fmt::format("{} in {} steps", fmt::join(options.sweeps, ","), options.steps);
+  if (options.search) info["families"] += ", search";
+  if (!options.mesh.empty())
+    info["scene"] = options.mesh.front().string() + " " + options.mesh.back().string();
+  info["cases"] = plan.cases == 0 ? "until the time is over" : fmt::format("{}", plan.cases);
+  info["compared"] = fmt::format("1 in {}{}", plan.comparison.one_in,
+                                 plan.comparison.near_bounds ? ", and near the bounds" : "");
+  return info;
+}
+
 int run(const Options& options) {
   const auto& stop = interrupted();
   const Subjects subjects = make_subjects(options.subjects);
@@ -78,28 +95,23 @@ int run(const Options& options) {
   plan.jobs = options.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
-  RunInfo info = run_info("fuzz");
-  info["seed"] = fmt::format("{}", plan.seed);
-  info["families"] = options.sweeps.empty()
-                         ? fmt::format("{}", fmt::join(options.families, ","))
-                         : fmt::format("{} in {} steps", fmt::join(options.sweeps, ","), options.steps);
-  if (!options.mesh.empty())
-    info["scene"] = options.mesh.front().string() + " " + options.mesh.back().string();
-  info["cases"] = plan.cases == 0 ? "until the time is over" : fmt::format("{}", plan.cases);
-  info["shard"] = options.shard;
-  Record record(options.record, std::move(info));
+  Record record(options.record, info_of(options, plan), {.shard = plan.shard, .shards = plan.shards});
+  plan.rounds_before = record.part().rounds;
+  plan.findings_before = record.findings();
+  CampaignProgress reached;
   {
     Progress progress;
-    run_campaign(
+    reached = run_campaign(
         plan, subjects,
         [&](TrialResult&& result, const CampaignProgress& now) {
-          record.add(std::move(result));
+          record.add(std::move(result), now.rounds);
           if (progress.due()) progress.show(show(now, record.statistics()));
           return true;
         },
         stop);
   }
-  return record.finish(stop);
+  const bool only_time_ends_it = plan.cases == 0;
+  return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
 }
 
 }  // namespace
@@ -154,6 +166,12 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->type_name("I/N");
   options->record.add_to(*command);
+  command
+      ->add_flag(
+          "--resume", options->record.resume,
+          "Go on with the campaign in the store, of the same options, where that was stopped; begin it "
+          "where there is no such file")
+      ->needs("--db");
   command->footer(
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "

@@ -17,11 +17,12 @@ void add_merge(CLI::App& app, int& /*exit_code*/) {
   command->add_option("OUT", options->out, "The new store")->required()->type_name("OUT.db");
   command->add_option("IN", options->in, "Stores to add up")->required()->type_name("IN.db...");
   command->callback([options] {
-    std::vector<Campaign> campaigns;
-    for (const auto& file : options->in) campaigns.push_back(load_campaign(file));
-    const Campaign merged = merge_campaigns(campaigns);
+    const Campaign merged = load_campaigns(options->in);
     write_campaign(merged, options->out);
     fmt::print("{}", summary_table(merged.statistics));
+    for (const Run& run : merged.runs)
+      if (const std::string missing = missing_parts(run); !missing.empty())
+        fmt::print("{}: {}\n", run.info.at("command"), missing);
   });
 }
 

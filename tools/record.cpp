@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -19,13 +20,31 @@ namespace nearmiss::tools {
 namespace {
 
 constexpr std::size_t printed_findings = 10;
-constexpr auto save_interval = std::chrono::seconds(1);
+constexpr auto save_interval = std::chrono::milliseconds(500);
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
   return "unknown";
+}
+
+std::string rounding_mode() {
+  switch (std::fegetround()) {
+    case FE_TONEAREST:
+      return "to nearest";
+    case FE_UPWARD:
+      return "upward";
+    case FE_DOWNWARD:
+      return "downward";
+    default:
+      return "toward zero";
+  }
+}
+
+/// Where a run's times come from.
+RunInfo environment() {
+  return {{"compiler", NEARMISS_COMPILER}, {"cpu", cpu_model()}, {"rounding", rounding_mode()}};
 }
 
 }  // namespace
@@ -37,19 +56,19 @@ void RecordOptions::add_to(CLI::App& command) {
       ->type_name("FILE");
 }
 
-RunInfo run_info(const std::string& command) {
-  return {{"command", command},
-          {"version", NEARMISS_VERSION},
-          {"compiler", NEARMISS_COMPILER},
-          {"cpu", cpu_model()},
-          {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-}
+RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }
 
-Record::Record(RecordOptions options, RunInfo run) : options_(std::move(options)), run_(std::move(run)) {
+Record::Record(RecordOptions options, RunInfo info, const Part& part)
+    : options_(std::move(options)), info_(std::move(info)), part_(part) {
   const auto folder = options_.json.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
-  if (!options_.db.empty()) store_.emplace(options_.db, std::span(&run_, 1));
+  part_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  part_.environment = environment();
+  if (options_.resume && std::filesystem::exists(options_.db))
+    go_on();
+  else if (!options_.db.empty())
+    store_.emplace(options_.db, info_, part_);
 }
 
 Record::~Record() {
@@ -59,31 +78,54 @@ Record::~Record() {
   std::filesystem::remove(options_.db, ignored);
 }
 
-void Record::add(TrialResult&& result) {
+/// Takes what the store holds for what was done so far. Throws Error where that is something else.
+void Record::go_on() {
+  store_.emplace(options_.db);
+  saved_ = true;
+  Campaign before = load_campaign(options_.db);
+  Run& run = before.runs.at(0);
+  const auto expect = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    if (found != expected)
+      throw Error(fmt::format("{}: found a run with {} '{}', expected '{}' to go on with",
+                              options_.db.string(), what, found, expected));
+  };
+  for (const RunInfo* each : {&info_, &run.info})
+    for (const auto& [name, value] : *each) expect(name, run.info[name], info_[name]);
+  const auto shard = [](const Part& part) { return fmt::format("{}/{}", part.shard, part.shards); };
+  expect("shard", shard(run.parts.at(0)), shard(part_));
+  part_ = run.parts.at(0);
+  seconds_before_ = part_.seconds;
+  statistics_ = std::move(before.statistics);
+  findings_ = std::move(run.findings);
+  saved_findings_ = findings_.size();
+}
+
+void Record::add(TrialResult&& result, std::uint64_t rounds) {
   statistics_.merge(result.statistics);
-  std::move(result.findings.begin(), result.findings.end(), std::back_inserter(unsaved_));
-  if (std::chrono::steady_clock::now() - last_save_ >= save_interval) save();
+  std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
+  part_.rounds = rounds;
+  if (Clock::now() - last_save_ >= save_interval) save();
 }
 
 void Record::save() {
-  if (store_) store_->save(statistics_, unsaved_);
+  part_.seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+  if (store_) store_->save(statistics_, part_, std::span(findings_).subspan(saved_findings_));
   saved_ = true;
-  const std::size_t room = printed_findings - first_findings_.size();
-  first_findings_.insert(first_findings_.end(), unsaved_.begin(),
-                         unsaved_.begin() + static_cast<std::ptrdiff_t>(std::min(room, unsaved_.size())));
-  unsaved_.clear();
-  last_save_ = std::chrono::steady_clock::now();
+  saved_findings_ = findings_.size();
+  last_save_ = Clock::now();
 }
 
-int Record::finish(bool interrupted) {
+int Record::finish(bool interrupted, bool complete) {
+  part_.complete = complete;
   save();
-  if (!options_.json.empty())
-    replace_file(options_.json, summary_json({{run_}, statistics_, {}}).dump(2) + "\n");
+  const Campaign campaign{{{info_, {part_}, findings_}}, statistics_};
+  if (!options_.json.empty()) replace_file(options_.json, summary_json(campaign).dump(2) + "\n");
   fmt::print("{}{}", summary_table(statistics_), sweep_tables(statistics_));
-  if (!first_findings_.empty()) fmt::print("\nthe first findings:\n");
-  for (const Finding& finding : first_findings_)
-    fmt::print("  {} {} {} ({})\n", name(finding.what), finding.subject, finding.provenance,
-               finding.signature);
+  const auto findings = campaign.findings();
+  if (!findings.empty()) fmt::print("\nthe first findings:\n");
+  for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)
+    fmt::print("  {} {} {} ({})\n", name(findings[i].what), findings[i].subject, findings[i].provenance,
+               findings[i].signature);
   if (interrupted) return exit_interrupted;
   return found_anything(statistics_) ? exit_found : exit_fine;
 }

@@ -56,7 +56,7 @@ int run(const Options& options) {
       });
     stream.finish();
   }
-  return record.finish(stop);
+  return record.finish(stop, !stop);
 }
 
 }  // namespace

@@ -23,11 +23,9 @@ void add_report(CLI::App& app, int& /*exit_code*/) {
       ->type_name("DIR");
   command->add_option("--baseline", options->baseline, "Show what changed since this store")->type_name("DB");
   command->callback([options] {
-    std::vector<Campaign> campaigns;
-    for (const auto& file : options->stores) campaigns.push_back(load_campaign(file));
+    const Campaign campaign = load_campaigns(options->stores);
     std::optional<Campaign> baseline;
     if (!options->baseline.empty()) baseline = load_campaign(options->baseline);
-    const Campaign campaign = merge_campaigns(campaigns);
     write_report(campaign, baseline, options->folder);
     fmt::print("{}\nreport: {}\n", summary_table(campaign.statistics),
                std::filesystem::absolute(options->folder / "index.html").lexically_normal().string());

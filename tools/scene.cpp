@@ -77,7 +77,7 @@ int run(const Options& options) {
       with_separators(mesh.edges.size()), with_separators(candidates[Kind::vertex_triangle]),
       with_separators(candidates[Kind::edge_edge]));
   if (given) fmt::print("B = {:.6g} for every pair ({})\n", *given, options.bound);
-  return record.finish(stop);
+  return record.finish(stop, !stop);
 }
 
 }  // namespace

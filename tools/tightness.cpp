@@ -50,7 +50,7 @@ int run(const Options& options) {
         },
         stop);
   }
-  return record.finish(stop);
+  return record.finish(stop, !stop);
 }
 
 }  // namespace

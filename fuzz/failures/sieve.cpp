@@ -4,6 +4,7 @@
 
 #include "fuzz/failures/failure.hpp"
 #include "fuzz/parallel.hpp"
+#include "reports/campaign.hpp"
 
 namespace nearmiss {
 
@@ -13,23 +14,15 @@ const Subject* Sieve::subject_of(const Finding& finding) const {
   return subject == subjects_.end() ? nullptr : subject->get();  // the oracle's own findings have none
 }
 
+void Sieve::know(std::span<const Finding> kept) {
+  for (const Finding& finding : kept) ++kept_[signature_of(finding)];
+}
+
 void Sieve::sift(std::vector<Finding>& findings) {
-  std::vector<Finding> first;
-  for (Finding& finding : findings)
-    if (Kept& kept = kept_[signature_of(finding)]; kept.count < kept_of_each) {
-      ++kept.count;
-      first.push_back(std::move(finding));
-    }
-  in_parallel(jobs_, first.size(), [&](std::size_t i) {
-    if (!stop_) first[i].shrunk = shrunk_query(first[i], subject_of(first[i]));
+  std::erase_if(findings, [&](const Finding& f) { return ++kept_[signature_of(f)] > findings_kept; });
+  in_parallel(jobs_, findings.size(), [&](std::size_t i) {
+    if (!stop_) findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]));
   });
-  findings.clear();
-  for (Finding& finding : first) {
-    auto& shrunk = kept_[signature_of(finding)].shrunk;
-    if (std::find(shrunk.begin(), shrunk.end(), finding.shrunk) != shrunk.end()) continue;
-    shrunk.push_back(finding.shrunk);
-    findings.push_back(std::move(finding));
-  }
 }
 
 }  // namespace nearmiss

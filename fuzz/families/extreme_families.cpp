@@ -65,19 +65,22 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, times 2^1022 along some axes: there a difference of two coordinates overflows as often as
-/// not. Figures start in a plane across the axis half of the time, and half of the coordinates are at rest.
+/// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as often
+/// as not. Most figures start in a plane across that axis, and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
+  const int only = random.integer(0, 5);  // an axis, or no matter
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double size = random.one_in(2) ? 0x1p1022 : 1;
-    const bool flat = random.one_in(2);
+    const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
+    const double size = huge ? 0x1p1022 : 1;
+    const int most = huge ? 3 : random.integer(1, 3);
+    const bool flat = huge && !random.one_in(4);
     for (std::size_t vertex = 0; vertex < 4; ++vertex) {
       double& start = query.x[3 * vertex + axis];
       const bool beside_last = flat && vertex != 0 && vertex != first_vertices;
-      start = beside_last ? query.x[3 * (vertex - 1) + axis] : size * random.integer(-3, 3);
-      query.x[3 * (vertex + 4) + axis] = random.one_in(2) ? start : size * random.integer(-3, 3);
+      start = beside_last ? query.x[3 * (vertex - 1) + axis] : size * random.integer(-most, most);
+      query.x[3 * (vertex + 4) + axis] = random.one_in(2) ? start : size * random.integer(-most, most);
     }
   }
   return finished(random, query);

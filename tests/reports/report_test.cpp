@@ -29,7 +29,7 @@ const Query simple = testing::falling_vertex(0.5, 0.5, 1, -1);
 /// `subject` finds one collision, misses one, and has one false positive at half of the bound.
 Campaign some_campaign(const std::string& subject) {
   Campaign campaign;
-  campaign.runs.push_back({{"command", "fuzz"}});
+  campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
   Counts& counts = campaign.statistics.counts[{subject, Kind::vertex_triangle, "fam,\"ily"}];
   counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, [] { return "f:1:0"; });
   counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, [] { return "f:1:2"; });
@@ -37,9 +37,10 @@ Campaign some_campaign(const std::string& subject) {
              [] { return "f:1:4"; });
   counts.timed_queries = 3;
   counts.nanoseconds = 300;
-  campaign.findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0,
-                               "vt simple-root inside in-face", simple});
-  campaign.statistics.seen[signature_of(campaign.findings.back())] = 1234;
+  auto& findings = campaign.runs.front().findings;
+  findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0,
+                      "vt simple-root inside in-face", simple});
+  campaign.statistics.seen[signature_of(findings.back())] = 1234;
   return campaign;
 }
 
@@ -114,15 +115,17 @@ TEST_F(ReportTest, WritesEverythingThatItPromises) {
 
 TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
   Campaign campaign = some_campaign("wang");
+  auto& findings = campaign.runs.front().findings;
   for (const char* signature : {"vt planar inside on-edge", "ee planar inside crossing"})
     for (int i = 0; i < 10; ++i) {
-      campaign.findings.push_back(campaign.findings.front());
-      campaign.findings.back().signature = signature;
+      findings.push_back(findings.front());
+      findings.back().signature = signature;
+      findings.back().shrunk.x[0] = i;
     }
   const auto json = report_json(campaign, std::nullopt);
   EXPECT_EQ(json["findings_total"], 21);
   ASSERT_EQ(json["findings"].size(), 1 + 3 + 3);
-  EXPECT_EQ(json["findings"][0]["seen"], 1234);
+  EXPECT_EQ(json["findings"][6]["seen"], 1234);
   EXPECT_EQ(json["findings"][6]["file"], "cases/false-negative-wang-007.case");
   EXPECT_EQ(json["findings"][6]["original_file"], "cases/false-negative-wang-007-original.case");
 }
@@ -146,10 +149,11 @@ TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   const Campaign before = some_campaign("wang");
   Campaign now = before;
   EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);
-  now.findings.push_back(now.findings.front());
-  now.findings.back().query.x[0] += 1;
+  auto& findings = now.runs.front().findings;
+  findings.push_back(findings.front());
+  findings.back().query.x[0] += 1;
   EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);  // the same when shrunk
-  now.findings.back().shrunk.x[0] += 1;
+  findings.back().shrunk.x[0] += 1;
   const auto json = report_json(now, before);
   EXPECT_EQ(json["baseline"]["new_findings"], 1);
   EXPECT_EQ(json["baseline"]["changes"][0]["before"]["false_positive_rate"], 1);

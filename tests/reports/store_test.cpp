@@ -56,27 +56,67 @@ Finding some_finding(const std::string& provenance) {
           provenance,
           0,
           "ee simple-root inside crossing",
-          testing::falling_edge(static_cast<double>(provenance.size()), -1)};
+          testing::falling_edge(static_cast<double>(provenance.size()), -1),
+          7};
 }
 
+const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
+const Part part{.shard = 2,
+                .shards = 5,
+                .rounds = 77,
+                .complete = true,
+                .started = "2026-01-02T03:04:05Z",
+                .seconds = 12.5,
+                .environment = {{"cpu", "some"}}};
+
 TEST_F(StoreTest, GivesBackWhatWasSaved) {
-  const Finding finding = some_finding("uniform:1:5");
+  const std::vector findings{some_finding("uniform:1:5"), some_finding("uniform:1:3")};
   {
-    const RunInfo run{{"command", "fuzz"}, {"seed", "1"}};
-    Store store(file("a.db"), std::span(&run, 1));
-    store.save(some_statistics("wang"), {});
-    store.save(some_statistics("wang"), std::span(&finding, 1));
+    Part before = part;
+    before.rounds = 3;
+    Store store(file("a.db"), info, before);
+    store.save({}, before, std::span(findings).first(1));
+    store.save(some_statistics("wang"), part, std::span(findings).last(1));
   }
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
-  EXPECT_EQ(campaign.findings, std::vector{finding});
-  EXPECT_EQ(campaign.runs, (std::vector<RunInfo>{{{"command", "fuzz"}, {"seed", "1"}}}));
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, findings}}));
 }
 
 TEST_F(StoreTest, CanBeReadWhileItIsWritten) {
-  Store store(file("a.db"), {});
-  store.save(some_statistics("wang"), {});
+  Store store(file("a.db"), info, part);
+  store.save(some_statistics("wang"), part, {});
   EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));
+}
+
+TEST_F(StoreTest, IsWrittenByOneAtATime) {
+  {
+    Store store(file("a.db"), info, part);
+    EXPECT_THAT([&] { Store(file("a.db")); },
+                ThrowsMessage<Error>(HasSubstr("a.db: another process is writing it")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(file("a.db.lock")));
+  Store(file("a.db")).save(some_statistics("wang"), part, {});
+}
+
+TEST_F(StoreTest, GoesOn) {
+  const Finding first = some_finding("first");
+  const Finding second = some_finding("second");
+  Store(file("a.db"), info, part).save({}, part, std::span(&first, 1));
+  Part later = part;
+  later.rounds = 78;
+  Store(file("a.db")).save(some_statistics("wang"), later, std::span(&second, 1));
+  const Campaign campaign = load_campaign(file("a.db"));
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {later}, {first, second}}}));
+  EXPECT_EQ(campaign.statistics, some_statistics("wang"));
+}
+
+TEST_F(StoreTest, GoesOnWithOnePartOfOneRunOnly) {
+  Part other = part;
+  other.shard = 3;
+  write_campaign({{{info, {part, other}, {}}}, {}}, file("a.db"));
+  EXPECT_THAT([&] { Store(file("a.db")); }, ThrowsMessage<Error>(HasSubstr("a.db: found several parts")));
+  EXPECT_THAT([&] { Store(file("none.db")); }, ThrowsMessage<Error>(HasSubstr("none.db: unable to open")));
 }
 
 /// No file of this process can grow beyond a size: to a writer the same as a full disk.
@@ -97,57 +137,39 @@ class NoRoom {
 };
 
 TEST_F(StoreTest, AFullDiskLosesNothingThatWasSaved) {
-  Store store(file("a.db"), {});
-  store.save(some_statistics("wang"), {});
+  Store store(file("a.db"), info, part);
+  store.save(some_statistics("wang"), part, {});
   const NoRoom no_room(100 << 10);
   std::vector<Finding> many;
   for (int i = 0; i < 2000; ++i) many.push_back(some_finding(std::to_string(i)));
-  EXPECT_THAT([&] { store.save({}, many); }, ThrowsMessage<Error>(HasSubstr("a.db: ")));
+  EXPECT_THAT([&] { store.save({}, part, many); }, ThrowsMessage<Error>(HasSubstr("a.db: ")));
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
-  EXPECT_TRUE(campaign.findings.empty());
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, {}}}));
 }
 
-TEST_F(StoreTest, MergingDoesNotDependOnTheOrder) {
-  const auto campaign = [](const std::string& subject, const std::string& seed,
-                           const std::string& provenance) {
-    return Campaign{
-        {{{"seed", seed}}}, some_statistics(subject), {some_finding(provenance), some_finding("both")}};
-  };
-  const std::vector campaigns{campaign("wang", "1", "x"), campaign("basic", "2", "yy"),
-                              campaign("wang", "3", "zzz")};
-  std::vector reversed(campaigns.rbegin(), campaigns.rend());
-  const Campaign merged = merge_campaigns(campaigns);
-  write_campaign(merged, file("a.db"));
-  write_campaign(merge_campaigns(reversed), file("b.db"));
-  EXPECT_EQ(read("a.db"), read("b.db"));
-  EXPECT_EQ(merged.findings.size(), 4);
-  EXPECT_EQ(merged.runs.size(), 3);
+TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
+  const Campaign campaign{{{info, {part}, {some_finding("x")}}, {{{"seed", "2"}}, {}, {some_finding("y")}}},
+                          some_statistics("wang")};
+  write_campaign(campaign, file("a.db"));
   const Campaign again = load_campaign(file("a.db"));
-  EXPECT_EQ(again.statistics, merged.statistics);
-  EXPECT_EQ(again.findings, merged.findings);
-  EXPECT_EQ(again.runs, merged.runs);
+  EXPECT_EQ(again.runs, campaign.runs);
+  EXPECT_EQ(again.statistics, campaign.statistics);
 }
 
-TEST_F(StoreTest, MergingKeepsOneOfThoseThatAreShrunkToTheSame) {
-  const auto campaign = [](const std::string& provenance) {
-    return Campaign{{}, some_statistics("basic"), {some_finding(provenance)}};
-  };
-  const std::vector campaigns{campaign("c"), campaign("a"), campaign("bb"), campaign("b")};
-  std::vector reversed(campaigns.rbegin(), campaigns.rend());
-  const Campaign merged = merge_campaigns(campaigns);
-  EXPECT_EQ(merged.findings, (std::vector{some_finding("a"), some_finding("bb")}));
-  EXPECT_EQ(merge_campaigns(reversed).findings, merged.findings);
-  EXPECT_EQ(merged.statistics.seen.begin()->second, 20);
-  // In steps too.
-  const std::vector halves{merge_campaigns(std::span(campaigns).first(2)),
-                           merge_campaigns(std::span(campaigns).last(2))};
-  EXPECT_EQ(merge_campaigns(halves).findings, merged.findings);
+TEST_F(StoreTest, ACutFileIsRefused) {
+  write_campaign({{{info, {part}, {some_finding("x")}}}, some_statistics("wang")}, file("a.db"));
+  const std::string whole = read("a.db");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{50}, whole.size() / 2, whole.size() - 4096}) {
+    write("cut.db", whole.substr(0, size));
+    EXPECT_THAT([&] { load_campaign(file("cut.db")); }, ThrowsMessage<Error>(HasSubstr("cut.db: "))) << size;
+  }
 }
 
 TEST_F(StoreTest, NeverTakesAFileThatIsThereAlready) {
   write("a.db", "precious");
-  EXPECT_THAT([&] { Store(file("a.db"), {}); }, ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
+  EXPECT_THAT([&] { Store(file("a.db"), info, part); },
+              ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
   EXPECT_THAT([&] { write_campaign({}, file("a.db")); },
               ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
   EXPECT_EQ(read("a.db"), "precious");
@@ -170,15 +192,15 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("old.db"));
   sqlite3* db = nullptr;
   sqlite3_open(file("old.db").c_str(), &db);
-  sqlite3_exec(db, "PRAGMA user_version = 3", nullptr, nullptr, nullptr);
+  sqlite3_exec(db, "PRAGMA user_version = 4", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 3, expected 4")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 4, expected 5")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {
-  EXPECT_THAT([&] { Store(file("no/a.db"), {}); },
-              ThrowsMessage<Error>(HasSubstr("no/a.db: unable to open")));
+  EXPECT_THAT([&] { Store(file("no/a.db"), info, part); },
+              ThrowsMessage<Error>(HasSubstr("no/a.db.lock: cannot be made")));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(Sweeps, OneValueIsNone) {
     statistics.counts[{"wang", Kind::edge_edge, family}] = some_counts(10, 0);
   EXPECT_TRUE(sweeps(statistics).empty());
   EXPECT_EQ(sweep_tables(statistics), "");
-  EXPECT_FALSE(summary_json({{}, statistics, {}}).contains("sweeps"));
+  EXPECT_FALSE(summary_json({{}, statistics}).contains("sweeps"));
 }
 
 TEST(Sweeps, StandInTheTableAndInTheJson) {
@@ -59,7 +59,7 @@ TEST(Sweeps, StandInTheTableAndInTheJson) {
   EXPECT_THAT(
       sweep_tables(some_statistics()),
       HasSubstr("\n   8       20           8           1           6   0.5            0.25        50\n"));
-  const auto json = summary_json({{}, some_statistics(), {}})["sweeps"]["aspect"]["wang"];
+  const auto json = summary_json({{}, some_statistics()})["sweeps"]["aspect"]["wang"];
   ASSERT_EQ(json.size(), 2);
   EXPECT_EQ(json[1]["value"], 8);
   EXPECT_EQ(json[1]["queries"], 20);

@@ -1,0 +1,117 @@
+// Campaigns: parts of a run come together, and give what one machine would have found.
+#include "reports/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
+
+Finding finding(std::uint64_t round, const std::string& provenance, double shrunk,
+                const std::string& signature) {
+  Finding made;
+  made.subject = "basic";
+  made.provenance = provenance;
+  made.signature = signature;
+  made.round = round;
+  made.shrunk = testing::falling_edge(shrunk, -1);
+  return made;
+}
+
+/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9: of signature "s", and of "t" from round
+/// 5 on.
+Campaign shard_of_three(std::uint64_t shard) {
+  Run run{info, {{.shard = shard, .shards = 3, .rounds = 4, .complete = true}}, {}};
+  for (std::uint64_t round = shard; round < 10; round += 3)
+    for (const char* signature : {"s", "t"})
+      if (round >= 5 || *signature == 's')
+        run.findings.push_back(finding(round, std::to_string(round), static_cast<double>(round), signature));
+  Campaign campaign{{run}, {}};
+  campaign.statistics.oracle_disagreements = shard + 1;
+  return campaign;
+}
+
+Campaign merged(const std::vector<std::uint64_t>& shards) {
+  std::vector<Campaign> campaigns;
+  std::vector<std::string> names;
+  for (const auto shard : shards) {
+    campaigns.push_back(shard_of_three(shard));
+    names.push_back(std::to_string(shard) + ".db");
+  }
+  return merge_campaigns(campaigns, names);
+}
+
+TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
+  const Campaign whole = merged({0, 1, 2});
+  ASSERT_EQ(whole.runs.size(), 1);
+  std::vector<std::string> kept;
+  for (const Finding& each : whole.runs.front().findings) kept.push_back(each.signature + each.provenance);
+  EXPECT_EQ(kept, (std::vector<std::string>{"s0", "s1", "s2", "t5", "t6", "t7"}));
+  EXPECT_EQ(whole.statistics.oracle_disagreements, 6);
+  std::vector<std::uint64_t> order{0, 1, 2};
+  while (std::next_permutation(order.begin(), order.end())) EXPECT_EQ(merged(order).runs, whole.runs);
+  // In steps too.
+  const std::vector parts{merged({2, 0}), shard_of_three(1)};
+  const std::vector<std::string> names{"a", "b"};
+  EXPECT_EQ(merge_campaigns(parts, names).runs, whole.runs);
+}
+
+TEST(Campaign, SaysWhichShardsAreMissing) {
+  EXPECT_EQ(missing_parts(merged({0, 1, 2}).runs.front()), "");
+  EXPECT_EQ(missing_parts(merged({1}).runs.front()), "shards 0, 2 of 3 are missing");
+  EXPECT_EQ(missing_parts({{}, {{.shard = 0, .shards = 2}}, {}}),
+            "shards 1 of 2 are missing, shards 0 of 2 are not complete");
+  EXPECT_EQ(missing_parts({{}, {{}}, {}}), "not complete");
+}
+
+TEST(Campaign, AShardIsTakenOnce) {
+  EXPECT_THAT(
+      [] {
+        merged({0, 1, 0});
+      },
+      ThrowsMessage<Error>("0.db and 0.db: both have shard 0/3 of the run with command fuzz, seed 1"));
+}
+
+TEST(Campaign, ARunIsCutInOneWay) {
+  std::vector campaigns{shard_of_three(0), shard_of_three(1)};
+  campaigns[1].runs[0].parts[0].shards = 4;
+  const std::vector<std::string> names{"a.db", "b.db"};
+  EXPECT_THAT([&] { merge_campaigns(campaigns, names); },
+              ThrowsMessage<Error>(HasSubstr("b.db: found a shard of 4, and one of 3 in a.db")));
+}
+
+TEST(Campaign, RunsThatDifferStandSideBySide) {
+  std::vector campaigns{shard_of_three(0), shard_of_three(0)};
+  campaigns[1].runs[0].info["seed"] = "0";
+  const std::vector<std::string> names{"a.db", "b.db"};
+  const Campaign both = merge_campaigns(campaigns, names);
+  ASSERT_EQ(both.runs.size(), 2);
+  EXPECT_EQ(both.runs[0].info.at("seed"), "0");
+}
+
+TEST(Campaign, ShowsOneOfThoseThatAreShrunkToTheSame) {
+  const Campaign campaign{{{info,
+                            {},
+                            {finding(1, "a", 1, "t"), finding(2, "b", 1, "t"), finding(2, "c", 1, "s"),
+                             finding(3, "d", 2, "t")}}},
+                          {}};
+  std::vector<std::string> shown;
+  for (const Finding& each : campaign.findings()) shown.push_back(each.provenance);
+  EXPECT_EQ(shown, (std::vector<std::string>{"c", "a", "d"}));
+}
+
+}  // namespace
+}  // namespace nearmiss
