@@ -3,14 +3,43 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
+#include "ccd/nearmiss_subject.h"
 #include "ccd/subject.hpp"
 
 namespace nearmiss {
 
-/// The subject that the shared object at `path` exports. Throws Error where the file cannot be loaded, has no
-/// nearmiss_get_subject, has another abi, or lacks a function. Its decide() throws Error where the plug-in
-/// returns an error.
-std::unique_ptr<Subject> load_plugin(const std::string& path);
+/// Whether a subject's name is the path of a plug-in: it has a '/'.
+inline bool is_plugin_path(std::string_view name) { return name.find('/') != std::string_view::npos; }
+
+/// The subject that a shared object exports, in this process.
+class Plugin final : public Subject {
+ public:
+  /// Throws Error where the file cannot be loaded, has no nearmiss_get_subject, has another abi, or lacks a
+  /// function.
+  explicit Plugin(const std::string& path);
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override;
+  [[nodiscard]] double distance_bound(const Query& query) const override;
+
+  /// What the plug-in returns, and the time that it gives; `time` stays as it is where it gives none.
+  int ask(const Query& query, double& time) const;
+
+ private:
+  struct Unload {
+    void operator()(void* handle) const;
+  };
+
+  std::unique_ptr<void, Unload> library_;
+  const nearmiss_subject* subject_ = nullptr;  // owned by the library
+  std::string name_;
+};
+
+/// A plug-in's answer as a verdict.
+Verdict plugin_verdict(int answer, double time);
 
 }  // namespace nearmiss

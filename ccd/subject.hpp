@@ -34,11 +34,28 @@ inline constexpr std::size_t stage_count = 8;
 inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none", "proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"};
 
+/// Why a subject gave no answer.
+enum class Fault : std::uint8_t {
+  none,
+  error,   ///< it said so itself, or gave an answer that is none
+  crash,   ///< its process ended
+  time,    ///< it took longer than it may
+  memory,  ///< it wanted more memory than it may have
+};
+
+inline constexpr std::size_t fault_count = 5;
+
+/// Names of the faults, in order, as they stand in files and reports.
+inline constexpr std::array<std::string_view, fault_count> fault_names{"none", "error", "crash", "time",
+                                                                       "memory"};
+
 /// A subject's answer to one query.
 struct Verdict {
   bool hit = false;
   Stage stage = Stage::none;
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] where hit; NaN where not known
+  Fault fault = Fault::none;                               ///< otherwise there is no answer
+  std::int32_t fault_code = 0;  ///< what an error returned; of a crash the signal, or the exit code negated
 };
 
 /// A CCD on trial: a pure function of the query.
@@ -52,7 +69,7 @@ class Subject {
   /// Name on the command line and in reports; a plug-in's own name for a plug-in.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
-  /// Throws Error where the subject itself reports an error (plug-ins) or a coordinate is not finite.
+  /// Throws Error where a coordinate is not finite.
   [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
 
   /// verdicts[i] = decide(queries[i]); the spans have one length. This is what is timed.
@@ -60,8 +77,15 @@ class Subject {
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
   }
 
+  /// The same, with the time that each answer took, in ns. Taking it costs a few tens of ns a query.
+  virtual void decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts,
+                            std::span<std::uint64_t> nanoseconds) const;
+
+  /// Whether only decide_timed tells how long an answer takes, because asking takes time too.
+  [[nodiscard]] virtual bool is_remote() const { return false; }
+
   /// The largest distance that a false positive of this subject may have, as the subject claims it
-  /// (same unit of length as the query); infinity where it claims nothing.
+  /// (same unit of length as the query); infinity where it claims nothing, NaN where it fails to say.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
   /// How far the query is from the border between hit and miss: the factor s by which the lengths of all

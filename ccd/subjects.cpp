@@ -1,5 +1,6 @@
 // The built-in subjects.
 #include <array>
+#include <chrono>
 #include <cmath>
 
 #include "ccd/basic.hpp"
@@ -121,10 +122,23 @@ std::vector<SubjectInfo> subjects() {
   return infos;
 }
 
+void Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts,
+                           std::span<std::uint64_t> nanoseconds) const {
+  using Clock = std::chrono::steady_clock;
+  auto start = Clock::now();
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    verdicts[i] = decide(queries[i]);
+    const auto end = Clock::now();
+    nanoseconds[i] =
+        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
+    start = end;
+  }
+}
+
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
   for (const Entry& each : registry)
     if (each.info.name == name_or_path) return each.make(name_or_path, given_bound);
-  if (name_or_path.find('/') != std::string_view::npos) return load_plugin(std::string(name_or_path));
+  if (is_plugin_path(name_or_path)) return std::make_unique<Plugin>(std::string(name_or_path));
   return nullptr;
 }
 

@@ -36,17 +36,17 @@ struct TrialResult {
 
 /// Which queries all three answers of the oracle are asked about.
 struct Comparison {
-  std::uint64_t one_in = 64;  ///< so many, by a hash of the coordinates; at least 1
-  /// Of those that its filter leaves undecided, which cost a hundred times as much, but are the hard ones.
-  [[nodiscard]] std::uint64_t one_in_undecided() const { return one_in <= 8 ? 1 : one_in / 8; }
+  std::uint64_t one_in = 4096;  ///< so many, by a hash of the coordinates; at least 1
+  /// Of those that its filter leaves undecided, which cost ten times as much, but are the hard ones.
+  [[nodiscard]] std::uint64_t one_in_undecided() const { return one_in <= 64 ? 1 : one_in / 64; }
   /// And where the filter decides, but would not with bounds of rounding errors 16 times as large.
   bool near_bounds = false;
 };
 
 /// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, apart from the
 /// oracle. A false positive's distance is measured by the bound that the subject claims, or by that of wang
-/// for the same pair where it claims none; only a claimed bound can be refuted. Throws Error where a subject
-/// reports one, with the query's provenance.
+/// for the same pair where it claims none; only a claimed bound can be refuted. A query without an answer, or
+/// without the bound that is asked for, is a fault of the subject.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
 
 }  // namespace nearmiss

@@ -23,6 +23,9 @@ std::string statistics_csv(const Statistics& statistics) {
   std::string text =
       "subject,kind,family,queries,collisions,positives,false_negatives,false_negative_rate_upper_95,"
       "false_positives,refuted_bounds,max_fp_distance_over_bound,ns_per_query";
+  for (const auto fault : fault_names)
+    if (fault != "none") text += fmt::format(",fault_{}", fault);
+  text += ",median_ns,q99_ns";
   for (const auto stage : stage_names) text += fmt::format(",true_by_{}", stage);
   for (const auto stage : stage_names) text += fmt::format(",false_by_{}", stage);
   text += '\n';
@@ -32,6 +35,9 @@ std::string statistics_csv(const Statistics& statistics) {
                         clopper_pearson_upper(c.false_negatives, c.collisions), c.false_positives,
                         c.refuted_bounds, c.max_ratio(),
                         c.timed_queries == 0 ? "" : fmt::format("{}", c.ns_per_query()));
+    for (std::size_t i = 1; i < fault_count; ++i) text += fmt::format(",{}", c.faults[i]);
+    for (const double part : {0.5, 0.99})
+      text += c.times.total() == 0 ? "," : fmt::format(",{:.0f}", c.times.quantile(part));
     for (const auto count : c.true_by_stage) text += fmt::format(",{}", count);
     for (const auto count : c.false_by_stage) text += fmt::format(",{}", count);
     text += '\n';

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace nearmiss {
 
@@ -26,6 +28,45 @@ void Histogram::merge(const Histogram& other) {
 
 namespace {
 
+double time_border(std::size_t i) { return std::exp2(static_cast<double>(i) / TimeHistogram::per_octave); }
+
+}  // namespace
+
+void TimeHistogram::add(std::uint64_t nanoseconds) {
+  const double octave = nanoseconds == 0 ? 0 : std::log2(static_cast<double>(nanoseconds));
+  ++bins[std::min(static_cast<std::size_t>(octave * per_octave), bin_count - 1)];
+}
+
+void TimeHistogram::merge(const TimeHistogram& other) {
+  for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
+}
+
+std::uint64_t TimeHistogram::total() const {
+  return std::accumulate(bins.begin(), bins.end(), std::uint64_t{0});
+}
+
+double TimeHistogram::quantile(double part) const {
+  const double wanted = part * static_cast<double>(total());
+  double sum = 0;
+  for (std::size_t i = 0; i < bin_count; ++i) {
+    sum += static_cast<double>(bins[i]);
+    if (sum > 0 && sum >= wanted) return time_border(i + 1);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+namespace {
+
+bool slower(const SlowCase& a, const SlowCase& b) {
+  if (a.nanoseconds != b.nanoseconds) return a.nanoseconds > b.nanoseconds;
+  return a.provenance < b.provenance;
+}
+
+void keep_slowest(std::vector<SlowCase>& cases) {
+  std::sort(cases.begin(), cases.end(), slower);
+  if (cases.size() > Counts::slow_cases) cases.resize(Counts::slow_cases);
+}
+
 /// Farthest first; ties in the order of the queries, so that merging in any order keeps the same cases.
 bool farther(const FarCase& a, const FarCase& b) {
   if (a.ratio != b.ratio) return a.ratio > b.ratio;
@@ -45,6 +86,10 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
   const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
   ++queries;
   collisions += outcome.collision ? 1 : 0;
+  if (outcome.verdict.fault != Fault::none) {
+    ++faults[static_cast<std::size_t>(outcome.verdict.fault)];
+    return;
+  }
   positives += hit ? 1 : 0;
   if (outcome.collision) {
     if (hit)
@@ -63,6 +108,18 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
   }
 }
 
+void Counts::add_time(std::uint64_t time, const Query& query,
+                      const std::function<std::string()>& provenance) {
+  times.add(time);
+  if (slowest.size() == slow_cases && time <= slowest.back().nanoseconds) return;
+  slowest.push_back({time, query, provenance()});
+  keep_slowest(slowest);
+}
+
+std::uint64_t Counts::faults_total() const {
+  return std::accumulate(faults.begin(), faults.end(), std::uint64_t{0});
+}
+
 void Counts::merge(const Counts& other) {
   queries += other.queries;
   collisions += other.collisions;
@@ -77,8 +134,12 @@ void Counts::merge(const Counts& other) {
   distances.merge(other.distances);
   farthest.insert(farthest.end(), other.farthest.begin(), other.farthest.end());
   keep_farthest(farthest);
+  for (std::size_t i = 0; i < fault_count; ++i) faults[i] += other.faults[i];
   timed_queries += other.timed_queries;
   nanoseconds += other.nanoseconds;
+  times.merge(other.times);
+  slowest.insert(slowest.end(), other.slowest.begin(), other.slowest.end());
+  keep_slowest(slowest);
 }
 
 void OracleCounts::merge(const OracleCounts& other) {
@@ -130,6 +191,12 @@ std::uint64_t Statistics::refuted_bounds() const {
   return sum;
 }
 
+std::uint64_t Statistics::faults() const {
+  std::uint64_t sum = 0;
+  for (const auto& [key, each] : counts) sum += each.faults_total();
+  return sum;
+}
+
 std::string_view name(Finding::What what) {
   switch (what) {
     case Finding::What::false_negative:
@@ -140,6 +207,8 @@ std::string_view name(Finding::What what) {
       return "oracle-disagreement";
     case Finding::What::truth_mismatch:
       return "truth-mismatch";
+    case Finding::What::fault:
+      return "fault";
   }
   return "";
 }

@@ -36,6 +36,32 @@ struct Histogram {
   bool operator==(const Histogram&) const = default;
 };
 
+/// Counts of how long answers took: log-spaced bins, four to an octave, from 1 ns to 2^40 ns (18 minutes).
+struct TimeHistogram {
+  static constexpr int per_octave = 4;
+  static constexpr std::size_t bin_count = 40 * per_octave;
+
+  std::array<std::uint64_t, bin_count> bins{};
+
+  void add(std::uint64_t nanoseconds);
+  void merge(const TimeHistogram& other);
+  [[nodiscard]] std::uint64_t total() const;
+  /// The time that a part of all answers, in (0, 1], did not exceed, to a quarter of an octave; not a number
+  /// where there is none.
+  [[nodiscard]] double quantile(double part) const;
+
+  bool operator==(const TimeHistogram&) const = default;
+};
+
+/// A query that is kept because its answer took longest.
+struct SlowCase {
+  std::uint64_t nanoseconds = 0;
+  Query query;
+  std::string provenance;
+
+  bool operator==(const SlowCase&) const = default;
+};
+
 /// A false positive that is kept because it is among the farthest away.
 struct FarCase {
   double ratio = 0;  ///< distance / claimed bound
@@ -66,16 +92,22 @@ struct Counts {
   std::array<std::uint64_t, stage_count> true_by_stage{};   ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};  ///< false positives likewise
   Histogram distances;
-  std::vector<FarCase> farthest;  ///< at most far_cases, farthest first
+  std::vector<FarCase> farthest;                    ///< at most far_cases, farthest first
+  std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by why
   std::uint64_t timed_queries = 0;
   std::uint64_t nanoseconds = 0;  ///< of the subject alone, over timed_queries
+  TimeHistogram times;            ///< of a sample of the queries, each one's own
+  std::vector<SlowCase> slowest;  ///< of these, at most slow_cases, slowest first
 
   static constexpr std::size_t far_cases = 5;
+  static constexpr std::size_t slow_cases = 5;
 
   /// `query` and its provenance are kept if the outcome is a far false positive.
   void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
+  void add_time(std::uint64_t time, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other);
 
+  [[nodiscard]] std::uint64_t faults_total() const;
   /// Of all queries that are no collisions; 0 where there is none.
   [[nodiscard]] double false_positive_rate() const {
     const std::uint64_t others = queries - collisions;
@@ -119,7 +151,13 @@ struct OracleCounts {
 
 /// A case that must not be lost.
 struct Finding {
-  enum class What : std::uint8_t { false_negative, refuted_bound, oracle_disagreement, truth_mismatch };
+  enum class What : std::uint8_t {
+    false_negative,
+    refuted_bound,
+    oracle_disagreement,
+    truth_mismatch,
+    fault
+  };
 
   What what{};
   std::string subject;  ///< empty for the oracle's own
@@ -169,6 +207,7 @@ struct Statistics {
   [[nodiscard]] std::uint64_t times_seen(const Finding& finding) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;
+  [[nodiscard]] std::uint64_t faults() const;
 
   bool operator==(const Statistics&) const = default;
 };

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int schema_version = 5;
+constexpr int schema_version = 6;
 constexpr int application_id = 0x6e656172;  // "near"
 
 constexpr const char* schema = R"sql(
@@ -32,7 +32,8 @@ constexpr const char* schema = R"sql(
     queries INTEGER NOT NULL, collisions INTEGER NOT NULL, positives INTEGER NOT NULL,
     false_negatives INTEGER NOT NULL, false_positives INTEGER NOT NULL, refuted_bounds INTEGER NOT NULL,
     true_by_stage TEXT NOT NULL, false_by_stage TEXT NOT NULL, distances TEXT NOT NULL, farthest TEXT NOT NULL,
-    timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL,
+    faults TEXT NOT NULL, timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL, times TEXT NOT NULL,
+    slowest TEXT NOT NULL,
     PRIMARY KEY (subject, kind, family)) STRICT;
   CREATE TABLE oracle_statistics (
     kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL, queries INTEGER NOT NULL,
@@ -66,12 +67,27 @@ std::vector<FarCase> far_cases(const json& list, Kind kind, const std::string& w
   return cases;
 }
 
+json slow_json(const std::vector<SlowCase>& cases) {
+  json list = json::array();
+  for (const SlowCase& slow : cases) list.push_back({slow.nanoseconds, slow.provenance, to_line(slow.query)});
+  return list;
+}
+
+std::vector<SlowCase> slow_cases(const json& list, Kind kind, const std::string& where) {
+  std::vector<SlowCase> cases;
+  for (const json& each : list)
+    cases.push_back({each.at(0).get<std::uint64_t>(), parse_line(kind, each.at(2).get<std::string>(), where),
+                     each.at(1).get<std::string>()});
+  return cases;
+}
+
 // SQLite's integers are signed; a count never comes near 2^63.
 std::int64_t stored(std::uint64_t count) { return static_cast<std::int64_t>(count); }
 std::uint64_t count(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
 void write_statistics(SQLite::Database& db, const Statistics& statistics) {
-  SQLite::Statement insert(db, "INSERT OR REPLACE INTO statistics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  SQLite::Statement insert(db,
+                           "INSERT OR REPLACE INTO statistics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const auto& [key, c] : statistics.counts) {
     int i = 0;
     insert.bind(++i, key.subject);
@@ -84,8 +100,11 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     insert.bind(++i, json(c.false_by_stage).dump());
     insert.bind(++i, json(c.distances.bins).dump());
     insert.bind(++i, far_json(c.farthest).dump());
+    insert.bind(++i, json(c.faults).dump());
     insert.bind(++i, stored(c.timed_queries));
     insert.bind(++i, stored(c.nanoseconds));
+    insert.bind(++i, json(c.times.bins).dump());
+    insert.bind(++i, slow_json(c.slowest).dump());
     insert.exec();
     insert.reset();
   }
@@ -187,8 +206,9 @@ void check_version(SQLite::Database& db, const std::string& where) {
 }
 
 Finding::What parse_what(const std::string& text, const std::string& where) {
-  for (const auto what : {Finding::What::false_negative, Finding::What::refuted_bound,
-                          Finding::What::oracle_disagreement, Finding::What::truth_mismatch})
+  for (const auto what :
+       {Finding::What::false_negative, Finding::What::refuted_bound, Finding::What::oracle_disagreement,
+        Finding::What::truth_mismatch, Finding::What::fault})
     if (name(what) == text) return what;
   throw Error(fmt::format("{}: found a finding '{}', which this version does not know", where, text));
 }
@@ -321,8 +341,11 @@ Campaign load_campaign(const fs::path& file) {
       json::parse(rows.getColumn(++i).getString()).get_to(c.false_by_stage);
       json::parse(rows.getColumn(++i).getString()).get_to(c.distances.bins);
       c.farthest = far_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
+      json::parse(rows.getColumn(++i).getString()).get_to(c.faults);
       c.timed_queries = count(rows.getColumn(++i));
       c.nanoseconds = count(rows.getColumn(++i));
+      json::parse(rows.getColumn(++i).getString()).get_to(c.times.bins);
+      c.slowest = slow_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
     }
 
     SQLite::Statement by_family(db, "SELECT * FROM oracle_statistics");

@@ -1,6 +1,7 @@
 #include "reports/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,19 @@ ordered_json by_stage(const std::array<std::uint64_t, stage_count>& counts) {
   return json;
 }
 
+/// Of what is told of times everything stands here, but for the mean.
+ordered_json times_json(const Counts& counts) {
+  ordered_json json;
+  json["sampled"] = counts.times.total();
+  if (counts.times.total() == 0) return json;
+  for (const auto& [name, part] : {std::pair{"median_ns", 0.5}, {"q99_ns", 0.99}, {"q99.9_ns", 0.999}})
+    json[name] = counts.times.quantile(part);
+  for (const SlowCase& slow : counts.slowest)
+    json["slowest"].push_back(
+        {{"ns", slow.nanoseconds}, {"provenance", slow.provenance}, {"query", to_line(slow.query)}});
+  return json;
+}
+
 ordered_json counts_json(const Counts& counts) {
   ordered_json json;
   json["queries"] = counts.queries;
@@ -36,6 +50,10 @@ ordered_json counts_json(const Counts& counts) {
   json["refuted_bounds"] = counts.refuted_bounds;
   json["max_fp_distance_over_bound"] = counts.max_ratio();
   json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
+  json["faults"] = ordered_json::object();
+  for (std::size_t i = 1; i < fault_count; ++i)
+    if (counts.faults[i] != 0) json["faults"][std::string(fault_names[i])] = counts.faults[i];
+  json["times"] = times_json(counts);
   json["true_positives_by_stage"] = by_stage(counts.true_by_stage);
   json["false_positives_by_stage"] = by_stage(counts.false_by_stage);
   json["fp_distance_histogram"] = counts.distances.bins;
@@ -163,7 +181,7 @@ nlohmann::ordered_json summary_json(const Campaign& campaign) {
 
 bool found_anything(const Statistics& statistics) {
   return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +
-             statistics.mismatches_with_recorded_truth >
+             statistics.mismatches_with_recorded_truth + statistics.faults() >
          0;
 }
 
@@ -185,6 +203,13 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
     std::string text =
         missed ? fmt::format("MISSED {} of ", with_separators(counts.false_negatives)) : "no miss in ";
     text += counted(counts.collisions, "collision", "collisions");
+    std::vector<std::string> faults;
+    for (std::size_t i = 1; i < fault_count; ++i)
+      if (counts.faults[i] != 0)
+        faults.push_back(fmt::format("{} {}", with_separators(counts.faults[i]), fault_names[i]));
+    if (!faults.empty())
+      text += fmt::format(", NO ANSWER to {} ({})", counted(counts.faults_total(), "query", "queries"),
+                          fmt::join(faults, ", "));
     if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
     if (counts.false_positives > 0)
       text += fmt::format(", {}, the farthest at {:.3g} of the bound",
@@ -192,7 +217,7 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
                           counts.max_ratio());
     else
       text += ", no false positive";
-    verdicts.push_back({subject, !missed && !refuted, std::move(text)});
+    verdicts.push_back({subject, !missed && !refuted && faults.empty(), std::move(text)});
   }
   return verdicts;
 }

@@ -19,13 +19,13 @@ nlohmann::ordered_json summary_json(const Campaign& campaign);
 /// environment once.
 nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
-/// Whether there is a false negative, a refuted bound, an oracle disagreement or a truth mismatch.
+/// Whether there is a false negative, a refuted bound, a fault, an oracle disagreement or a truth mismatch.
 bool found_anything(const Statistics& statistics);
 
 /// What a subject's line says.
 struct SubjectVerdict {
   std::string subject;
-  bool clean;        ///< no false negative and no refuted bound
+  bool clean;        ///< an answer to every query, no false negative and no refuted bound
   std::string text;  ///< "no miss in 1,234 collisions" and so on
 };
 

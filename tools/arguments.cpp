@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "ccd/error.hpp"
+#include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects.hpp"
@@ -71,11 +72,26 @@ void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   read_query_lines(in, of, file, each);
 }
 
-Subjects make_subjects(const std::vector<std::string>& names, std::optional<double> given_bound) {
+void PluginLimits::add_to(CLI::App& command) {
+  command
+      .add_option("--query-time", time,
+                  "As long as this may a plug-in compute for a query; it has a process of its own")
+      ->capture_default_str()
+      ->type_name("T");
+  command.add_option("--query-memory", bytes, "As much memory may a plug-in take, 0 for any: 512M, 1G")
+      ->transform(CLI::AsSizeValue(false))
+      ->default_str("1G")
+      ->type_name("BYTES");
+}
+
+Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
+                       std::optional<double> given_bound) {
+  const isolation::Limits allowed{parse_duration(limits.time), limits.bytes};
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    made.push_back(make_any_subject(name, given_bound));
+    made.push_back(is_plugin_path(name) ? make_isolated_plugin(name, allowed)
+                                        : make_any_subject(name, given_bound));
     if (!seen.insert(made.back()->name()).second)
       throw Error(
           fmt::format("found two subjects named '{}', expected different names", made.back()->name()));

@@ -12,6 +12,7 @@
 
 #include "ccd/query.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/isolation/isolated_plugin.hpp"
 #include "fuzz/trial.hpp"
 
 namespace nearmiss::tools {
@@ -28,6 +29,14 @@ void add_comparison_options(CLI::App& command, Comparison& comparison);
 /// --bound B: one bound for every pair.
 void add_bound_option(CLI::App& command, std::string& bound);
 
+/// --query-time T and --query-memory BYTES: what a plug-in may use.
+struct PluginLimits {
+  std::string time = "1s";
+  std::uint64_t bytes = isolation::Limits().bytes;
+
+  void add_to(CLI::App& command);
+};
+
 /// --kind vt|ee and FILE|-, one query a line.
 struct QueryInput {
   std::string kind, file = "-";
@@ -37,8 +46,9 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// The subjects by these names. Throws Error, also where two have the same name.
-Subjects make_subjects(const std::vector<std::string>& names,
+/// The subjects by these names, plug-ins in processes of their own. Throws Error, also where two have the same
+/// name.
+Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
                        std::optional<double> given_bound = std::nullopt);
 
 /// The families by these names, NAME or NAME@VALUE; all that are known for "all". Throws Error.

@@ -25,6 +25,7 @@ struct Options {
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
   Comparison comparison;
+  PluginLimits limits;
   int jobs = 1;
   RecordOptions record;
 };
@@ -85,7 +86,7 @@ RunInfo info_of(const Options& options, const CampaignPlan& plan) {
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  const Subjects subjects = make_subjects(options.subjects);
+  const Subjects subjects = make_subjects(options.subjects, options.limits);
   CampaignPlan plan;
   plan.families = chosen_families(options, subjects);
   plan.seed = options.seed;
@@ -121,6 +122,7 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("fuzz", "Hunt for false negatives and far false positives with random queries");
   add_subject_option(*command, options->subjects);
+  options->limits.add_to(*command);
   auto* family =
       command
           ->add_option(

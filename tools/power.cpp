@@ -45,7 +45,7 @@ ordered_json entry(const std::string& subject, const std::string& way) {
 }
 
 ordered_json hunt(const Options& options, const std::string& subject, const std::string& way) {
-  const Subjects subjects = make_subjects({subject});
+  const Subjects subjects = make_subjects({subject}, {});
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
   if (way == all_families) plan.families.assign(families().begin(), families().end());

@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> subjects{"wang"};
   std::string bound;
   Comparison comparison;
+  PluginLimits limits;
   int jobs = 1;
   RecordOptions record;
 };
@@ -34,7 +35,7 @@ std::string family_of(const std::string& name) {
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  const Subjects subjects = make_subjects(options.subjects, parse_bound(options.bound));
+  const Subjects subjects = make_subjects(options.subjects, options.limits, parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // all is read once before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
@@ -68,6 +69,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
       ->required();
   add_subject_option(*command, options->subjects);
+  options->limits.add_to(*command);
   add_bound_option(*command, options->bound);
   add_comparison_options(*command, options->comparison);
   add_jobs_option(*command, options->jobs);

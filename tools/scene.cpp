@@ -23,6 +23,7 @@ struct Options {
   std::vector<std::string> subjects{"basic", "wang"};
   std::string bound = "pair";
   Comparison comparison;
+  PluginLimits limits;
   int jobs = 1;
   RecordOptions record;
 };
@@ -40,10 +41,10 @@ std::optional<double> scene_bound(const std::string& source, const MovingMesh& m
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  make_subjects(options.subjects);  // unknown names are refused before meshes are read
+  make_subjects(options.subjects, options.limits);  // unknown names are refused before meshes are read
   const MovingMesh mesh = read_moving_mesh(options.start, options.end);
   const auto given = scene_bound(options.bound, mesh);
-  const Subjects subjects = make_subjects(options.subjects, given);
+  const Subjects subjects = make_subjects(options.subjects, options.limits, given);
   const std::string name = options.start.stem().string();
 
   RunInfo info = run_info("scene");
@@ -90,6 +91,7 @@ void add_scene(CLI::App& app, int& exit_code) {
       ->type_name("START.obj");
   command->add_option("END", options->end, "The same mesh at t = 1")->required()->type_name("END.obj");
   add_subject_option(*command, options->subjects);
+  options->limits.add_to(*command);
   command
       ->add_option("--bound", options->bound,
                    "The bound B: each pair's own, the largest of the scene's pairs, or a number")

@@ -8,8 +8,8 @@
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/failures/failure.hpp"
-#include "fuzz/subjects.hpp"
 #include "oracle/oracle.hpp"
+#include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -19,6 +19,7 @@ namespace {
 struct Options {
   std::filesystem::path in, out;
   std::string subject = "wang";
+  PluginLimits limits;
 };
 
 Case read_one(const std::filesystem::path& path) {
@@ -31,8 +32,8 @@ Case read_one(const std::filesystem::path& path) {
 
 /// How a query fails; the oracle first, by whom the subject is judged.
 Finding find_failure(const Case& each, const Subject& subject) {
-  for (const auto what :
-       {Finding::What::oracle_disagreement, Finding::What::false_negative, Finding::What::refuted_bound})
+  for (const auto what : {Finding::What::oracle_disagreement, Finding::What::fault,
+                          Finding::What::false_negative, Finding::What::refuted_bound})
     if (const auto signature = failure(what, &subject, each.query))
       return {.what = what,
               .subject = subject.name(),
@@ -40,14 +41,15 @@ Finding find_failure(const Case& each, const Subject& subject) {
               .query = each.query,
               .provenance = each.name,
               .signature = *signature};
-  throw Error(
-      fmt::format("{}: {} does not fail, expected a missed collision, a report beyond its bound or an oracle "
-                  "disagreement",
-                  each.name, subject.name()));
+  throw Error(fmt::format(
+      "{}: {} does not fail, expected a missed collision, a report beyond its bound, no answer or an "
+      "oracle disagreement",
+      each.name, subject.name()));
 }
 
 void run(const Options& options) {
-  const auto subject = make_any_subject(options.subject);
+  const Subjects subjects = make_subjects({options.subject}, options.limits);
+  const auto& subject = subjects.front();
   const Case each = read_one(options.in);
   const Finding finding = find_failure(each, *subject);
   const Query shrunk = shrunk_query(finding, subject.get());
@@ -78,6 +80,7 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
+  options->limits.add_to(*command);
   command->add_option("-o,--output", options->out, "Write the case to this file, not to stdout")
       ->type_name("FILE");
   command->footer(

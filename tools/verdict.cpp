@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/failures/failure.hpp"
 #include "fuzz/subjects.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -21,6 +23,8 @@ void run(const Options& options) {
   const auto subject = make_any_subject(options.subject, parse_bound(options.bound));
   options.input.read([&](const Query& query) {
     const Verdict verdict = subject->decide(query);
+    if (verdict.fault != Fault::none)
+      throw Error(fmt::format("{}: no answer: {}", subject->name(), fault_signature(query.kind, verdict)));
     if (verdict.hit)
       fmt::print("1 {} {}\n", stage_names[static_cast<std::size_t>(verdict.stage)],
                  std::isfinite(verdict.time) ? to_hex(verdict.time) : "nan");

@@ -18,6 +18,9 @@ std::string contact_signature(const Query& query);
 /// Of a report beyond the bound: the stage that accepted, such as "ee ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
+/// Of no answer: why, such as "ee crash SEGV", "vt exit 3", "ee error -7" or "vt time".
+std::string fault_signature(Kind kind, const Verdict& verdict);
+
 /// Of a disagreement, where the filter in front of the three answers says `collision`: what does not fit
 /// together, such as "vt parity filter"; "" where all does.
 std::string disagreement_signature(Kind kind, const Answers& answers, bool collision);

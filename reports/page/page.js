@@ -65,16 +65,26 @@ const count = (title, field, bad) => ({
 const figure = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
 const text = (title, field) => ({ title, text: (r) => r[field] });
 
+/** How often there was no answer, and why; empty columns are left out. */
+const faults = (r) => Object.values(r.faults).reduce((a, b) => a + b, 0);
+const noAnswer = {
+  title: "no answer", number: faults, bad: (r) => faults(r) > 0,
+  text: (r) => Object.entries(r.faults).map(([why, times]) => `${integer(times)} ${why}`).join(", ") || "0",
+};
+const quantile = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
+
 function drawCounts() {
   const byFamily = element("by-family").checked;
+  const rows = countRows(byFamily);
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("false negatives", "false_negatives", true),
     figure("rate below", "false_negative_rate_upper_95"), count("false positives", "false_positives"),
     figure("max distance/bound", "max_fp_distance_over_bound"), count("beyond", "refuted_bounds", true),
-    figure("ns / query", "ns_per_query"),
+    ...(rows.some(faults) ? [noAnswer] : []),
+    figure("ns / query", "ns_per_query"), quantile("median ns", "median_ns"), quantile("99 % ns", "q99_ns"),
   ];
-  fillTable(element("counts"), columns, countRows(byFamily), true);
+  fillTable(element("counts"), columns, rows, true);
 }
 
 function code(content) {

@@ -39,7 +39,7 @@ class Choosy final : public Subject {
  public:
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Verdict decide(const Query& query) const override {
-    if (query.x[14] == 3) throw Error("choosy: refused");
+    if (query.x[14] == 3) return {.fault = Fault::error, .fault_code = -3};
     return {};
   }
   using Subject::decide;
@@ -123,11 +123,16 @@ TEST(Trial, EveryFindingHasASignatureThatIsCounted) {
   for (const Finding& finding : result.findings) EXPECT_TRUE(expected.contains(signature_of(finding)));
 }
 
-TEST(Trial, AnErrorOfASubjectNamesTheQuery) {
+TEST(Trial, NoAnswerIsAFaultAndNoMiss) {
   Batch third = batch();
   third.queries.push_back(falling_vertex(0.25, 0.25, 4, 3));
-  EXPECT_THAT([&] { hold_trial(one(std::make_unique<Choosy>()), third); },
-              ThrowsMessage<Error>(HasSubstr("choosy: refused (query 2)")));
+  const auto result = hold_trial(one(std::make_unique<Choosy>()), third);
+  EXPECT_EQ(result.statistics.faults(), 1);
+  EXPECT_EQ(result.statistics.false_negatives(), 1);  // of query 0
+  ASSERT_EQ(result.findings.size(), 2);
+  EXPECT_EQ(result.findings[1].what, Finding::What::fault);
+  EXPECT_EQ(result.findings[1].signature, "vt error -3");
+  EXPECT_EQ(result.findings[1].provenance, "query 2");
 }
 
 TEST(Trial, ComparesTheAnswersOfTheOracleAsAsked) {

@@ -138,5 +138,37 @@ TEST(Confidence, OneWhereNothingIsKnown) {
   EXPECT_EQ(clopper_pearson_upper(5, 5), 1);
 }
 
+TEST(Times, QuantilesAreRightToAQuarterOfAnOctave) {
+  TimeHistogram times;
+  EXPECT_TRUE(std::isnan(times.quantile(0.5)));
+  for (std::uint64_t i = 1; i <= 1000; ++i) times.add(i);
+  for (const double part : {0.1, 0.5, 0.99, 1.0}) {
+    EXPECT_GE(times.quantile(part), 1000 * part);
+    EXPECT_LE(times.quantile(part), 1000 * part * std::exp2(0.25) + 1);
+  }
+  times.add(0);
+  times.add(std::uint64_t{1} << 63);
+  EXPECT_EQ(times.total(), 1002);
+}
+
+TEST(Times, TheSlowestAreKept) {
+  Counts a;
+  Counts b;
+  for (std::uint64_t i = 0; i < 20; ++i)
+    (i % 2 == 0 ? a : b).add_time(i, Query{}, [&] { return std::to_string(i); });
+  a.merge(b);
+  ASSERT_EQ(a.slowest.size(), Counts::slow_cases);
+  for (std::size_t i = 0; i < Counts::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
+}
+
+TEST(Faults, AreNeitherMissesNorAnswers) {
+  Counts counts;
+  counts.add({.verdict = {.fault = Fault::crash}, .collision = true}, Query{}, [] { return ""; });
+  EXPECT_EQ(counts.faults_total(), 1);
+  EXPECT_EQ(counts.queries, 1);
+  EXPECT_EQ(counts.collisions, 1);
+  EXPECT_EQ(counts.false_negatives, 0);
+}
+
 }  // namespace
 }  // namespace nearmiss

@@ -36,6 +36,8 @@ Statistics some_statistics(const std::string& subject) {
   oracle.collisions = 1;
   oracle.by_stage[2] = 2;
   oracle.near_bounds = 2;
+  counts.faults = {0, 1, 2, 3, 4};
+  for (const std::uint64_t time : {100, 3, 7000}) counts.add_time(time, query, [] { return "slow"; });
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
@@ -192,10 +194,10 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("old.db"));
   sqlite3* db = nullptr;
   sqlite3_open(file("old.db").c_str(), &db);
-  sqlite3_exec(db, "PRAGMA user_version = 4", nullptr, nullptr, nullptr);
+  sqlite3_exec(db, "PRAGMA user_version = 5", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 4, expected 5")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 5, expected 6")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

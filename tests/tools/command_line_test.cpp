@@ -80,6 +80,32 @@ TEST_F(CommandLine, AMissExitsWithOne) {
   EXPECT_THAT(answer.out, HasSubstr("q.vt:1"));
 }
 
+TEST_F(CommandLine, APluginThatCrashesAndHangsIsCountedAndTheCampaignGoesOn) {
+  for (const std::string way : {"crash", "hang"}) {
+    const Answer answer = run("fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " +
+                              way + ".db --subject " + plugin(way));
+    EXPECT_EQ(answer.code, 1) << answer.error;
+    EXPECT_THAT(answer.out, HasSubstr("NO ANSWER to "));
+    const json counts = read_json("new.json")["subjects"]["misbehaving"]["ee"];
+    EXPECT_EQ(counts["queries"], 500);
+    const int faults = counts["faults"][way == "hang" ? "time" : way];
+    EXPECT_GT(faults, 0);
+    EXPECT_EQ(counts["positives"].get<int>() + faults, 500);
+    EXPECT_EQ(run("report " + way + ".db -o report").code, 0);
+    EXPECT_EQ(read_json("report/report.json")["findings"][0]["what"], "fault");
+  }
+  std::filesystem::remove(file("new.json"));
+  // A stored query fails again, as a case.
+  EXPECT_EQ(
+      run("replay report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
+          .code,
+      1);
+  EXPECT_EQ(
+      run("shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
+          .code,
+      0);
+}
+
 TEST_F(CommandLine, AWrongRecordedTruthExitsWithOne) {
   write("a.case",
         "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
@@ -269,7 +295,7 @@ TEST_F(CommandLine, BadShrinks) {
   expect_refused("shrink nan.vt -o new" + never, {"nan.vt:1", "'nan'"});
   expect_refused("shrink absent.case -o new" + never, {"absent.case: cannot be read"});
   expect_refused("shrink hit.vt -o new --subject wong", {"unknown subject 'wong'"});
-  expect_refused("shrink hit.vt -o new --subject " + plugin("error"), {"error.so: the plug-in returned -7"});
+  expect_refused("verdict --kind vt hit.vt --subject " + plugin("error"), {"always: no answer: vt error -7"});
   expect_refused("shrink hit.vt -o no/folder/new.case" + never, {"no/folder/new.case: cannot be written"});
   expect_refused("shrink", {"CASE"});
 }
@@ -312,7 +338,6 @@ TEST_F(CommandLine, BadPlugins) {
   };
   refused("no_function", {"no_function.so", "nearmiss_get_subject"});
   refused("other_abi", {"other_abi.so", "abi 99", "expected 1"});
-  refused("error", {"error.so: the plug-in returned -7", "q.vt:1"});
   refused("absent", {"absent.so", "cannot load"});
 }
 

@@ -64,7 +64,7 @@ class Resume : public CommandLine {
  private:
   static void forget_times(json& node) {
     if (node.is_object())
-      for (const char* name : {"started", "seconds", "ns_per_query"}) node.erase(name);
+      for (const char* name : {"started", "seconds", "ns_per_query", "times"}) node.erase(name);
     if (node.is_structured())
       for (json& each : node) forget_times(each);
   }

@@ -1,0 +1,45 @@
+// What a worker process and the process that asks it share: memory and a socket.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss::isolation {
+
+/// Descriptors with which a worker starts.
+inline constexpr int socket_descriptor = 3;  ///< a byte asks for the whole batch, a byte says that it is done
+inline constexpr int memory_descriptor = 4;  ///< Shared
+
+inline constexpr std::size_t batch_size = 256;
+
+/// A byte that asks.
+enum class Order : char { decide = 'd', bounds = 'b' };
+
+/// The plug-in's answer to one query.
+struct Answer {
+  std::int32_t value = 0;  ///< what the plug-in returned
+  std::uint64_t nanoseconds = 0;
+  double number = 0;  ///< the time of impact, or the bound
+};
+
+/// Where both sides write, one after the other: by the one that asks before an order, by the worker before its answer. Only `current` and
+/// `memory_refused` are looked at meanwhile, or after the worker died.
+struct Shared {
+  std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
+  std::atomic<std::uint32_t> memory_refused{0};  ///< an allocation failed while it was
+  Kind kind{};
+  std::uint32_t first = 0;  ///< of the batch, to be done
+  std::uint32_t count = 0;  ///< up to here
+  std::array<std::array<double, 24>, batch_size> queries{};
+  std::array<Answer, batch_size> answers{};
+  // After loading, before any order:
+  std::array<char, 256> name{};    ///< the plug-in's own
+  std::array<char, 1024> error{};  ///< why it cannot be used; empty where it can
+};
+
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
+
+}  // namespace nearmiss::isolation

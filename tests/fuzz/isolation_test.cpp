@@ -1,0 +1,127 @@
+// Plug-ins in processes of their own: whatever they do, every other query is answered.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "ccd/error.hpp"
+#include "fuzz/failures/failure.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/isolation/isolated_plugin.hpp"
+#include "fuzz/parallel.hpp"
+#include "fuzz/trial.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+
+const isolation::Limits small{.time = std::chrono::milliseconds(50), .bytes = std::uint64_t{64} << 20};
+
+std::vector<Query> some_queries(std::uint64_t count) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family("uniform"), 1, i));
+  return queries;
+}
+
+TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
+  const auto isolated = make_isolated_plugin(plugin("example"));
+  const auto direct = make_subject(plugin("example"));
+  EXPECT_EQ(isolated->name(), direct->name());
+  const auto queries = some_queries(2000);
+  std::vector<Verdict> verdicts(queries.size());
+  std::vector<std::uint64_t> times(queries.size());
+  isolated->decide_timed(queries, verdicts, times);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    EXPECT_EQ(verdicts[i].hit, direct->decide(queries[i]).hit) << i;
+    EXPECT_GT(times[i], 0);
+    EXPECT_EQ(isolated->distance_bound(queries[i]), direct->distance_bound(queries[i])) << i;
+  }
+}
+
+struct Misbehaviour {
+  std::string plugin, signature;
+  Fault fault;
+};
+
+class Misbehaving : public ::testing::TestWithParam<Misbehaviour> {};
+INSTANTIATE_TEST_SUITE_P(All, Misbehaving,
+                         ::testing::Values(Misbehaviour{"crash", "crash SEGV", Fault::crash},
+                                           Misbehaviour{"leave", "exit 3", Fault::crash},
+                                           Misbehaviour{"hang", "time", Fault::time},
+                                           Misbehaviour{"sleep", "time", Fault::time},
+                                           Misbehaviour{"eat", "memory", Fault::memory},
+                                           Misbehaviour{"fail", "error -7", Fault::error}),
+                         [](const auto& each) { return each.param.plugin; });
+
+TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
+  const auto subject = make_isolated_plugin(plugin(GetParam().plugin), small);
+  const auto queries = some_queries(600);
+  std::vector<Verdict> verdicts(queries.size());
+  in_parallel(2, 4, [&](std::size_t part) {
+    subject->decide(std::span(queries).subspan(150 * part, 150),
+                    std::span(verdicts).subspan(150 * part, 150));
+  });
+  int faults = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Verdict& verdict = verdicts[i];
+    EXPECT_EQ(verdict.hit, verdict.fault == Fault::none);
+    if (verdict.fault == Fault::none) continue;
+    ++faults;
+    EXPECT_EQ(verdict.fault, GetParam().fault);
+    EXPECT_EQ(fault_signature(queries[i].kind, verdict),
+              std::string(short_name(queries[i].kind)) + " " + GetParam().signature);
+  }
+  EXPECT_GE(faults, 2);
+  EXPECT_LE(faults, 16);
+}
+
+TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
+  Subjects subjects;
+  subjects.push_back(make_isolated_plugin(plugin("crash")));
+  Batch batch;
+  batch.family = "uniform";
+  for (std::uint64_t i = 0; i < 2000; i += 2)
+    batch.queries.push_back(make_query(find_family("uniform"), 1, i));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  const TrialResult result = hold_trial(subjects, batch);
+  const Counts& counts = result.statistics.counts.begin()->second;
+  EXPECT_EQ(counts.queries, 1000);
+  EXPECT_GE(counts.faults_total(), 3);
+  EXPECT_EQ(counts.faults[static_cast<std::size_t>(Fault::crash)], counts.faults_total());
+  EXPECT_EQ(counts.positives + counts.faults_total(), 1000);
+  EXPECT_EQ(counts.false_negatives, 0);
+  EXPECT_EQ(counts.times.total(), 1000);
+  ASSERT_EQ(result.findings.size(), counts.faults_total());
+  const Finding& finding = result.findings.front();
+  EXPECT_EQ(finding.what, Finding::What::fault);
+  EXPECT_EQ(finding.signature, "vt crash SEGV");
+  const Query shrunk = shrunk_query(finding, subjects.front().get());
+  EXPECT_EQ(failure(finding.what, subjects.front().get(), shrunk), finding.signature);
+}
+
+TEST(Isolation, WhatCannotBeLoadedIsRefused) {
+  EXPECT_THAT([] { make_isolated_plugin("./none.so"); },
+              ThrowsMessage<Error>(HasSubstr("none.so: cannot load")));
+  EXPECT_THAT([] { make_isolated_plugin(plugin("other_abi")); },
+              ThrowsMessage<Error>(HasSubstr("found plug-in abi 99, expected 1")));
+}
+
+TEST(Isolation, WhatThePluginPrintsIsLost) {
+  const auto subject = make_isolated_plugin(plugin("print"));
+  const auto queries = some_queries(600);
+  std::vector<Verdict> verdicts(queries.size());
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  subject->decide(queries, verdicts);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace nearmiss

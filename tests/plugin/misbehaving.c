@@ -1,0 +1,59 @@
+/* A subject that reports every query, but does something else to one in NEARMISS_ONE_IN of them (100 where the
+ * environment does not say so), chosen by the bits of their coordinates. */
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ccd/nearmiss_subject.h"
+
+static int is_chosen(const double* x) {
+  const char* const text = getenv("NEARMISS_ONE_IN");
+  const uint64_t one_in = text != NULL ? strtoull(text, NULL, 10) : 100;
+  uint64_t hash = 0;
+  for (int i = 0; i < 24; ++i) {
+    uint64_t bits;
+    memcpy(&bits, &x[i], sizeof bits);
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 29;
+  }
+  return hash % one_in == 0;
+}
+
+static int misbehave(void) {
+#if defined(CRASH)
+  return raise(SIGSEGV);
+#elif defined(LEAVE)
+  exit(3);
+#elif defined(HANG)
+  for (volatile int i = 0; i >= 0; i = 0) {
+  }
+  return 1;
+#elif defined(SLEEP)
+  sigset_t none;
+  sigemptyset(&none);
+  while (sigsuspend(&none) != 0) {
+  }
+  return 1;
+#elif defined(EAT)
+  while (memset(malloc(1 << 20), 1, 1 << 20) != NULL) {
+  }
+  return 1;
+#elif defined(FAIL)
+  return -7;
+#else
+  puts("to stdout");
+  fputs("to stderr", stderr);
+  fflush(stdout);
+  return 1;
+#endif
+}
+
+static int test(const double* x, double* toi) {
+  (void)toi;
+  return is_chosen(x) ? misbehave() : 1;
+}
+
+static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "misbehaving", "1", test, test, NULL};
+const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
