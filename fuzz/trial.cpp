@@ -48,8 +48,10 @@ class Truth {
 
   /// Distance / bound of a query that is no collision: from above, but not above 1 where the distance is not.
   double ratio(double bound) {
+    constexpr double close = 1e-2;  // to the bound, where a part in a thousand is too wide
+    if (std::abs(distance().hi / bound - 1) < close) distance_ = closest_approach(query_, 1e-9);
     const double ratio = distance().hi / bound;
-    if (ratio > 1 && !exceeds(bound)) return 1;
+    if (ratio > 1 && !exceeds(bound)) return std::min(minimum_distance(query_).hi / bound, 1.0);
     return std::min(ratio, std::numeric_limits<double>::max());  // a bound of 0 is refuted by any distance
   }
 
