@@ -83,11 +83,6 @@ std::vector<Exported> far_cases(const Statistics& statistics) {
   return cases;
 }
 
-/// What a finding is, whichever run found it.
-auto identity(const Finding& finding) {
-  return std::tuple(finding.what, finding.subject, finding.shrunk.kind, finding.shrunk.x);
-}
-
 ordered_json rates(const Counts& counts) {
   ordered_json json;
   json["queries"] = counts.queries;
@@ -101,11 +96,10 @@ ordered_json rates(const Counts& counts) {
 ordered_json changes(const Campaign& now, const Campaign& before) {
   ordered_json json;
   json["runs"] = runs_json(before.runs);
-  std::set<decltype(identity(std::declval<const Finding&>()))> known;
-  for (const Finding& finding : before.findings()) known.insert(identity(finding));
-  std::uint64_t fresh = 0;
-  for (const Finding& finding : now.findings()) fresh += known.contains(identity(finding)) ? 0 : 1;
-  json["new_findings"] = fresh;
+  json["new_signatures"] = ordered_json::array();
+  for (const Signature& each : new_signatures(now, before))
+    json["new_signatures"].push_back(
+        {{"what", name(each.what)}, {"subject", each.subject}, {"signature", each.text}});
   json["changes"] = ordered_json::array();
   const auto earlier = before.statistics.by_subject_and_kind();
   for (const auto& [key, counts] : now.statistics.by_subject_and_kind()) {
@@ -134,6 +128,13 @@ void fill_folder(const Campaign& campaign, const std::optional<Campaign>& baseli
 }
 
 }  // namespace
+
+std::vector<Signature> new_signatures(const Campaign& now, const Campaign& baseline) {
+  std::vector<Signature> fresh;
+  for (const auto& [signature, times] : now.statistics.seen)
+    if (!baseline.statistics.seen.contains(signature)) fresh.push_back(signature);
+  return fresh;
+}
 
 ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>& baseline) {
   ordered_json json = summary_json(campaign);

@@ -11,8 +11,11 @@ namespace nearmiss {
 
 /// Everything that the page shows: summary_json with the histogram's borders, a verdict for each subject,
 /// the findings (the first ones of each signature, with the names of their case files), and, where there is a
-/// baseline, what changed since; a finding is new where the baseline has none with the same shrunk query.
+/// baseline, what changed since.
 nlohmann::ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>& baseline);
+
+/// The ways to fail that the baseline has not.
+std::vector<Signature> new_signatures(const Campaign& now, const Campaign& baseline);
 
 /// Writes the folder, whole or not at all:
 ///  - index.html: self-contained, opens offline; it only draws report.json, which is inside it;

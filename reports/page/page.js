@@ -164,9 +164,10 @@ function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
   element("baseline").hidden = false;
-  element("baseline-new").textContent = baseline.new_findings === 0
-    ? "No finding that the baseline does not have."
-    : `${integer(baseline.new_findings)} findings that the baseline does not have.`;
+  element("baseline-new").textContent = baseline.new_signatures.length === 0
+    ? "No way to fail that the baseline does not have."
+    : `New: ${baseline.new_signatures.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}`).join("; ")}.`;
+  element("baseline-new").classList.toggle("bad", baseline.new_signatures.length > 0);
   const pair = (title, field) => ({
     title, number: (r) => r.now[field], text: (r) => `${short(r.before?.[field])} → ${short(r.now[field])}`,
   });

@@ -148,14 +148,12 @@ TEST_F(ReportTest, NeverReplacesAnythingElse) {
 TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   const Campaign before = some_campaign("wang");
   Campaign now = before;
-  EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);
-  auto& findings = now.runs.front().findings;
-  findings.push_back(findings.front());
-  findings.back().query.x[0] += 1;
-  EXPECT_EQ(report_json(now, before)["baseline"]["new_findings"], 0);  // the same when shrunk
-  findings.back().shrunk.x[0] += 1;
+  now.statistics.seen.begin()->second += 1;  // once more in a known way
+  EXPECT_TRUE(report_json(now, before)["baseline"]["new_signatures"].empty());
+  now.statistics.seen[{Finding::What::fault, "wang", "vt crash SEGV"}] = 1;
   const auto json = report_json(now, before);
-  EXPECT_EQ(json["baseline"]["new_findings"], 1);
+  ASSERT_EQ(json["baseline"]["new_signatures"].size(), 1);
+  EXPECT_EQ(json["baseline"]["new_signatures"][0]["signature"], "vt crash SEGV");
   EXPECT_EQ(json["baseline"]["changes"][0]["before"]["false_positive_rate"], 1);
 }
 
