@@ -30,16 +30,27 @@ struct Options {
   RecordOptions record;
 };
 
-std::string show(const CampaignProgress& now, const Statistics& statistics) {
-  const double seconds = now.elapsed.count();
-  const double rate = static_cast<double>(now.cases - now.cases_before) / seconds;
+/// The part of the campaign that is done: of its cases, or of its time where that is over first.
+std::optional<double> part_done(const CampaignProgress& now, const CampaignPlan& plan) {
+  std::optional<double> part;
+  if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
+  if (plan.time) part = std::max(part.value_or(0), now.elapsed / *plan.time);
+  return part;
+}
+
+std::string show(const CampaignProgress& now, const CampaignPlan& plan, const Statistics& statistics) {
+  const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
+  double farthest = 0;
+  for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
-  line += fmt::format(" cases, {:.0f}/s, {} false negatives, {} refuted bounds", rate,
-                      with_separators(statistics.false_negatives()),
-                      with_separators(statistics.refuted_bounds()));
-  const std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
-  return line + (now.of != 0 ? ", " + show_duration(left) + " left" : ", " + show_duration(now.elapsed));
+  line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest at {:.3g} of the bound", rate,
+                      with_separators(statistics.false_negatives()), farthest);
+  if (const auto faults = statistics.faults(); faults != 0)
+    line += fmt::format(", {} without answer", with_separators(faults));
+  std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
+  if (plan.time) left = now.of != 0 ? std::min(left, *plan.time - now.elapsed) : *plan.time - now.elapsed;
+  return line + ", " + show_duration(left) + " left";
 }
 
 /// What --family, --sweep, --mesh and --search ask for.
@@ -101,12 +112,12 @@ int run(const Options& options) {
   plan.findings_before = record.findings();
   CampaignProgress reached;
   {
-    Progress progress;
+    Progress progress(options.record.quiet);
     reached = run_campaign(
         plan, subjects,
         [&](TrialResult&& result, const CampaignProgress& now) {
           record.add(std::move(result), now.rounds);
-          if (progress.due()) progress.show(show(now, record.statistics()));
+          if (progress.due()) progress.show(show(now, plan, record.statistics()), part_done(now, plan));
           return true;
         },
         stop);

@@ -54,6 +54,7 @@ void RecordOptions::add_to(CLI::App& command) {
   command
       .add_option("--db", db, "Keep statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
+  command.add_flag("-q,--quiet", quiet, "Say nothing of the progress");
 }
 
 RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }

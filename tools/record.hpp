@@ -14,9 +14,10 @@
 
 namespace nearmiss::tools {
 
-/// --json FILE and --db FILE
+/// --json FILE, --db FILE and --quiet
 struct RecordOptions {
   std::filesystem::path json, db;
+  bool quiet = false;   ///< says nothing of progress
   bool resume = false;  ///< goes on with what `db` holds of the same run and part, where there is such a file
 
   void add_to(CLI::App& command);

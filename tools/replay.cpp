@@ -42,7 +42,7 @@ int run(const Options& options) {
   for (const fs::path& path : options.paths) command += " " + path.string();
   Record record(options.record, run_info(command));
   {
-    Progress progress;
+    Progress progress(options.record.quiet);
     std::uint64_t count = 0;
     TrialStream stream(subjects, options.comparison, options.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });

@@ -53,7 +53,7 @@ int run(const Options& options) {
   Record record(options.record, std::move(info));
   std::map<Kind, std::uint64_t> candidates;
   {
-    Progress progress;
+    Progress progress(options.record.quiet);
     TrialStream stream(subjects, options.comparison, options.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });
     find_candidates(mesh, [&](const Candidate& candidate) {

@@ -1,8 +1,10 @@
 #include "tools/terminal.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -25,7 +27,25 @@ extern "C" void on_signal(int /*signal*/) {
   if (now - first_signal >= patience) _exit(exit_interrupted);
 }
 
-constexpr auto interval = std::chrono::milliseconds(200);
+constexpr auto terminal_interval = std::chrono::milliseconds(200);
+constexpr auto log_interval = std::chrono::minutes(1);
+
+/// "[#####...............]  25 % ", or nothing where the part is not known.
+std::string bar(std::optional<double> done) {
+  constexpr int width = 20;
+  if (!done) return "";
+  const double part = std::clamp(*done, 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(part * width);
+  return fmt::format("[{:.<{}}] {:3.0f} % ", std::string(filled, '#'), width, 100 * part);
+}
+
+/// As much of a line as the terminal is wide, so that it can be written over.
+std::string cut(std::string line) {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
+    line.resize(std::min(line.size(), std::size_t{size.ws_col} - 1));
+  return line;
+}
 
 }  // namespace
 
@@ -35,17 +55,25 @@ const std::atomic<bool>& interrupted() {
   return stop;
 }
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
 }
 
-bool Progress::due() const { return terminal_ && std::chrono::steady_clock::now() - last_ >= interval; }
+bool Progress::due() const {
+  if (quiet_) return false;
+  const auto since = std::chrono::steady_clock::now() - last_;
+  return terminal_ ? since >= terminal_interval : since >= log_interval;
+}
 
-void Progress::show(const std::string& line) {
-  if (!terminal_) return;
-  fmt::print(stderr, "\r\033[K{}", line);
+void Progress::show(const std::string& line, std::optional<double> done) {
+  if (quiet_) return;
+  if (terminal_)
+    fmt::print(stderr, "\r\033[K{}", cut(bar(done) + line));
+  else
+    fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);
   shown_ = true;
   last_ = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace nearmiss::tools {
@@ -11,19 +12,22 @@ namespace nearmiss::tools {
 /// once.
 const std::atomic<bool>& interrupted();
 
-/// One line on stderr that is written over again and again; nothing where stderr is not a terminal.
+/// How far a long work is, on stderr: a line that is written over again and again; where stderr is no terminal,
+/// a line of its own once a minute.
 class Progress {
  public:
-  Progress();
+  explicit Progress(bool quiet = false);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
   /// Whether a new line is due, so that it need not be made for nothing.
   [[nodiscard]] bool due() const;
-  void show(const std::string& line);
+  /// `done` is the part that is done, where that is known: a terminal shows it as a bar.
+  void show(const std::string& line, std::optional<double> done = std::nullopt);
 
  private:
+  bool quiet_;
   bool terminal_;
   bool shown_ = false;
   std::chrono::steady_clock::time_point last_;

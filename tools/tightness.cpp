@@ -34,7 +34,7 @@ int run(const Options& options) {
   info["time for each"] = options.time;
   Record record(options.record, std::move(info));
   {
-    Progress progress;
+    Progress progress(options.record.quiet);
     measure_tightness(
         plan,
         [&](const Extreme& extreme, bool done) {
