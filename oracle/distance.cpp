@@ -171,13 +171,19 @@ struct Stretch {
   bool operator<(const Stretch& other) const { return lower > other.lower; }  // smallest bound first
 };
 
-/// Refines an enclosure of the smallest distance, in the differences' unit, until `enough(lo, hi)` or until
-/// it cannot be refined any more.
-Enclosure refine(const Differences& differences, const std::function<bool(double, double)>& enough) {
+/// The smallest distance, in the differences' unit, and when it is nearly as small.
+struct Approach {
+  Enclosure distance;
+  double time;
+};
+
+/// Refines an enclosure of the smallest distance until `enough(lo, hi)` or until it cannot be refined any more.
+Approach refine(const Differences& differences, const std::function<bool(double, double)>& enough) {
   constexpr int most_splits = 1000;
   Moment start = look(differences, 0);
   Moment end = look(differences, 1);
   double hi = std::min(start.upper, end.upper);
+  double time = start.upper <= end.upper ? 0 : 1;
   std::priority_queue<Stretch> queue;
   const auto push = [&](const Moment& a, const Moment& b) {
     queue.push({a, b, lower_bound(differences, a, b)});
@@ -186,16 +192,19 @@ Enclosure refine(const Differences& differences, const std::function<bool(double
   for (int splits = 0; splits < most_splits; ++splits) {
     const Stretch stretch = queue.top();
     const double lo = std::min(stretch.lower, hi);
-    if (enough(lo, hi)) return {lo, hi};
+    if (enough(lo, hi)) return {{lo, hi}, time};
     const double middle = stretch.a.t + (stretch.b.t - stretch.a.t) / 2;
     if (!(middle > stretch.a.t && middle < stretch.b.t)) break;
     queue.pop();
     const Moment moment = look(differences, middle);
-    hi = std::min(hi, moment.upper);
+    if (moment.upper < hi) {
+      hi = moment.upper;
+      time = middle;
+    }
     push(stretch.a, moment);
     push(moment, stretch.b);
   }
-  return {std::min(queue.top().lower, hi), hi};
+  return {{std::min(queue.top().lower, hi), hi}, time};
 }
 
 /// value * 2^exponent, rounded outward.
@@ -210,7 +219,12 @@ Enclosure closest_approach(const Query& query, double relative_width) {
   const Interval::Protector protector;
   const Differences differences(query);
   const auto enough = [&](double lo, double hi) { return hi - lo <= relative_width * hi; };
-  return scale(refine(differences, enough), differences.exponent());
+  return scale(refine(differences, enough).distance, differences.exponent());
+}
+
+double closest_time(const Query& query) {
+  const Interval::Protector protector;
+  return refine(Differences(query), [](double lo, double hi) { return hi - lo <= 1e-3 * hi; }).time;
 }
 
 Enclosure minimum_distance(const Query& query, double relative_width) {
@@ -235,7 +249,7 @@ bool distance_exceeds(const Query& query, double bound) {
     const Differences differences(query);
     const Enclosure border = scale({bound, bound}, -differences.exponent());
     const Enclosure distance =
-        refine(differences, [&](double lo, double hi) { return lo > border.hi || hi <= border.lo; });
+        refine(differences, [&](double lo, double hi) { return lo > border.hi || hi <= border.lo; }).distance;
     if (distance.lo > border.hi) return true;
     if (distance.hi <= border.lo) return false;
   }

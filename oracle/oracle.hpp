@@ -58,6 +58,9 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// rounding of coordinates' differences.
 Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
 
+/// A time in [0, 1] at which the figures are about as near to each other as they come: for pictures.
+double closest_time(const Query& query);
+
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.
 bool distance_exceeds(const Query& query, double bound);
 

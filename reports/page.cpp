@@ -14,6 +14,7 @@
 
 NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
 NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
+NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
 NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
 NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
 NEARMISS_ASSET(nearmiss_page_vega_lite, NEARMISS_PAGE "/node_modules/vega-lite/build/vega-lite.min.js");
@@ -59,6 +60,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                               script(between(nearmiss_page_vega_lite_begin, nearmiss_page_vega_lite_end)) +
                               script(between(nearmiss_page_vega_embed_begin, nearmiss_page_vega_embed_end)) +
                               script(inside_script(report), " type=\"application/json\" id=\"report\"") +
+                              script(between(nearmiss_page_picture_begin, nearmiss_page_picture_end)) +
                               script(between(nearmiss_page_js_begin, nearmiss_page_js_end));
   replace(page, "/* page.css */", std::string(between(nearmiss_page_css_begin, nearmiss_page_css_end)));
   replace(page, "<!-- scripts -->", scripts);

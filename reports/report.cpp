@@ -10,6 +10,7 @@
 #include "corpus/case.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
+#include "oracle/oracle.hpp"
 #include "reports/csv.hpp"
 #include "reports/finding_case.hpp"
 #include "reports/page.hpp"
@@ -51,6 +52,12 @@ Shown shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
   Shown result{finding, seen, exported(simplest, ""), exported(finding, "-original")};
   result.original.content.why += "; before it was shrunk";
   return result;
+}
+
+/// When to show a query: at its first contact, or where there is none when it is closest to one.
+double moment(const Query& query) {
+  const auto contact = earliest_time(query, 1e-6);
+  return contact ? contact->enclosure.lo : closest_time(query);
 }
 
 /// The findings to show, the first ones of each signature, with files numbered for each subject and sort.
@@ -157,6 +164,7 @@ ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>
                                 {"provenance", each.finding.provenance},
                                 {"ratio", each.finding.ratio},
                                 {"shrunk", each.finding.shrunk.x},
+                                {"time", moment(each.finding.shrunk)},
                                 {"original", each.finding.query.x},
                                 {"file", "cases/" + each.shrunk.file},
                                 {"original_file", "cases/" + each.original.file}});

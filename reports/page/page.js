@@ -102,6 +102,18 @@ function drawQuery(x) {
   return node;
 }
 
+/** A button that copies a query as a line of 24 numbers, for nearmiss oracle and verdict. */
+function copyButton(x) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.textContent = "copy";
+  button.addEventListener("click", async () => {
+    await navigator.clipboard.writeText(x.join(" "));
+    button.textContent = "copied";
+  });
+  return button;
+}
+
 /** How to see it again, the shrunk query, and, when asked for, the query as it was found. */
 function drawShrunk(finding) {
   const node = document.createElement("div");
@@ -109,7 +121,7 @@ function drawShrunk(finding) {
   original.append(document.createElement("summary"), drawQuery(finding.original));
   original.firstChild.textContent = finding.original_file;
   node.append(code(`nearmiss replay ${finding.file}${finding.subject ? " --subject " + finding.subject : ""}`),
-    drawQuery(finding.shrunk), original);
+    copyButton(finding.shrunk), drawQuery(finding.shrunk), original);
   return node;
 }
 
@@ -122,9 +134,10 @@ function drawFindings() {
       "were found. The commands work in this report's folder.";
   if (seen === 0) return;
   fillTable(element("findings"), [
-    text("what", "what"), text("subject", "subject"), text("in which way", "signature"), count("times seen", "seen"),
-    text("from", "provenance"), { title: "distance / bound", number: (r) => r.ratio, text: (r) => (r.ratio ? short(r.ratio) : "") },
-    { title: "shrunk", text: drawShrunk },
+    { title: "t = 0, contact or closest, t = 1", text: (r) => drawPicture(r.kind, r.shrunk, r.time) },
+    { title: "what", text: (r) => r.what + (r.ratio ? `, at ${short(r.ratio)} of the bound` : "") },
+    text("subject", "subject"), text("in which way", "signature"), count("times seen", "seen"),
+    text("from", "provenance"), { title: "shrunk", text: drawShrunk },
   ], report.findings);
 }
 

@@ -71,13 +71,34 @@ async function showsFindings(browser) {
   const command = await page.locator("#findings code").first().textContent();
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
   assert.match(await page.textContent("#findings-note"), new RegExp(`^${kept.toLocaleString("en-US")} failures in ${report.signatures.length} ways`));
-  const seen = await page.locator("#findings tbody tr td:nth-child(4)").allTextContents();
+  const seen = await page.locator("#findings tbody tr td:nth-child(5)").allTextContents();
   assert.deepEqual(seen.map((text) => Number(text.replaceAll(",", ""))), report.findings.map((each) => each.seen));
   const shrunk = page.locator("#findings tbody tr").first().locator("pre");
   assert.match(await shrunk.first().textContent(), /^x0 \(.*, .*, .*\)/);
   assert.equal(await shrunk.last().isVisible(), false); // the query as it was found
   await page.locator("#findings summary").first().click();
   assert.equal(await shrunk.last().isVisible(), true);
+
+  assert.equal(await count(page, "#findings svg.picture"), report.findings.length);
+  const picture = page.locator("#findings svg.picture").first();
+  assert.equal(await picture.locator(".moment.figure0").count() > 0, true);
+  const drawn = () => picture.innerHTML();
+  const before = await drawn();
+  await picture.scrollIntoViewIfNeeded();
+  const box = await picture.boundingBox();
+  await page.mouse.move(box.x + 60, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 140, box.y + 90, { steps: 4 });
+  await page.mouse.up();
+  const byMouse = await drawn();
+  assert.notEqual(byMouse, before);
+  await picture.focus();
+  await page.keyboard.press("ArrowLeft");
+  assert.notEqual(await drawn(), byMouse);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.locator("#findings button").first().click();
+  await page.waitForSelector("#findings button:has-text('copied')");
+  assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), report.findings[0].shrunk);
 
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
@@ -110,7 +131,7 @@ async function showsTheBaseline(browser) {
   const url = makeReport("later", ["--cases", "2200", "--subject", "basic,wang", "--seed", "2"], ["--baseline", "found.db"]);
   const page = await open(browser, url);
   assert.equal(await page.isVisible("#baseline"), true);
-  assert.match(await page.textContent("#baseline-new"), /findings that the baseline does not have/);
+  assert.match(await page.textContent("#baseline-new"), /^New: false-negative of basic, /);
   assert.equal(await count(page, "#baseline-table tbody tr"), 4);
   await page.close();
 }

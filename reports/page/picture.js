@@ -1,0 +1,80 @@
+// A picture of a query: both figures at t = 0, at the moment that matters and at t = 1, and the paths of their vertices.
+"use strict";
+
+/** @param {string} kind "vt" or "ee" @param {number[]} x 24 numbers @param {number} time in [0, 1] */
+function drawPicture(kind, x, time) {
+  const size = 220;
+  const namespace = "http://www.w3.org/2000/svg";
+  // The figures as lists of vertices: a vertex and a triangle, or two edges.
+  const figures = kind === "vt" ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
+
+  const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
+  const moments = [[0, "start"], [1, "end"], [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
+
+  /** Points in [-1, 1], whatever the size and the place of the query. */
+  function fitted(points) {
+    fitted.box ??= [0, 1, 2].map((k) => {
+      const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // no difference overflows
+      return { middle: (Math.min(...all) + Math.max(...all)) / 2, half: (Math.max(...all) - Math.min(...all)) / 2 };
+    });
+    const half = Math.max(...fitted.box.map((side) => side.half)) || 1;
+    return points.map((p) => p.map((c, k) => (c / 4 - fitted.box[k].middle) / half));
+  }
+
+  const turn = { yaw: -0.6, pitch: 0.5 };
+  /** Where a point is seen, from far away. */
+  function seen([px, py, pz]) {
+    const across = Math.cos(turn.yaw) * px + Math.sin(turn.yaw) * py;
+    const depth = -Math.sin(turn.yaw) * px + Math.cos(turn.yaw) * py;
+    const up = Math.cos(turn.pitch) * pz + Math.sin(turn.pitch) * depth;
+    return [size / 2 + across * size * 0.29, size / 2 - up * size * 0.29].map((c) => c.toFixed(1));
+  }
+
+  const svg = document.createElementNS(namespace, "svg");
+  svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
+  svg.setAttribute("class", "picture");
+  svg.setAttribute("role", "img");
+  svg.setAttribute("tabindex", "0");
+  svg.setAttribute("aria-label", `${kind === "vt" ? "A vertex and a triangle" : "Two edges"} at t = 0, at t = ` +
+    `${time.toPrecision(4)} and at t = 1, with the paths of their vertices; arrow keys turn the picture`);
+
+  function add(tag, attributes) {
+    const node = document.createElementNS(namespace, tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    svg.append(node);
+  }
+
+  function draw() {
+    svg.replaceChildren();
+    for (let i = 0; i < 4; ++i) {
+      const [x1, y1] = seen(moments[0].points[i]);
+      const [x2, y2] = seen(moments[1].points[i]);
+      add("line", { x1, y1, x2, y2, class: "path" });
+    }
+    for (const { name, points } of moments)
+      figures.forEach((vertices, which) => {
+        const shown = `${name} figure${which}`;
+        const corners = vertices.map((i) => seen(points[i]));
+        if (corners.length > 1) add("polygon", { points: corners.map((p) => p.join(",")).join(" "), class: shown });
+        for (const [cx, cy] of corners) add("circle", { cx, cy, r: corners.length === 1 ? 4 : 2, class: shown });
+      });
+  }
+
+  function turned(yaw, pitch) {
+    turn.yaw += yaw;
+    turn.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, turn.pitch + pitch));
+    draw();
+  }
+  svg.addEventListener("pointerdown", (event) => svg.setPointerCapture(event.pointerId));
+  svg.addEventListener("pointermove", (event) => {
+    if (event.buttons) turned(event.movementX / 80, event.movementY / 80);
+  });
+  svg.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-0.2, 0], ArrowRight: [0.2, 0], ArrowUp: [0, -0.2], ArrowDown: [0, 0.2] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    turned(...step);
+  });
+  draw();
+  return svg;
+}
