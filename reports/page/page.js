@@ -218,13 +218,17 @@ function drawHead() {
 
 const subjects = Object.keys(report.subjects);
 // Okabe and Ito's colours, which the colour-blind can tell apart.
-const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#000000"];
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47"];
 const subjectColor = {
   field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjects, range: subjects.map((_, i) => palette[i % palette.length]) },
 };
-const look = { font: "system-ui, DejaVu Sans, sans-serif", view: { stroke: "#dde3e9" },
-  legend: { orient: "bottom", columns: 8 }, axis: { gridColor: "#eef1f4" } };
+const style = getComputedStyle(document.documentElement);
+const color = (name) => style.getPropertyValue(name).trim();
+const words = { labelColor: color("--ink"), titleColor: color("--ink") };
+const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
+  legend: { orient: "bottom", columns: 8, ...words }, title: { color: color("--ink") }, header: words,
+  axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
 
 function draw(id, spec) {
   return vegaEmbed("#" + id, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, ...spec },
@@ -293,7 +297,7 @@ function drawDistances() {
           tooltip: [{ field: "subject" }, { field: "from", format: ".3e" }, { field: "to", format: ".3e" }, { field: "count" }],
         },
       },
-      { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: "#b3261e", strokeWidth: 2 },
+      { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
         encoding: { x: { field: "bound", type: "quantitative" } } },
     ],
   });
@@ -323,7 +327,7 @@ function drawSweeps() {
       layer: [
         { mark: { type: "line", strokeWidth: 2, point: { size: 25 } }, encoding: { ...encoding, color: subjectColor } },
         { transform: [{ filter: "datum.false_negatives > 0" }], encoding,
-          mark: { type: "point", shape: "cross", size: 90, angle: 45, filled: true, opacity: 1, color: "#b3261e", stroke: "#ffffff", strokeWidth: 1 } },
+          mark: { type: "point", shape: "cross", size: 90, angle: 45, filled: true, opacity: 1, color: color("--bad"), stroke: "#ffffff", strokeWidth: 1 } },
       ],
     };
   };
