@@ -236,10 +236,9 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
     }
     if (collides(query)) return 0.0;
     const double claimed = subject.distance_bound(query);
-    const double distance = closest_approach(query).hi;
-    if (!std::isfinite(claimed)) return distance / wang->distance_bound(query);
-    if (distance <= claimed) return distance / claimed;
-    return distance_exceeds(query, claimed) ? HUGE_VAL : 1;
+    if (!std::isfinite(claimed)) return closest_ratio(query, wang->distance_bound(query));
+    const double ratio = closest_ratio(query, claimed);
+    return ratio >= 1 && distance_exceeds(query, claimed) ? HUGE_VAL : std::min(ratio, 1.0);
   };
   return query_of(kind, Climb(random, false, objective).run([&] {
     Meeting m = draw(random);

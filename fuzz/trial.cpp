@@ -46,31 +46,22 @@ class Truth {
     return contact_;
   }
 
-  /// Distance / bound of a query that is no collision: from above, but not above 1 where the distance is not.
-  double ratio(double bound) {
-    constexpr double close = 1e-2;  // to the bound, where a part in a thousand is too wide
-    if (std::abs(distance().hi / bound - 1) < close) distance_ = closest_approach(query_, 1e-9);
-    const double ratio = distance().hi / bound;
-    if (ratio > 1 && !exceeds(bound)) return std::min(minimum_distance(query_).hi / bound, 1.0);
-    return std::min(ratio, std::numeric_limits<double>::max());  // a bound of 0 is refuted by any distance
-  }
-
-  bool exceeds(double bound) {
-    if (distance().hi <= bound) return false;
-    return distance().lo > bound || distance_exceeds(query_, bound);
+  /// A false positive's distance / bound, from above.
+  struct Distance {
+    double ratio;
+    bool exceeds;  ///< certainly above 1; otherwise certainly not
+  };
+  [[nodiscard]] Distance distance(double bound) const {
+    const double ratio = closest_ratio(query_, bound);
+    if (ratio < 1) return {ratio, false};
+    if (distance_exceeds(query_, bound))  // a bound of 0 is refuted by any distance
+      return {std::min(ratio, std::numeric_limits<double>::max()), true};
+    return {std::min(minimum_distance(query_).hi / bound, 1.0), false};
   }
 
  private:
-  const Enclosure& distance() {
-    if (!measured_) distance_ = closest_approach(query_);
-    measured_ = true;
-    return distance_;
-  }
-
   const Query& query_;
   Decision decision_;
-  bool measured_ = false;
-  Enclosure distance_;
   std::string contact_;
 };
 
@@ -174,8 +165,9 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
         const double claimed = subjects[s]->distance_bound(query);
         if (std::isnan(claimed)) outcome.verdict.fault = Fault::error;
         const bool claims = std::isfinite(claimed);
-        outcome.ratio = truth.ratio(claims ? claimed : wang->distance_bound(query));
-        outcome.bound_refuted = claims && truth.exceeds(claimed);
+        const auto distance = truth.distance(claims ? claimed : wang->distance_bound(query));
+        outcome.ratio = distance.ratio;
+        outcome.bound_refuted = claims && distance.exceeds;
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
       if (outcome.verdict.fault != Fault::none)

@@ -222,6 +222,12 @@ Enclosure closest_approach(const Query& query, double relative_width) {
   return scale(refine(differences, enough).distance, differences.exponent());
 }
 
+double closest_ratio(const Query& query, double bound) {
+  constexpr double near = 1e-2;
+  const double ratio = closest_approach(query).hi / bound;
+  return std::abs(ratio - 1) < near ? closest_approach(query, 1e-9).hi / bound : ratio;
+}
+
 double closest_time(const Query& query) {
   const Interval::Protector protector;
   return refine(Differences(query), [](double lo, double hi) { return hi - lo <= 1e-3 * hi; }).time;

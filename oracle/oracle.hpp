@@ -58,6 +58,9 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// rounding of coordinates' differences.
 Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
 
+/// closest_approach / bound, from above: to a part in a thousand, and near 1 to 1e-9.
+double closest_ratio(const Query& query, double bound);
+
 /// A time in [0, 1] at which the figures are about as near to each other as they come: for pictures.
 double closest_time(const Query& query);
 

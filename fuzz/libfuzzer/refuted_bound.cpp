@@ -15,8 +15,8 @@ void nearmiss::libfuzzer::examine(const Query& query) {
   if (truth.collision) return;
   const double bound = subject().distance_bound(query);
   if (!std::isfinite(bound)) return;  // nothing is claimed
-  const double ratio = untraced([&] { return closest_approach(query).hi; }) / bound;
-  if (ratio > 1 && untraced([&] { return distance_exceeds(query, bound); }))
+  const double ratio = untraced([&] { return closest_ratio(query, bound); });
+  if (ratio >= 1 && untraced([&] { return distance_exceeds(query, bound); }))
     fail(Finding::What::refuted_bound, query, ratio);
   show_factor(Signal::distance, query.kind, ratio);
 }

@@ -61,7 +61,7 @@ Gauge tests_gauge(const Tests& tests) {
   auto search = far_search(*subject);
   const auto read = [&subject = *subject](const Query& query) -> std::optional<double> {
     if (!subject.decide(query).hit || collides(query)) return std::nullopt;
-    return closest_approach(query).hi / subject.distance_bound(query);
+    return closest_ratio(query, subject.distance_bound(query));
   };
   return {nothing_found(Extreme::Of::distance, std::string(tests.name)), std::move(subject),
           std::move(search), read};
