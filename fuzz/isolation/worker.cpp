@@ -27,20 +27,24 @@ using namespace nearmiss::isolation;
 
 Shared* shared = nullptr;
 
-void note_refusal() {
-  if (shared != nullptr) shared->memory_refused.store(1, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 // The plug-in's allocations come here, to be noted where they fail; glibc has these names for that purpose.
 // (Sanitizers have their own.)
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
-#define NEARMISS_OWN_ALLOCATIONS 0
+#define NEARMISS_SANITIZER_ALLOCATES
 #endif
 #endif
-#ifndef NEARMISS_OWN_ALLOCATIONS
+#ifndef NEARMISS_SANITIZER_ALLOCATES
+namespace {
+
+void note_refusal() {
+  if (shared != nullptr) shared->memory_refused.store(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -72,7 +76,8 @@ void close_off() {
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   if (nothing > STDERR_FILENO) close(nothing);
   std::signal(SIGINT, SIG_IGN);  // the one that asks is interrupted, and then ends this one
-  std::signal(SIGTERM, SIG_DFL);
+  // A crash is to be seen as what it is, also where a sanitizer would make an exit of it.
+  for (const int signal : {SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
 }
 
 /// Ends the process, whatever the plug-in does, when nobody is there any more to ask.

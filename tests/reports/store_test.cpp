@@ -37,7 +37,7 @@ Statistics some_statistics(const std::string& subject) {
   oracle.by_stage[2] = 2;
   oracle.near_bounds = 2;
   counts.faults = {0, 1, 2, 3, 4};
-  for (const std::uint64_t time : {100, 3, 7000}) counts.add_time(time, query, [] { return "slow"; });
+  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.add_time(time, query, [] { return "slow"; });
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
