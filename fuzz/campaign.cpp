@@ -21,6 +21,7 @@ std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
     if (i < f) before += plan.families[i].block_cases;
     all += plan.families[i].block_cases;
   }
+  if (all == 0) return 0;
   // cases * part / all, without overflow
   const auto dealt = [&](std::uint64_t part) {
     return plan.cases / all * part + plan.cases % all * part / all;

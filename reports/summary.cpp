@@ -234,7 +234,7 @@ std::string oracle_complaint(const Statistics& statistics) {
 }
 
 std::string summary_table(const Statistics& statistics) {
-  const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
+  std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (!extremes.empty() && statistics.counts.empty()) return extremes;
   std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
                                               "rate below*", "false pos.", "max dist/bound", "ns/query"}};
