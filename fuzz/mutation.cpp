@@ -23,19 +23,10 @@ auto one_of(Random& random, const Range& range) {
   return range[static_cast<std::size_t>(random.integer(0, static_cast<int>(range.size()) - 1))];
 }
 
-/// The largest extent of all positions along an axis; 1 where all are one point.
-double extent(const Query& query) {
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    double lo = query.x[k];
-    double hi = lo;
-    for (std::size_t i = k; i < 24; i += 3) {
-      lo = std::min(lo, query.x[i]);
-      hi = std::max(hi, query.x[i]);
-    }
-    largest = std::max(largest, hi - lo);
-  }
-  return largest == 0 ? 1 : largest;
+/// The extent of a query; 1 where all is one point.
+double size_of(const Query& query) {
+  const double size = extent(query);
+  return size == 0 ? 1 : size;
 }
 
 /// Vertices start, first + 1 .. last of a random choice: one, or all of a primitive.
@@ -80,7 +71,7 @@ Query by_ulps(Random& random, const Query& query) {
 Query by_a_fraction(Random& random, const Query& query) {
   const Vector from = position(query, random.integer(0, 7));
   const Vector to = position(query, random.integer(0, 7));
-  const double distance = from == to ? extent(query) : (to - from).norm();
+  const double distance = from == to ? size_of(query) : (to - from).norm();
   const double step = distance * random.log_uniform(random.one_in(2) ? 0x1p-8 : 0x1p-53, 1);
   Query result = query;
   if (random.one_in(4)) {
@@ -256,8 +247,9 @@ Query scaled(Random& random, const Query& query) {
 
 /// By any multiple of the extent, or so that a position comes to the origin.
 Query translated(Random& random, const Query& query) {
-  const Vector offset = random.one_in(4) ? Vector(-position(query, random.integer(0, 7)))
-                                         : random.vector(extent(query) * random.log_uniform(0x1p-20, 0x1p40));
+  const Vector offset = random.one_in(4)
+                            ? Vector(-position(query, random.integer(0, 7)))
+                            : random.vector(size_of(query) * random.log_uniform(0x1p-20, 0x1p40));
   Query result = query;
   for (int i = 0; i < 8; ++i) set_position(result, i, position(query, i) + offset);
   return result;

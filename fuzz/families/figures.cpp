@@ -185,6 +185,20 @@ Query finished(Random& random, const Query& query) {
   return random.one_in(4) ? nudged(random, mixed, random.integer(1, 4), 4) : mixed;
 }
 
+double extent(const Query& query) {
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double lo = query.x[k];
+    double hi = lo;
+    for (std::size_t i = k; i < 24; i += 3) {
+      lo = std::min(lo, query.x[i]);
+      hi = std::max(hi, query.x[i]);
+    }
+    largest = std::max(largest, hi - lo);
+  }
+  return largest;
+}
+
 double power_of_ten(double x) {
   constexpr double log2_of_10 = 3.3219280948873623;
   return std::ldexp(1.0, static_cast<int>(std::lround(x * log2_of_10)));

@@ -96,6 +96,9 @@ Query nudged(Random& random, Query query, int count, int most);
 /// A query as it leaves an extreme family: shuffled, and one in four nudged.
 Query finished(Random& random, const Query& query);
 
+/// The largest side of the box that the figures sweep.
+double extent(const Query& query);
+
 /// The power of two nearest to 10^x: to multiply by it is exact.
 double power_of_ten(double x);
 

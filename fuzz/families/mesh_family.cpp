@@ -49,21 +49,6 @@ class Sample {
   std::vector<std::pair<std::uint64_t, Vertices>> kept_;  ///< a heap
 };
 
-/// The largest side of the box that the pair sweeps.
-double extent(const Query& query) {
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    double lo = query.x[k];
-    double hi = lo;
-    for (std::size_t i = k; i < 24; i += 3) {
-      lo = std::min(lo, query.x[i]);
-      hi = std::max(hi, query.x[i]);
-    }
-    largest = std::max(largest, hi - lo);
-  }
-  return largest;
-}
-
 Query perturbed(Random& random, Query query, double size) {
   for (double& c : query.x) c += random.uniform(-size, size);
   return query;
