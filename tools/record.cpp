@@ -44,7 +44,10 @@ std::string rounding_mode() {
 
 /// Where a run's times come from.
 RunInfo environment() {
-  return {{"compiler", NEARMISS_COMPILER}, {"cpu", cpu_model()}, {"rounding", rounding_mode()}};
+  return {{"compiler", NEARMISS_COMPILER},
+          {"flags", NEARMISS_FLAGS},
+          {"cpu", cpu_model()},
+          {"rounding", rounding_mode()}};
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ function drawHead() {
   element("runs").textContent = report.runs
     .map((run) => [run.command, run.scene, run.families && `families ${run.families}`, run.seed && `seed ${run.seed}`,
       run.started, run.missing && `incomplete: ${run.missing}`, `nearmiss ${run.version}`,
-      ...run.environments.map((each) => `${each.compiler}, ${each.cpu}`)].filter(Boolean).join(", "))
+      ...run.environments.map((each) => `${each.compiler} ${each.flags}, rounding ${each.rounding}, ${each.cpu}`)].filter(Boolean).join(", "))
     .join(" · ");
   const lines = report.verdicts.map((v) => ({ name: v.subject, bad: !v.clean, text: v.text }));
   if (report.oracle.complaint) lines.unshift({ name: "oracle", bad: true, text: report.oracle.complaint });

@@ -27,7 +27,7 @@ function makeReport(name, fuzz, report = []) {
 
 /** Opens a page that must draw without any complaint and without the network. */
 async function open(browser, url) {
-  const page = await browser.newPage();
+  const page = await browser.newPage({ offline: true });
   const complaints = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(error.message));
