@@ -223,9 +223,16 @@ Enclosure closest_approach(const Query& query, double relative_width) {
 }
 
 double closest_ratio(const Query& query, double bound) {
+  const Interval::Protector protector;
+  const Differences differences(query);
+  const double unit = scale({bound, bound}, -differences.exponent()).lo;  // in it nothing overflows
+  const auto measured = [&](double relative_width) {
+    const auto enough = [&](double lo, double hi) { return hi - lo <= relative_width * hi; };
+    return (Interval(refine(differences, enough).distance.hi) / Interval(unit)).sup();
+  };
   constexpr double near = 1e-2;
-  const double ratio = closest_approach(query).hi / bound;
-  return std::abs(ratio - 1) < near ? closest_approach(query, 1e-9).hi / bound : ratio;
+  const double ratio = measured(1e-3);
+  return std::abs(ratio - 1) < near ? measured(1e-9) : ratio;
 }
 
 double closest_time(const Query& query) {

@@ -81,6 +81,16 @@ TEST(Distance, FromTheOriginDoesNotMatterWhereDifferencesAreExact) {
   EXPECT_LE(d.hi - d.lo, 0.01);
 }
 
+TEST(Distance, ItsRatioToABoundIsKnownWhereItOverflows) {
+  Query query = falling_vertex(0.25, 0.25, 3, 2);
+  EXPECT_NEAR(closest_ratio(query, 4), 0.5, 1e-3);
+  EXPECT_NEAR(closest_ratio(query, 2), 1, 1e-8);
+  for (std::size_t z = 2; z < 24; z += 3) query.x[z] = query.x[z] == 0 ? -0x1p1023 : 0x1.8p1023;
+  EXPECT_EQ(closest_approach(query).hi, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(closest_ratio(query, 0x1p1020), 20, 0.02);
+  EXPECT_EQ(closest_ratio(query, 0), std::numeric_limits<double>::infinity());
+}
+
 TEST(ComesWithin, AgreesWithTheEnclosuresOfIntervals) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-1, 1);
