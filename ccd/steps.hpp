@@ -1,4 +1,5 @@
-// The steps of the algorithm, as one can also leave them out: so a fuzzer's power is measured on known defects.
+// The steps of the algorithm, as one can also leave them out: so a fuzzer's power is measured on known
+// defects.
 #pragma once
 
 #include <cmath>

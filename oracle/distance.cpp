@@ -177,7 +177,8 @@ struct Approach {
   double time;
 };
 
-/// Refines an enclosure of the smallest distance until `enough(lo, hi)` or until it cannot be refined any more.
+/// Refines an enclosure of the smallest distance until `enough(lo, hi)` or until it cannot be refined any
+/// more.
 Approach refine(const Differences& differences, const std::function<bool(double, double)>& enough) {
   constexpr int most_splits = 1000;
   Moment start = look(differences, 0);

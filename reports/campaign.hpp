@@ -41,8 +41,8 @@ struct Campaign {
   std::vector<Run> runs;  ///< by their facts
   Statistics statistics;
 
-  /// The findings of all runs, those of one signature together; of those that are shrunk to the same query the
-  /// first one.
+  /// The findings of all runs, those of one signature together; of those that are shrunk to the same query
+  /// the first one.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -179,23 +180,21 @@ std::uint64_t Statistics::times_seen(const Finding& finding) const {
   return it == seen.end() ? 0 : it->second;
 }
 
-std::uint64_t Statistics::false_negatives() const {
-  std::uint64_t sum = 0;
-  for (const auto& [key, each] : counts) sum += each.false_negatives;
-  return sum;
+namespace {
+
+/// The sum over all counters of what `count` gives of one.
+template <class Count>
+std::uint64_t sum_of(const std::map<Key, Counts>& counts, const Count& count) {
+  return std::accumulate(
+      counts.begin(), counts.end(), std::uint64_t{0},
+      [&](std::uint64_t sum, const auto& each) { return sum + std::invoke(count, each.second); });
 }
 
-std::uint64_t Statistics::refuted_bounds() const {
-  std::uint64_t sum = 0;
-  for (const auto& [key, each] : counts) sum += each.refuted_bounds;
-  return sum;
-}
+}  // namespace
 
-std::uint64_t Statistics::faults() const {
-  std::uint64_t sum = 0;
-  for (const auto& [key, each] : counts) sum += each.faults_total();
-  return sum;
-}
+std::uint64_t Statistics::false_negatives() const { return sum_of(counts, &Counts::false_negatives); }
+std::uint64_t Statistics::refuted_bounds() const { return sum_of(counts, &Counts::refuted_bounds); }
+std::uint64_t Statistics::faults() const { return sum_of(counts, &Counts::faults_total); }
 
 std::string_view name(Finding::What what) {
   switch (what) {

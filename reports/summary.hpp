@@ -15,8 +15,8 @@ namespace nearmiss {
 /// there are some (reports/sweep.hpp). More fields stand beside them.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
-/// The runs: their facts, what is missing of them, when they began, how long all parts took together, and each
-/// environment once.
+/// The runs: their facts, what is missing of them, when they began, how long all parts took together, and
+/// each environment once.
 nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 /// Whether there is a false negative, a refuted bound, a fault, an oracle disagreement or a truth mismatch.

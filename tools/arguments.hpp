@@ -46,8 +46,8 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// The subjects by these names, plug-ins in processes of their own. Throws Error, also where two have the same
-/// name.
+/// The subjects by these names, plug-ins in processes of their own. Throws Error, also where two have the
+/// same name.
 Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
                        std::optional<double> given_bound = std::nullopt);
 

@@ -78,7 +78,8 @@ std::string list_of_families() {
   return lines;
 }
 
-/// What the campaign's results depend on. Its time does not change what a round gives, only how many there are.
+/// What the campaign's results depend on. Its time does not change what a round gives, only how many there
+/// are.
 RunInfo info_of(const Options& options, const CampaignPlan& plan) {
   RunInfo info = run_info("fuzz");
   info["subjects"] = fmt::format("{}", fmt::join(options.subjects, ","));

@@ -12,8 +12,8 @@ namespace nearmiss::tools {
 /// once.
 const std::atomic<bool>& interrupted();
 
-/// How far a long work is, on stderr: a line that is written over again and again; where stderr is no terminal,
-/// a line of its own once a minute.
+/// How far a long work is, on stderr: a line that is written over again and again; where stderr is no
+/// terminal, a line of its own once a minute.
 class Progress {
  public:
   explicit Progress(bool quiet = false);

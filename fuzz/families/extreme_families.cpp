@@ -65,8 +65,8 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as often
-/// as not. Most figures start in a plane across that axis, and half of the coordinates are at rest.
+/// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as
+/// often as not. Most figures start in a plane across that axis, and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;

@@ -25,8 +25,8 @@ struct Answer {
   double number = 0;  ///< the time of impact, or the bound
 };
 
-/// Where both sides write, one after the other: by the one that asks before an order, by the worker before its answer. Only `current` and
-/// `memory_refused` are looked at meanwhile, or after the worker died.
+/// Both sides write here, one after the other: the one that asks before an order, the worker before its
+/// answer. Only `current` and `memory_refused` are looked at meanwhile, or after the worker died.
 struct Shared {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
   std::atomic<std::uint32_t> memory_refused{0};  ///< an allocation failed while it was

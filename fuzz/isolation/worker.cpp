@@ -1,5 +1,5 @@
-// nearmiss-worker PLUGIN BYTES: a process in which a plug-in may do what it likes. It answers orders until nobody
-// asks any more, with at most so much memory on top of what loading it took; 0 for any.
+// nearmiss-worker PLUGIN BYTES: a process in which a plug-in may do what it likes. It answers orders until
+// nobody asks any more, with at most so much memory on top of what loading it took; 0 for any.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>

@@ -34,9 +34,10 @@ std::span<const NamedTolerance> named_tolerances();
 /// The name of the defect that multiplies a tolerance: "defect:mu*0.5".
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
-/// A defect by its name, which may also be that of a tolerance times any factor >= 0. It claims wang's distance
-/// bound; its needed tolerance is that of the one that is changed, where there is one: the factor that loosens
-/// it (multiplies it where it accepts, divides it else). Nothing for a name that does not start with "defect:"; throws Error for one that is not known.
+/// A defect by its name, which may also be that of a tolerance times any factor >= 0. It claims wang's
+/// distance bound; its needed tolerance is that of the one that is changed, where there is one: the factor
+/// that loosens it (multiplies it where it accepts, divides it else). Nothing for a name that does not start
+/// with "defect:"; throws Error for one that is not known.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

@@ -17,8 +17,8 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< until then, that of the failure and of the wave with it included
 };
 
-/// Runs a campaign until one of the subjects misses a collision or has its distance bound refuted; nothing where
-/// it is over before.
+/// Runs a campaign until one of the subjects misses a collision or has its distance bound refuted; nothing
+/// where it is over before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const std::atomic<bool>& stop);
 

@@ -47,7 +47,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // The needed factor is known to a few bits, from above: a little less misses, but if not, it says nothing.
+    // The needed factor is known to a few bits, from above: a little less misses, but if not, it says
+    // nothing.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;

@@ -31,8 +31,8 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9: of signature "s", and of "t" from round
-/// 5 on.
+/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9: of signature "s", and of "t" from
+/// round 5 on.
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.shard = shard, .shards = 3, .rounds = 4, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
