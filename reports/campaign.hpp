@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/statistics.hpp"
@@ -14,11 +15,15 @@ namespace nearmiss {
 /// Facts by name.
 using RunInfo = std::map<std::string, std::string>;
 
+/// What a run's fact "cases" says where no number of them ends it.
+inline constexpr std::string_view until_the_time_is_over = "until the time is over";
+
 /// What one machine does of a run.
 struct Part {
   std::uint64_t shard = 0;  ///< this one of `shards`
   std::uint64_t shards = 1;
   std::uint64_t rounds = 0;  ///< of blocks, done: what a campaign goes on from
+  std::uint64_t cases = 0;   ///< decided by the oracle
   bool complete = false;     ///< nothing is left to be done
   std::string started = {};  ///< a date, for people only: clocks jump
   double seconds = 0;        ///< that it took so far

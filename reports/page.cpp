@@ -1,6 +1,9 @@
 #include "reports/page.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string_view>
 
 // The files of the page are part of the executable: NEARMISS_ASSET(name, file) makes name_begin and name_end.
@@ -14,7 +17,10 @@
 
 NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
 NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
+NEARMISS_ASSET(nearmiss_page_data, NEARMISS_PAGE "/data.js");
+NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
+NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
 NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
 NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
 NEARMISS_ASSET(nearmiss_page_vega_lite, NEARMISS_PAGE "/node_modules/vega-lite/build/vega-lite.min.js");
@@ -32,12 +38,12 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
   text.replace(text.find(what), what.size(), by);
 }
 
-std::string script(std::string_view content, std::string_view attributes = "") {
-  std::string text = "<script";
-  text += attributes;
-  text += ">\n";
-  text += content;
-  return text + "\n</script>";
+/// A word that nobody could know before: only scripts that carry it run in the page.
+std::string make_nonce() {
+  std::random_device random;
+  std::string nonce;
+  for (int i = 0; i < 4; ++i) nonce += fmt::format("{:08x}", random());
+  return nonce;
 }
 
 /// JSON that can stand inside a script element: no "</" or "<!--" in it.
@@ -55,13 +61,20 @@ std::string inside_script(const nlohmann::ordered_json& json) {
 }  // namespace
 
 std::string report_page(const nlohmann::ordered_json& report) {
+  const std::string nonce = make_nonce();
+  std::string scripts =
+      fmt::format("<script type=\"application/json\" id=\"report\">\n{}\n</script>", inside_script(report));
+  for (const std::string_view each : {between(nearmiss_page_vega_begin, nearmiss_page_vega_end),
+                                      between(nearmiss_page_vega_lite_begin, nearmiss_page_vega_lite_end),
+                                      between(nearmiss_page_vega_embed_begin, nearmiss_page_vega_embed_end),
+                                      between(nearmiss_page_data_begin, nearmiss_page_data_end),
+                                      between(nearmiss_page_tables_begin, nearmiss_page_tables_end),
+                                      between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
+                                      between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
+                                      between(nearmiss_page_js_begin, nearmiss_page_js_end)})
+    scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
   std::string page(between(nearmiss_page_html_begin, nearmiss_page_html_end));
-  const std::string scripts = script(between(nearmiss_page_vega_begin, nearmiss_page_vega_end)) +
-                              script(between(nearmiss_page_vega_lite_begin, nearmiss_page_vega_lite_end)) +
-                              script(between(nearmiss_page_vega_embed_begin, nearmiss_page_vega_embed_end)) +
-                              script(inside_script(report), " type=\"application/json\" id=\"report\"") +
-                              script(between(nearmiss_page_picture_begin, nearmiss_page_picture_end)) +
-                              script(between(nearmiss_page_js_begin, nearmiss_page_js_end));
+  replace(page, "NONCE", nonce);
   replace(page, "/* page.css */", std::string(between(nearmiss_page_css_begin, nearmiss_page_css_end)));
   replace(page, "<!-- scripts -->", scripts);
   return page;

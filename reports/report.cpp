@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,10 +12,15 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/baseline.hpp"
 #include "reports/csv.hpp"
 #include "reports/finding_case.hpp"
+#include "reports/headline.hpp"
+#include "reports/json.hpp"
 #include "reports/page.hpp"
+#include "reports/shell.hpp"
 #include "reports/summary.hpp"
+#include "reports/trade_off.hpp"
 
 namespace nearmiss {
 
@@ -72,56 +78,106 @@ std::vector<Shown> shown_findings(const Campaign& campaign) {
   return result;
 }
 
-std::vector<Exported> far_cases(const Statistics& statistics) {
-  std::vector<Exported> cases;
-  for (const auto& [key, counts] : statistics.by_subject_and_kind()) {
-    std::size_t number = 0;
-    for (const FarCase& far : counts.farthest) {
-      ++number;
-      cases.push_back(
-          {file_name(fmt::format("far-{}-{}-{}.case", key.subject, short_name(key.kind), number)),
-           {.name = {},
-            .query = far.query,
-            .truth = false,
-            .why = fmt::format("false positive of {}, at {:.3g} of the bound", key.subject, far.ratio),
-            .provenance = far.provenance}});
-    }
+/// The farthest false positive of one subject, kind and family.
+struct Farthest {
+  Key key;
+  const FarCase* far;
+  Exported exported;
+};
+
+std::vector<Farthest> farthest_cases(const Statistics& statistics) {
+  std::vector<Farthest> cases;
+  for (const auto& [key, counts] : statistics.counts) {
+    if (counts.farthest.empty()) continue;
+    const FarCase& far = counts.farthest.front();
+    cases.push_back(
+        {key,
+         &far,
+         {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
+          {.name = {},
+           .query = far.query,
+           .truth = false,
+           .why = fmt::format("false positive of {}, at {:.3g} of the bound", key.subject, far.ratio),
+           .provenance = far.provenance}}});
   }
   return cases;
 }
 
-ordered_json rates(const Counts& counts) {
-  ordered_json json;
-  json["queries"] = counts.queries;
-  json["false_negatives"] = counts.false_negatives;
-  json["false_positive_rate"] = counts.false_positive_rate();
-  json["max_fp_distance_over_bound"] = counts.max_ratio();
-  json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
-  return json;
+/// The run that a finding is of; nothing where it came from elsewhere.
+const Run* run_of(const Campaign& campaign, const Finding& finding) {
+  for (const Run& run : campaign.runs)
+    if (std::find(run.findings.begin(), run.findings.end(), finding) != run.findings.end()) return &run;
+  return nullptr;
 }
 
-ordered_json changes(const Campaign& now, const Campaign& before) {
-  ordered_json json;
-  json["runs"] = runs_json(before.runs);
-  json["new_signatures"] = ordered_json::array();
-  for (const Signature& each : new_signatures(now, before))
-    json["new_signatures"].push_back(
-        {{"what", name(each.what)}, {"subject", each.subject}, {"signature", each.text}});
-  json["changes"] = ordered_json::array();
-  const auto earlier = before.statistics.by_subject_and_kind();
-  for (const auto& [key, counts] : now.statistics.by_subject_and_kind()) {
+/// Where the machine that found it had a subject's plug-in; nothing for a built-in subject.
+std::optional<std::string> plugin_path(const Run& run, const std::string& subject) {
+  for (const Part& part : run.parts)
+    if (const auto path = part.environment.find("plug-in " + subject); path != part.environment.end())
+      return path->second;
+  return std::nullopt;
+}
+
+/// The command that shows a finding again, run in the report's folder.
+std::string replay_command(const Campaign& campaign, const Shown& shown) {
+  std::string command = fmt::format("nearmiss replay cases/{}", shown.shrunk.file);
+  const std::string& subject = shown.finding.subject;
+  if (subject.empty()) return command + " --compare 1";
+  const Run* const run = run_of(campaign, shown.finding);
+  const auto path = run == nullptr ? std::nullopt : plugin_path(*run, subject);
+  command += fmt::format(" --subject {}", shell_quoted(path.value_or(subject)));
+  if (run == nullptr) return command;
+  for (const char* option : {"bound", "query-time", "query-memory"})
+    if (const auto given = run->info.find(option);
+        given != run->info.end() && (path || given->first == "bound"))
+      command += fmt::format(" --{} {}", option, given->second);
+  return command;
+}
+
+ordered_json finding_json(const Campaign& campaign, const Shown& each, bool is_new) {
+  const Finding& finding = each.finding;
+  return {{"what", name(finding.what)},
+          {"subject", finding.subject},
+          {"signature", finding.signature},
+          {"new", is_new},
+          {"seen", each.seen},
+          {"kind", short_name(finding.query.kind)},
+          {"family", finding.family},
+          {"provenance", finding.provenance},
+          {"ratio", finding.ratio},
+          {"shrunk", finding.shrunk.x},
+          {"time", moment(finding.shrunk)},
+          {"original", finding.query.x},
+          {"again", replay_command(campaign, each)},
+          {"file", "cases/" + each.shrunk.file},
+          {"original_file", "cases/" + each.original.file}};
+}
+
+ordered_json farthest_json(const Farthest& each) {
+  return {{"subject", each.key.subject},        {"kind", short_name(each.key.kind)},
+          {"family", each.key.family},          {"ratio", each.far->ratio},
+          {"provenance", each.far->provenance}, {"query", each.far->query.x},
+          {"time", moment(each.far->query)},    {"file", "farthest/" + each.exported.file}};
+}
+
+/// How each subject and kind did in the baseline and does now.
+ordered_json before_and_now(const Statistics& now, const Statistics& before) {
+  ordered_json json = ordered_json::array();
+  const auto earlier = before.by_subject_and_kind();
+  for (const auto& [key, counts] : now.by_subject_and_kind()) {
     const auto same = earlier.find(key);
-    json["changes"].push_back({{"subject", key.subject},
-                               {"kind", short_name(key.kind)},
-                               {"now", rates(counts)},
-                               {"before", same == earlier.end() ? ordered_json() : rates(same->second)}});
+    json.push_back({{"subject", key.subject},
+                    {"kind", short_name(key.kind)},
+                    {"now", rates_json(counts)},
+                    {"before", same == earlier.end() ? ordered_json() : rates_json(same->second)}});
   }
   return json;
 }
 
-void fill_folder(const Campaign& campaign, const std::optional<Campaign>& baseline, const fs::path& folder) {
+void fill_folder(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
   fs::create_directories(folder / "cases");
-  const ordered_json json = report_json(campaign, baseline);
+  fs::create_directories(folder / "farthest");
+  const ordered_json json = report_json(campaign, context);
   replace_file(folder / "report.json", json.dump(1) + "\n");
   replace_file(folder / "statistics.csv", statistics_csv(campaign.statistics));
   replace_file(folder / "distances.csv", distances_csv(campaign.statistics));
@@ -129,50 +185,47 @@ void fill_folder(const Campaign& campaign, const std::optional<Campaign>& baseli
   for (const Shown& each : shown_findings(campaign))
     for (const Exported& exported : {each.shrunk, each.original})
       write_case(exported.content, folder / "cases" / exported.file);
-  for (const Exported& each : far_cases(campaign.statistics))
-    write_case(each.content, folder / "cases" / each.file);
+  for (const Farthest& each : farthest_cases(campaign.statistics))
+    write_case(each.exported.content, folder / "farthest" / each.exported.file);
   replace_file(folder / "index.html", report_page(json));
 }
 
 }  // namespace
 
-std::vector<Signature> new_signatures(const Campaign& now, const Campaign& baseline) {
-  std::vector<Signature> fresh;
-  for (const auto& [signature, times] : now.statistics.seen)
-    if (!baseline.statistics.seen.contains(signature)) fresh.push_back(signature);
-  return fresh;
-}
-
-ordered_json report_json(const Campaign& campaign, const std::optional<Campaign>& baseline) {
+ordered_json report_json(const Campaign& campaign, const ReportContext& context) {
   ordered_json json = summary_json(campaign);
+  std::optional<Changes> since;
+  if (context.baseline) since = changes(campaign, *context.baseline);
+  const Headline line = headline(campaign.statistics, since);
+  json["headline"] = {{"clean", line.clean}, {"text", line.text}};
   json["verdicts"] = ordered_json::array();
   for (const SubjectVerdict& each : subject_verdicts(campaign.statistics))
     json["verdicts"].push_back({{"subject", each.subject}, {"clean", each.clean}, {"text", each.text}});
   json["oracle"]["complaint"] = oracle_complaint(campaign.statistics);
+  json["error_against_time"] = trade_offs_json(campaign.statistics);
   json["histogram_borders"] = ordered_json::array();
   for (std::size_t i = 0; i <= Histogram::bin_count; ++i)
     json["histogram_borders"].push_back(Histogram::border(i));
   json["findings_total"] = campaign.findings().size();
   json["findings"] = ordered_json::array();
-  for (const Shown& each : shown_findings(campaign))
-    json["findings"].push_back({{"what", name(each.finding.what)},
-                                {"subject", each.finding.subject},
-                                {"signature", each.finding.signature},
-                                {"seen", each.seen},
-                                {"kind", short_name(each.finding.query.kind)},
-                                {"family", each.finding.family},
-                                {"provenance", each.finding.provenance},
-                                {"ratio", each.finding.ratio},
-                                {"shrunk", each.finding.shrunk.x},
-                                {"time", moment(each.finding.shrunk)},
-                                {"original", each.finding.query.x},
-                                {"file", "cases/" + each.shrunk.file},
-                                {"original_file", "cases/" + each.original.file}});
-  if (baseline) json["baseline"] = changes(campaign, *baseline);
+  for (const Shown& each : shown_findings(campaign)) {
+    const bool is_new =
+        context.baseline && !context.baseline->statistics.seen.contains(signature_of(each.finding));
+    json["findings"].push_back(finding_json(campaign, each, is_new));
+  }
+  json["farthest"] = ordered_json::array();
+  for (const Farthest& each : farthest_cases(campaign.statistics))
+    json["farthest"].push_back(farthest_json(each));
+  if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
+  if (since) {
+    json["baseline"] = changes_json(*since);
+    json["baseline"]["runs"] = runs_json(context.baseline->runs);
+    json["baseline"]["subjects"] = before_and_now(campaign.statistics, context.baseline->statistics);
+  }
   return json;
 }
 
-void write_report(const Campaign& campaign, const std::optional<Campaign>& baseline, const fs::path& folder) {
+void write_report(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
   const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
   if (fs::exists(whole) &&
       !(fs::is_directory(whole) && (fs::is_empty(whole) || fs::exists(whole / "report.json"))))
@@ -181,7 +234,7 @@ void write_report(const Campaign& campaign, const std::optional<Campaign>& basel
   const fs::path part = whole.string() + ".part";
   try {
     fs::remove_all(part);
-    fill_folder(campaign, baseline, part);
+    fill_folder(campaign, context, part);
     fs::remove_all(whole);
     fs::rename(part, whole);
   } catch (const std::exception& error) {

@@ -29,6 +29,28 @@ void Histogram::merge(const Histogram& other) {
 
 namespace {
 
+/// The first bin up to which a part of everything is counted; `none` where nothing is.
+template <std::size_t n>
+std::size_t quantile_bin(const std::array<std::uint64_t, n>& bins, double part, std::size_t none) {
+  const double wanted =
+      part * static_cast<double>(std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}));
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += static_cast<double>(bins[i]);
+    if (sum > 0 && sum >= wanted) return i;
+  }
+  return none;
+}
+
+}  // namespace
+
+double Histogram::quantile(double part) const {
+  const std::size_t i = quantile_bin(bins, part, bin_count);
+  return i == bin_count ? 0 : border(i + 1);
+}
+
+namespace {
+
 double time_border(std::size_t i) { return std::exp2(static_cast<double>(i) / TimeHistogram::per_octave); }
 
 }  // namespace
@@ -47,13 +69,8 @@ std::uint64_t TimeHistogram::total() const {
 }
 
 double TimeHistogram::quantile(double part) const {
-  const double wanted = part * static_cast<double>(total());
-  double sum = 0;
-  for (std::size_t i = 0; i < bin_count; ++i) {
-    sum += static_cast<double>(bins[i]);
-    if (sum > 0 && sum >= wanted) return time_border(i + 1);
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t i = quantile_bin(bins, part, bin_count);
+  return i == bin_count ? std::numeric_limits<double>::quiet_NaN() : time_border(i + 1);
 }
 
 namespace {

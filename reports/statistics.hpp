@@ -1,6 +1,7 @@
 // What a campaign counts: mergeable in any order to the same bytes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,8 @@ struct Histogram {
   void merge(const Histogram& other);
   /// The lower border of bin i; that of bin_count is the upper border of the last one.
   static double border(std::size_t i);
+  /// What a part of all, in (0, 1], does not exceed: the upper border of its bin. 0 where there is none.
+  [[nodiscard]] double quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;
 };
@@ -113,7 +116,15 @@ struct Counts {
     const std::uint64_t others = queries - collisions;
     return others == 0 ? 0 : static_cast<double>(false_positives) / static_cast<double>(others);
   }
+  /// Of all collisions; 0 where there is none.
+  [[nodiscard]] double false_negative_rate() const {
+    return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
+  }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
+  /// Distance / bound that a part of the false positives does not exceed, to a quarter of a decade.
+  [[nodiscard]] double ratio_quantile(double part) const {
+    return std::min(distances.quantile(part), max_ratio());
+  }
   /// Not a number where nothing was timed.
   [[nodiscard]] double ns_per_query() const {
     return static_cast<double>(nanoseconds) / static_cast<double>(timed_queries);
@@ -126,7 +137,7 @@ struct Counts {
 struct Key {
   std::string subject;
   Kind kind{};
-  std::string family;
+  std::string family;  ///< of random queries; or a folder of cases, "NAME/", or a moving mesh, "NAME.obj"
 
   bool operator==(const Key&) const = default;
   bool operator<(const Key& other) const {

@@ -4,80 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "corpus/query_text.hpp"
 #include "reports/confidence.hpp"
-#include "reports/sweep.hpp"
 
 namespace nearmiss {
-
-namespace {
-
-using nlohmann::ordered_json;
-
-ordered_json by_stage(const std::array<std::uint64_t, stage_count>& counts) {
-  ordered_json json = ordered_json::object();
-  for (std::size_t i = 0; i < stage_count; ++i)
-    if (counts[i] != 0) json[std::string(stage_names[i])] = counts[i];
-  return json;
-}
-
-/// Of what is told of times everything stands here, but for the mean.
-ordered_json times_json(const Counts& counts) {
-  ordered_json json;
-  json["sampled"] = counts.times.total();
-  if (counts.times.total() == 0) return json;
-  for (const auto& [name, part] : {std::pair{"median_ns", 0.5}, {"q99_ns", 0.99}, {"q99.9_ns", 0.999}})
-    json[name] = counts.times.quantile(part);
-  for (const SlowCase& slow : counts.slowest)
-    json["slowest"].push_back(
-        {{"ns", slow.nanoseconds}, {"provenance", slow.provenance}, {"query", to_line(slow.query)}});
-  return json;
-}
-
-ordered_json counts_json(const Counts& counts) {
-  ordered_json json;
-  json["queries"] = counts.queries;
-  json["collisions"] = counts.collisions;
-  json["positives"] = counts.positives;
-  json["false_negatives"] = counts.false_negatives;
-  json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
-  json["false_positives"] = counts.false_positives;
-  json["refuted_bounds"] = counts.refuted_bounds;
-  json["max_fp_distance_over_bound"] = counts.max_ratio();
-  json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
-  json["faults"] = ordered_json::object();
-  for (std::size_t i = 1; i < fault_count; ++i)
-    if (counts.faults[i] != 0) json["faults"][std::string(fault_names[i])] = counts.faults[i];
-  json["times"] = times_json(counts);
-  json["true_positives_by_stage"] = by_stage(counts.true_by_stage);
-  json["false_positives_by_stage"] = by_stage(counts.false_by_stage);
-  json["fp_distance_histogram"] = counts.distances.bins;
-  json["farthest"] = ordered_json::array();
-  for (const FarCase& far : counts.farthest)
-    json["farthest"].push_back(
-        {{"ratio", far.ratio}, {"provenance", far.provenance}, {"query", to_line(far.query)}});
-  return json;
-}
-
-ordered_json oracle_json(const OracleCounts& counts) {
-  ordered_json json;
-  json["queries"] = counts.queries;
-  json["collisions"] = counts.collisions;
-  for (std::size_t i = 0; i < filter_stage_count; ++i)
-    json["decided_by"][std::string(filter_stage_names[i])] = counts.by_stage[i];
-  json["near_bounds"] = counts.near_bounds;
-  json["compared"] = counts.compared;
-  json["compared_collisions"] = counts.compared_collisions;
-  json["missed_by_parity"] = counts.missed_by_parity;
-  return json;
-}
-
-}  // namespace
 
 std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t to_the_left) {
   std::vector<std::size_t> widths(rows.front().size());
@@ -97,17 +29,7 @@ std::string columns(const std::vector<std::vector<std::string>>& rows, std::size
 
 namespace {
 
-ordered_json extreme_json(const Extreme& extreme) {
-  ordered_json json;
-  json["of"] = name(extreme.of);
-  json["queries"] = extreme.queries;
-  json["value"] = extreme.found() ? ordered_json(extreme.value) : ordered_json();
-  if (!extreme.found()) return json;
-  json["kind"] = short_name(extreme.query.kind);
-  json["query"] = to_line(extreme.query);
-  json["provenance"] = extreme.provenance;
-  return json;
-}
+namespace {
 
 std::string meaning(const Extreme& extreme) {
   if (extreme.of == Extreme::Of::distance)
@@ -126,6 +48,8 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
 
 }  // namespace
 
+}  // namespace
+
 std::string with_separators(std::uint64_t number) {
   std::string digits = fmt::format("{}", number);
   for (auto i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
@@ -133,50 +57,8 @@ std::string with_separators(std::uint64_t number) {
   return digits;
 }
 
-nlohmann::ordered_json runs_json(const std::vector<Run>& runs) {
-  ordered_json json = ordered_json::array();
-  for (const Run& run : runs) {
-    ordered_json each = run.info;
-    std::set<RunInfo> environments;
-    std::string started;
-    double seconds = 0;
-    for (const Part& part : run.parts) {
-      environments.insert(part.environment);
-      if (started.empty() || part.started < started) started = part.started;
-      seconds += part.seconds;
-    }
-    if (const std::string missing = missing_parts(run); !missing.empty()) each["missing"] = missing;
-    each["environments"] = environments;
-    each["started"] = started;
-    each["seconds"] = seconds;
-    json.push_back(std::move(each));
-  }
-  return json;
-}
-
-nlohmann::ordered_json summary_json(const Campaign& campaign) {
-  ordered_json json;
-  json["runs"] = runs_json(campaign.runs);
-  json["oracle"]["disagreements"] = campaign.statistics.oracle_disagreements;
-  json["oracle"]["mismatches_with_recorded_truth"] = campaign.statistics.mismatches_with_recorded_truth;
-  for (const auto& [key, counts] : campaign.statistics.oracle)
-    json["oracle"]["families"][std::string(short_name(key.first))][key.second] = oracle_json(counts);
-  json["oracle"]["total"] = oracle_json(campaign.statistics.oracle_total());
-  for (const auto& [name, each] : campaign.statistics.extremes) json["tightness"][name] = extreme_json(each);
-  json["signatures"] = ordered_json::array();
-  for (const auto& [signature, times] : campaign.statistics.seen)
-    json["signatures"].push_back({{"what", name(signature.what)},
-                                  {"subject", signature.subject},
-                                  {"signature", signature.text},
-                                  {"seen", times}});
-  json["subjects"] = ordered_json::object();
-  for (const auto& [key, counts] : campaign.statistics.by_subject_and_kind())
-    json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(counts);
-  for (const auto& [key, counts] : campaign.statistics.counts)
-    json["subjects"][key.subject][std::string(short_name(key.kind))]["families"][key.family] =
-        counts_json(counts);
-  if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
-  return json;
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
 }
 
 bool found_anything(const Statistics& statistics) {
@@ -184,14 +66,6 @@ bool found_anything(const Statistics& statistics) {
              statistics.mismatches_with_recorded_truth + statistics.faults() >
          0;
 }
-
-namespace {
-
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
-}
-
-}  // namespace
 
 std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
   std::map<std::string, Counts> by_subject;

@@ -1,23 +1,14 @@
-// A campaign as JSON and as a table for the terminal.
+// A campaign as text for the terminal.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/campaign.hpp"
 
 namespace nearmiss {
-
-/// The JSON of `replay --json` and `fuzz --json`, which scripts depend on: subjects.NAME.KIND with queries,
-/// collisions, positives, false_negatives, false_positives, max_fp_distance_over_bound and ns_per_query (null
-/// where nothing was timed); oracle.disagreements and oracle.mismatches_with_recorded_truth; sweeps where
-/// there are some (reports/sweep.hpp). More fields stand beside them.
-nlohmann::ordered_json summary_json(const Campaign& campaign);
-
-/// The runs: their facts, what is missing of them, when they began, how long all parts took together, and
-/// each environment once.
-nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 /// Whether there is a false negative, a refuted bound, a fault, an oracle disagreement or a truth mismatch.
 bool found_anything(const Statistics& statistics);
@@ -44,5 +35,8 @@ std::string columns(const std::vector<std::vector<std::string>>& rows, std::size
 
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);
+
+/// "1 query", "1,234 queries"
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
 }  // namespace nearmiss

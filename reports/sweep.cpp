@@ -64,6 +64,7 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
                        {"queries", c.queries},
                        {"collisions", c.collisions},
                        {"false_negatives", c.false_negatives},
+                       {"false_negative_rate", c.false_negative_rate()},
                        {"false_positives", c.false_positives},
                        {"false_positive_rate", c.false_positive_rate()},
                        {"max_fp_distance_over_bound", c.max_ratio()},

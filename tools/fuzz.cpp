@@ -5,18 +5,20 @@
 #include "fuzz/campaign.hpp"
 #include "fuzz/families/mesh_family.hpp"
 #include "fuzz/search.hpp"
+#include "reports/shell.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
 
 namespace nearmiss::tools {
 
 namespace {
 
 struct Options {
-  std::vector<std::string> subjects{"wang"};
+  TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
   int steps = 17;
   bool search = false;
@@ -24,9 +26,6 @@ struct Options {
   std::uint64_t cases = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
-  Comparison comparison;
-  PluginLimits limits;
-  int jobs = 1;
   RecordOptions record;
 };
 
@@ -81,34 +80,49 @@ std::string list_of_families() {
 /// What the campaign's results depend on. Its time does not change what a round gives, only how many there
 /// are.
 RunInfo info_of(const Options& options, const CampaignPlan& plan) {
-  RunInfo info = run_info("fuzz");
-  info["subjects"] = fmt::format("{}", fmt::join(options.subjects, ","));
+  RunInfo info = options.trial.run_info("fuzz");
+  std::string& again = info["again"];
   info["seed"] = fmt::format("{}", plan.seed);
-  info["families"] = options.sweeps.empty()
-                         ? fmt::format("{}", fmt::join(options.families, ","))
-                         : fmt::format("{} in {} steps", fmt::join(options.sweeps, ","), options.steps);
-  if (options.search) info["families"] += ", search";
-  if (!options.mesh.empty())
-    info["scene"] = options.mesh.front().string() + " " + options.mesh.back().string();
-  info["cases"] = plan.cases == 0 ? "until the time is over" : fmt::format("{}", plan.cases);
-  info["compared"] = fmt::format("1 in {}{}", plan.comparison.one_in,
-                                 plan.comparison.near_bounds ? ", and near the bounds" : "");
+  again += fmt::format(" --seed {}", plan.seed);
+  const std::string families =
+      fmt::format("{}", fmt::join(options.sweeps.empty() ? options.families : options.sweeps, ","));
+  if (options.sweeps.empty()) {
+    info["families"] = families;
+    again += fmt::format(" --family {}", families);
+  } else {
+    info["families"] = fmt::format("{} in {} steps", families, options.steps);
+    again += fmt::format(" --sweep {} --steps {}", families, options.steps);
+  }
+  if (options.search) {
+    info["families"] += ", search";
+    again += " --search";
+  }
+  if (!options.mesh.empty()) {
+    const std::string start = options.mesh.front().string();
+    const std::string end = options.mesh.back().string();
+    info["scene"] = start + " " + end;
+    again += fmt::format(" --mesh {} {}", shell_quoted(start), shell_quoted(end));
+  }
+  info["cases"] = plan.cases == 0 ? std::string(until_the_time_is_over) : fmt::format("{}", plan.cases);
+  if (plan.cases != 0) again += fmt::format(" --cases {}", plan.cases);
   return info;
 }
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  const Subjects subjects = make_subjects(options.subjects, options.limits);
+  const Subjects subjects = options.trial.make_subjects();
   CampaignPlan plan;
   plan.families = chosen_families(options, subjects);
   plan.seed = options.seed;
   plan.cases = options.cases;
   if (!options.time.empty()) plan.time = parse_duration(options.time);
-  plan.comparison = options.comparison;
-  plan.jobs = options.jobs;
+  plan.comparison = options.trial.comparison;
+  plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
-  Record record(options.record, info_of(options, plan), {.shard = plan.shard, .shards = plan.shards});
+  Record record(
+      options.record, info_of(options, plan),
+      {.shard = plan.shard, .shards = plan.shards, .environment = options.trial.plugin_paths(subjects)});
   plan.rounds_before = record.part().rounds;
   plan.findings_before = record.findings();
   CampaignProgress reached;
@@ -133,8 +147,7 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command =
       app.add_subcommand("fuzz", "Hunt for false negatives and far false positives with random queries");
-  add_subject_option(*command, options->subjects);
-  options->limits.add_to(*command);
+  options->trial.add_to(*command);
   auto* family =
       command
           ->add_option(
@@ -174,8 +187,6 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
       ->capture_default_str()
       ->type_name("S");
-  add_comparison_options(*command, options->comparison);
-  add_jobs_option(*command, options->jobs);
   command->add_option("--shard", options->shard, "Do part I of N of the campaign, 0 <= I < N")
       ->capture_default_str()
       ->type_name("I/N");

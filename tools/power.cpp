@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -14,6 +13,7 @@
 #include "fuzz/power/defects.hpp"
 #include "fuzz/power/power.hpp"
 #include "fuzz/search.hpp"
+#include "reports/power_table.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -22,8 +22,6 @@
 namespace nearmiss::tools {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> subjects;
@@ -39,12 +37,7 @@ constexpr std::string_view all_families = "families";
 constexpr std::string_view search = "search";
 constexpr std::string_view libfuzzer = "libfuzzer";
 
-/// What one way to hunt found of one defect; the JSON file is a list of these.
-ordered_json entry(const std::string& subject, const std::string& way) {
-  return {{"subject", subject}, {"way", way}, {"failure", nullptr}, {"seconds", nullptr}, {"cases", nullptr}};
-}
-
-ordered_json hunt(const Options& options, const std::string& subject, const std::string& way) {
+Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
   const Subjects subjects = make_subjects({subject}, {});
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
@@ -53,18 +46,18 @@ ordered_json hunt(const Options& options, const std::string& subject, const std:
   plan.seed = options.seed;
   plan.time = parse_duration(options.time);
   plan.jobs = options.jobs;
-  ordered_json result = entry(subject, way);
+  Hunt result{.subject = subject, .way = way};
   if (const auto first = find_first_failure(plan, subjects, interrupted())) {
-    result["failure"] = name(first->finding.what);
-    result["seconds"] = first->seconds;
-    result["cases"] = first->cases * (way == search ? search_evaluations : 1);
-    result["provenance"] = first->finding.provenance;
+    result.failure = name(first->finding.what);
+    result.seconds = first->seconds;
+    result.cases = first->cases * (way == search ? search_evaluations : 1);
+    result.provenance = first->finding.provenance;
   }
   return result;
 }
 
 /// Runs the command, and takes what it prints last: "found after S s, N executions: PATH" or else "nothing".
-ordered_json hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   const std::string command =
       fmt::format("{} --first false_negative {} '{}'", options.libfuzzer, options.time, subject);
   std::FILE* pipe = popen(command.c_str(), "r");
@@ -74,13 +67,13 @@ ordered_json hunt_with_libfuzzer(const Options& options, const std::string& subj
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
     text.append(buffer.data(), n);
   pclose(pipe);
-  ordered_json result = entry(subject, std::string(libfuzzer));
+  Hunt result{.subject = subject, .way = std::string(libfuzzer)};
   static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
   if (std::smatch match; std::regex_search(text, match, found)) {
-    result["failure"] = name(Finding::What::false_negative);
-    result["seconds"] = std::stod(match[1]);
-    result["cases"] = std::stoull(match[2]);
-    result["provenance"] = match[3].str();
+    result.failure = name(Finding::What::false_negative);
+    result.seconds = std::stod(match[1]);
+    result.cases = std::stoull(match[2]);
+    result.provenance = match[3].str();
   } else if (text.find("nothing in") == std::string::npos) {
     throw Error(
         fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
@@ -89,26 +82,24 @@ ordered_json hunt_with_libfuzzer(const Options& options, const std::string& subj
 }
 
 /// "0.12 s  12,345", with a star where a bound was refuted and not a collision missed; "-" for nothing.
-std::string cell(const ordered_json& result) {
-  if (result["failure"].is_null()) return "-";
-  const bool bound = result["failure"] == name(Finding::What::refuted_bound);
-  return fmt::format("{:.2f} s {:>12}{}", result["seconds"].get<double>(),
-                     with_separators(result["cases"].get<std::uint64_t>()), bound ? "*" : "");
+std::string cell(const Hunt& hunt) {
+  if (!hunt.failure) return "-";
+  const bool bound = *hunt.failure == name(Finding::What::refuted_bound);
+  return fmt::format("{:.2f} s {:>12}{}", hunt.seconds, with_separators(hunt.cases), bound ? "*" : "");
 }
 
-std::string table(const ordered_json& results, const std::vector<std::string>& ways) {
+std::string table(const std::vector<Hunt>& results, const std::vector<std::string>& ways) {
   std::string text = fmt::format("{:<24}", "defect");
   for (const std::string& way : ways) text += fmt::format(" {:>22}", way);
   text += "\n";
   std::vector<std::string> subjects;
   std::map<std::pair<std::string, std::string>, std::string> cells;
   std::map<std::string, int> found;
-  for (const ordered_json& result : results) {
-    const std::string subject = result["subject"];
-    const std::string way = result["way"];
-    if (std::find(subjects.begin(), subjects.end(), subject) == subjects.end()) subjects.push_back(subject);
-    cells[{subject, way}] = cell(result);
-    found[way] += result["failure"].is_null() ? 0 : 1;
+  for (const Hunt& hunt : results) {
+    if (std::find(subjects.begin(), subjects.end(), hunt.subject) == subjects.end())
+      subjects.push_back(hunt.subject);
+    cells[{hunt.subject, hunt.way}] = cell(hunt);
+    found[hunt.way] += hunt.failure ? 1 : 0;
   }
   for (const std::string& subject : subjects) {
     text += fmt::format("{:<24}", subject);
@@ -121,9 +112,8 @@ std::string table(const ordered_json& results, const std::vector<std::string>& w
 }
 
 int run(const Options& options) {
-  ordered_json results = ordered_json::array();
-  if (!options.json.empty() && std::filesystem::exists(options.json))
-    results = ordered_json::parse(std::ifstream(options.json));
+  std::vector<Hunt> results;
+  if (!options.json.empty() && std::filesystem::exists(options.json)) results = load_hunts(options.json);
   std::vector<std::string> subjects = options.subjects;
   if (subjects.empty())
     for (const Defect& defect : defects()) subjects.push_back(defect.name);
@@ -134,7 +124,7 @@ int run(const Options& options) {
   }
   const auto is_done = [&](const std::string& subject, const std::string& way) {
     return std::any_of(results.begin(), results.end(),
-                       [&](const auto& each) { return each["subject"] == subject && each["way"] == way; });
+                       [&](const Hunt& each) { return each.subject == subject && each.way == way; });
   };
   Progress progress;
   for (const std::string& subject : subjects) {
@@ -144,7 +134,7 @@ int run(const Options& options) {
       auto result = way == libfuzzer ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
       if (interrupted()) continue;
       results.push_back(std::move(result));
-      if (!options.json.empty()) replace_file(options.json, results.dump(2) + "\n");
+      if (!options.json.empty()) replace_file(options.json, hunts_json(results).dump(2) + "\n");
     }
   }
   fmt::print("{}", table(results, ways));

@@ -11,6 +11,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
+#include "reports/json.hpp"
 #include "reports/summary.hpp"
 #include "reports/sweep.hpp"
 #include "tools/commands.hpp"
@@ -68,7 +69,7 @@ Record::Record(RecordOptions options, RunInfo info, const Part& part)
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
   part_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-  part_.environment = environment();
+  part_.environment.merge(environment());
   if (options_.resume && std::filesystem::exists(options_.db))
     go_on();
   else if (!options_.db.empty())
@@ -94,7 +95,8 @@ void Record::go_on() {
                               options_.db.string(), what, found, expected));
   };
   for (const RunInfo* each : {&info_, &run.info})
-    for (const auto& [name, value] : *each) expect(name, run.info[name], info_[name]);
+    for (const auto& [name, value] : *each)
+      if (name != "again") expect(name, run.info[name], info_[name]);  // that says the same once more
   const auto shard = [](const Part& part) { return fmt::format("{}/{}", part.shard, part.shards); };
   expect("shard", shard(run.parts.at(0)), shard(part_));
   part_ = run.parts.at(0);
@@ -113,6 +115,7 @@ void Record::add(TrialResult&& result, std::uint64_t rounds) {
 
 void Record::save() {
   part_.seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+  part_.cases = statistics_.oracle_total().queries;
   if (store_) store_->save(statistics_, part_, std::span(findings_).subspan(saved_findings_));
   saved_ = true;
   saved_findings_ = findings_.size();

@@ -3,11 +3,13 @@
 
 #include "corpus/readers.hpp"
 #include "fuzz/trial_stream.hpp"
+#include "reports/shell.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
 
 namespace nearmiss::tools {
 
@@ -17,34 +19,36 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<fs::path> paths;
-  std::vector<std::string> subjects{"wang"};
+  TrialOptions trial;
   std::string bound;
-  Comparison comparison;
-  PluginLimits limits;
-  int jobs = 1;
   RecordOptions record;
 };
 
-/// What a case is counted under: the folder that it is in; above the folders of the two kinds, where it is in
-/// one of them.
+/// What a case is counted under: the folder that it is in, "NAME/"; above the folders of the two kinds, where
+/// it is in one of them.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
-  return folder.filename().string();
+  return folder.filename().string() + "/";
 }
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  const Subjects subjects = make_subjects(options.subjects, options.limits, parse_bound(options.bound));
+  const Subjects subjects = options.trial.make_subjects(parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // all is read once before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
-  for (const fs::path& path : options.paths) command += " " + path.string();
-  Record record(options.record, run_info(command));
+  for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
+  RunInfo info = options.trial.run_info(command);
+  if (!options.bound.empty()) {
+    info["bound"] = options.bound;
+    info["again"] += " --bound " + options.bound;
+  }
+  Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
-    TrialStream stream(subjects, options.comparison, options.jobs, stop,
+    TrialStream stream(subjects, options.trial.comparison, options.trial.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
@@ -68,11 +72,8 @@ void add_replay(CLI::App& app, int& exit_code) {
       app.add_subcommand("replay", "Decide the cases of files and folders by subjects and the oracle");
   command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
       ->required();
-  add_subject_option(*command, options->subjects);
-  options->limits.add_to(*command);
+  options->trial.add_to(*command);
   add_bound_option(*command, options->bound);
-  add_comparison_options(*command, options->comparison);
-  add_jobs_option(*command, options->jobs);
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/baseline.hpp"
 #include "reports/store.hpp"
 #include "reports/summary.hpp"
 #include "tools/commands.hpp"
@@ -12,7 +13,7 @@ namespace nearmiss::tools {
 void add_report(CLI::App& app, int& exit_code) {
   struct Options {
     std::vector<std::filesystem::path> stores;
-    std::filesystem::path folder, baseline;
+    std::filesystem::path folder, baseline, power;
   };
   auto options = std::make_shared<Options>();
   auto* command =
@@ -22,21 +23,26 @@ void add_report(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("DIR");
   command
-      ->add_option("--baseline", options->baseline,
-                   "Show what changed since this store; exit code 1 where there is a new way to fail")
+      ->add_option(
+          "--baseline", options->baseline,
+          "Show what changed since this store; exit code 1 where there is a new way to fail or a rate is "
+          "worse")
       ->type_name("DB");
+  command
+      ->add_option("--power", options->power,
+                   "Show the power of detection, as nearmiss power --json keeps it")
+      ->type_name("FILE");
   command->callback([options, &exit_code] {
     const Campaign campaign = load_campaigns(options->stores);
-    std::optional<Campaign> baseline;
-    if (!options->baseline.empty()) baseline = load_campaign(options->baseline);
-    write_report(campaign, baseline, options->folder);
+    ReportContext context;
+    if (!options->baseline.empty()) context.baseline = load_campaign(options->baseline);
+    if (!options->power.empty()) context.hunts = load_hunts(options->power);
+    write_report(campaign, context, options->folder);
     fmt::print("{}\n", summary_table(campaign.statistics));
-    if (baseline) {
-      const auto fresh = new_signatures(campaign, *baseline);
-      for (const Signature& each : fresh)
-        fmt::print("new: {} of {}, {}\n", name(each.what), each.subject.empty() ? "the oracle" : each.subject,
-                   each.text);
-      if (!fresh.empty()) exit_code = exit_found;
+    if (context.baseline) {
+      const Changes since = changes(campaign, *context.baseline);
+      fmt::print("{}", describe(since));
+      if (since.for_the_worse()) exit_code = exit_found;
     }
     fmt::print("report: {}\n",
                std::filesystem::absolute(options->folder / "index.html").lexically_normal().string());

@@ -8,11 +8,13 @@
 
 #include "corpus/query_text.hpp"
 #include "fuzz/trial_stream.hpp"
+#include "reports/shell.hpp"
 #include "reports/summary.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
 
 namespace nearmiss::tools {
 
@@ -20,11 +22,8 @@ namespace {
 
 struct Options {
   std::filesystem::path start, end;
-  std::vector<std::string> subjects{"basic", "wang"};
+  TrialOptions trial{.subjects = {"basic", "wang"}};
   std::string bound = "pair";
-  Comparison comparison;
-  PluginLimits limits;
-  int jobs = 1;
   RecordOptions record;
 };
 
@@ -41,20 +40,21 @@ std::optional<double> scene_bound(const std::string& source, const MovingMesh& m
 
 int run(const Options& options) {
   const auto& stop = interrupted();
-  make_subjects(options.subjects, options.limits);  // unknown names are refused before meshes are read
+  options.trial.make_subjects();  // unknown names are refused before meshes are read
   const MovingMesh mesh = read_moving_mesh(options.start, options.end);
   const auto given = scene_bound(options.bound, mesh);
-  const Subjects subjects = make_subjects(options.subjects, options.limits, given);
-  const std::string name = options.start.stem().string();
+  const Subjects subjects = options.trial.make_subjects(given);
+  const std::string name = options.start.filename().string();
 
-  RunInfo info = run_info("scene");
-  info["scene"] = options.start.string() + " " + options.end.string();
-  info["bound"] = given ? fmt::format("{} ({})", *given, options.bound) : options.bound;
-  Record record(options.record, std::move(info));
+  RunInfo info = options.trial.run_info(
+      fmt::format("scene {} {}", shell_quoted(options.start.string()), shell_quoted(options.end.string())));
+  if (given) info["bound"] = fmt::format("{}", *given);
+  info["again"] += " --bound " + options.bound;
+  Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
   std::map<Kind, std::uint64_t> candidates;
   {
     Progress progress(options.record.quiet);
-    TrialStream stream(subjects, options.comparison, options.jobs, stop,
+    TrialStream stream(subjects, options.trial.comparison, options.trial.jobs, stop,
                        [&](TrialResult&& result) { record.add(std::move(result)); });
     find_candidates(mesh, [&](const Candidate& candidate) {
       if (stop) return;
@@ -90,15 +90,12 @@ void add_scene(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("START.obj");
   command->add_option("END", options->end, "The same mesh at t = 1")->required()->type_name("END.obj");
-  add_subject_option(*command, options->subjects);
-  options->limits.add_to(*command);
+  options->trial.add_to(*command);
   command
       ->add_option("--bound", options->bound,
                    "The bound B: each pair's own, the largest of the scene's pairs, or a number")
       ->capture_default_str()
       ->type_name("pair|scene|B");
-  add_comparison_options(*command, options->comparison);
-  add_jobs_option(*command, options->jobs);
   options->record.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

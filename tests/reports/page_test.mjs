@@ -26,8 +26,8 @@ function makeReport(name, fuzz, report = []) {
 }
 
 /** Opens a page that must draw without any complaint and without the network. */
-async function open(browser, url) {
-  const page = await browser.newPage({ offline: true });
+async function open(browser, url, options = {}) {
+  const page = await browser.newPage({ offline: true, ...options });
   const complaints = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(error.message));
@@ -51,9 +51,20 @@ async function showsFindings(browser) {
   assert.match(verdicts[1], /ok.*wang.*no miss/);
   assert.equal(await count(page, ".verdict.bad"), 1);
 
-  assert.equal(await count(page, "#error-time path.point, #error-time .mark-symbol.role-mark path"), 4); // 2 subjects, 2 panels
-  assert.ok((await count(page, "#distances .mark-line path")) >= 2);
-  assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 2); // the bound, in each panel
+  assert.match(await page.textContent("#headline"), /^basic failed; wang did not fail, in 2,200 queries\.$/);
+  assert.equal(await count(page, "#headline.bad"), 1);
+  assert.ok((await page.locator("nav a").allTextContents()).includes(`Findings (${report.findings.length})`));
+
+  const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
+  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the one that missed
+  assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
+  assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
+  const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
+    Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
+  assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>
+    labels.filter((label) => !label.endsWith("%")))), new Set([...reported("vt"), ...reported("ee")]));
+  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds, how many and which share
+  assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
   assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
@@ -66,13 +77,15 @@ async function showsFindings(browser) {
   const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
   assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
 
+  assert.equal(await count(page, "#oracle tbody tr"), 2);
+  await page.check("#oracle-by-family");
   assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const command = await page.locator("#findings code").first().textContent();
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
   assert.match(await page.textContent("#findings-note"), new RegExp(`^${kept.toLocaleString("en-US")} failures in ${report.signatures.length} ways`));
-  const seen = await page.locator("#findings tbody tr td:nth-child(5)").allTextContents();
-  assert.deepEqual(seen.map((text) => Number(text.replaceAll(",", ""))), report.findings.map((each) => each.seen));
+  const seen = await page.locator("#findings .seen").allTextContents();
+  assert.deepEqual(seen, report.findings.map(({ seen: n }) => (n === 1 ? "seen once" : `seen ${n.toLocaleString("en-US")} times`)));
   const shrunk = page.locator("#findings tbody tr").first().locator("pre");
   assert.match(await shrunk.first().textContent(), /^x0 \(.*, .*, .*\)/);
   assert.equal(await shrunk.last().isVisible(), false); // the query as it was found
@@ -96,9 +109,23 @@ async function showsFindings(browser) {
   await page.keyboard.press("ArrowLeft");
   assert.notEqual(await drawn(), byMouse);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
-  await page.locator("#findings button").first().click();
-  await page.waitForSelector("#findings button:has-text('copied')");
-  assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), report.findings[0].shrunk);
+  const copied = async (number) => {
+    const button = page.locator("#findings button").nth(number);
+    await button.click();
+    await page.waitForFunction((b) => b.textContent === "copied", await button.elementHandle());
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  assert.equal(await copied(0), command);
+  assert.deepEqual((await copied(1)).split(" ").map(Number), report.findings[0].shrunk);
+
+  assert.equal(await count(page, "#farthest svg.picture"), 4); // of each subject and kind
+  const far = await page.locator("#counts tbody a").evaluateAll((links) => links.map((link) => link.getAttribute("href")));
+  assert.ok(far.length > 20);
+  for (const file of far) readFileSync(join(folder, "found", file));
+  assert.ok((await count(page, "#slowest tbody tr")) >= 4);
+  assert.equal(await page.isVisible("#power-section"), false);
+  const again = await page.locator("#how code").textContent();
+  assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
 
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
@@ -111,9 +138,10 @@ async function showsThatNothingWasFound(browser) {
   assert.equal(await count(page, ".verdict.bad"), 0);
   assert.match(await page.textContent("#findings-note"), /^None/);
   assert.equal(await count(page, "#findings tbody tr"), 0);
-  assert.match(await page.textContent("#distances"), /no false positive/);
-  assert.equal(await page.isVisible("#baseline"), false);
-  assert.equal(await page.isVisible("#sweeps-section"), false);
+  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "tightness-section", "farthest-section"])
+    assert.equal(await page.isVisible(`#${left}`), false, left);
+  assert.match(await page.textContent("#headline"), /^wang did not fail, in 100 queries\.$/);
+  assert.equal(await count(page, "#headline.bad"), 0);
   await page.close();
 }
 
@@ -121,9 +149,18 @@ async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  assert.equal(await count(page, "#sweeps .mark-line path"), 12); // 2 families, 3 panels, 2 subjects
-  const crosses = await count(page, "#sweeps .mark-symbol.role-mark path[fill='#b3261e']");
-  assert.equal(crosses, 18); // basic misses at all 3 values, and is marked in all panels
+  // 4 panels, each of 2 families with 2 subjects at 3 values; above them those that are not 0.
+  const steps = Object.values(JSON.parse(readFileSync(join(folder, "swept", "report.json"))).sweeps).flatMap(Object.values).flat();
+  const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
+    .map((field) => steps.filter((step) => step[field] > 0).length);
+  assert.ok(shown[0] >= 6); // basic misses at all values
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 12 + shown.reduce((a, b) => a + b));
+  await page.close();
+}
+
+async function showsSweepsOfWhatIsNeverWrong(browser) {
+  const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all 0 but the times
   await page.close();
 }
 
@@ -131,8 +168,32 @@ async function showsTheBaseline(browser) {
   const url = makeReport("later", ["--cases", "2200", "--subject", "basic,wang", "--seed", "2"], ["--baseline", "found.db"]);
   const page = await open(browser, url);
   assert.equal(await page.isVisible("#baseline"), true);
-  assert.match(await page.textContent("#baseline-new"), /^New: false-negative of basic, /);
-  assert.equal(await count(page, "#baseline-table tbody tr"), 4);
+  assert.match(await page.textContent("#news"), /New: false-negative of basic, /);
+  assert.match(await page.textContent("#headline"), /since the baseline\.$/);
+  assert.equal(await count(page, "#before-and-now tbody tr"), 4);
+  assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);
+  assert.match(await page.locator("#findings tbody tr").first().textContent(), /NEW since the baseline/);
+  await page.close();
+}
+
+async function showsThePowerOfDetection(browser) {
+  run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
+  const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
+  assert.equal(await count(page, "#power tbody tr"), 2);
+  assert.match(await page.locator("#power tbody tr").first().textContent(), /^defect:vv[\d.]+ s, [\d,]+/);
+  await page.close();
+}
+
+/** Under another theme, on a phone, and on paper nothing is lost and nothing sticks out. */
+async function fitsEveryMedium(browser) {
+  const url = pathToFileURL(join(folder, "found", "index.html")).href;
+  for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
+    const page = await open(browser, url, options);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
+    await page.close();
+  }
+  const page = await open(browser, url);
+  assert.ok((await page.pdf()).length > 50000);
   await page.close();
 }
 
@@ -146,6 +207,9 @@ try {
   await showsThatNothingWasFound(browser);
   await showsTheBaseline(browser);
   await showsSweeps(browser);
+  await showsSweepsOfWhatIsNeverWrong(browser);
+  await showsThePowerOfDetection(browser);
+  await fitsEveryMedium(browser);
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true });

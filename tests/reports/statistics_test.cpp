@@ -40,6 +40,22 @@ TEST(Histogram, WhatIsOutsideIsCountedInTheFirstOrLastBin) {
   EXPECT_EQ(histogram.bins.back(), 1);
 }
 
+TEST(Histogram, AQuantileIsTheUpperBorderOfItsBin) {
+  Histogram histogram;
+  EXPECT_EQ(histogram.quantile(0.5), 0);
+  for (int i = 0; i < 99; ++i) histogram.add(0.01);
+  histogram.add(0.5);
+  EXPECT_DOUBLE_EQ(histogram.quantile(0.5), std::pow(10, -1.75));
+  EXPECT_DOUBLE_EQ(histogram.quantile(0.99), std::pow(10, -1.75));
+  EXPECT_DOUBLE_EQ(histogram.quantile(1), std::pow(10, -0.25));
+}
+
+TEST(Counts, AQuantileOfDistancesIsNeverBeyondTheFarthest) {
+  Counts counts;
+  counts.add(false_positive(0.5), query, here);
+  EXPECT_EQ(counts.ratio_quantile(0.5), 0.5);
+}
+
 TEST(Counts, EachOutcomeIsCountedOnce) {
   Counts counts;
   counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, here);
@@ -131,6 +147,17 @@ TEST(Confidence, TheTailHasFivePercent) {
   const double q = 1 - p;
   const double tail = std::pow(q, 20) + 20 * p * std::pow(q, 19) + 190 * p * p * std::pow(q, 18);
   EXPECT_NEAR(tail, 0.05, 1e-9);
+}
+
+// P(X <= count) at the upper end and P(X >= count) at the lower one are half of the risk.
+TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
+  const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9
+  const Interval interval = clopper_pearson(1, 9, 0.01);
+  EXPECT_NEAR(at_most_one(interval.hi), 0.005, 1e-9);
+  EXPECT_NEAR(1 - std::pow(1 - interval.lo, 9), 0.005, 1e-9);
+  EXPECT_EQ(clopper_pearson(0, 9, 0.01).lo, 0);
+  EXPECT_EQ(clopper_pearson(9, 9, 0.01).hi, 1);
+  EXPECT_EQ(clopper_pearson(0, 0), (Interval{0, 1}));
 }
 
 TEST(Confidence, OneWhereNothingIsKnown) {

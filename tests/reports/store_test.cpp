@@ -194,10 +194,10 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("old.db"));
   sqlite3* db = nullptr;
   sqlite3_open(file("old.db").c_str(), &db);
-  sqlite3_exec(db, "PRAGMA user_version = 5", nullptr, nullptr, nullptr);
+  sqlite3_exec(db, "PRAGMA user_version = 6", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 5, expected 6")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 6, expected 7")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/json.hpp"
 #include "reports/summary.hpp"
 
 namespace nearmiss {

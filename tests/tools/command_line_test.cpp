@@ -95,11 +95,11 @@ TEST_F(CommandLine, APluginThatCrashesAndHangsIsCountedAndTheCampaignGoesOn) {
     EXPECT_EQ(read_json("report/report.json")["findings"][0]["what"], "fault");
   }
   std::filesystem::remove(file("new.json"));
-  // A stored query fails again, as a case.
-  EXPECT_EQ(
-      run("replay report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
-          .code,
-      1);
+  // A stored query fails again, by the command in the report, which works in the report's folder.
+  const std::string again = read_json("report/report.json")["findings"][0]["again"];
+  EXPECT_THAT(again, ::testing::MatchesRegex("nearmiss replay cases/fault-misbehaving-001.case --subject "
+                                             "/.*hang.so --query-time 20ms --query-memory [0-9]+"));
+  EXPECT_EQ(run(again.substr(9), "cd report &&").code, 1);
   EXPECT_EQ(
       run("shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
           .code,
@@ -367,6 +367,10 @@ TEST_F(CommandLine, BadStores) {
   write("taken.db", "precious");
   expect_refused("report text.db -o new", {"text.db", "not a database"});
   expect_refused("report absent.db -o new", {"absent.db: no such file"});
+  EXPECT_EQ(run("fuzz --cases 10 --db good.db").code, 0);
+  expect_refused("report good.db -o new --power text.db",
+                 {"text.db", "expected what nearmiss power --json keeps"});
+  expect_refused("report good.db -o new --baseline text.db", {"text.db", "not a database"});
   expect_refused("merge new.db absent.db", {"absent.db: no such file"});
   expect_refused("fuzz --cases 10 --db taken.db", {"taken.db: exists already"});
   EXPECT_EQ(read("taken.db"), "precious");

@@ -64,7 +64,9 @@ class Resume : public CommandLine {
  private:
   static void forget_times(json& node) {
     if (node.is_object())
-      for (const char* name : {"started", "seconds", "ns_per_query", "times"}) node.erase(name);
+      for (const char* name :
+           {"started", "seconds", "ns_per_query", "times", "front_by_distance", "front_by_rate"})
+        node.erase(name);
     if (node.is_structured())
       for (json& each : node) forget_times(each);
   }
@@ -119,6 +121,18 @@ TEST_F(Resume, AMergeSaysWhichShardsAreMissingAndRefusesOneTwice) {
   EXPECT_THAT(answer.out, HasSubstr("fuzz: shards 1 of 3 are missing"));
   EXPECT_EQ(timeless_report("some.db")["runs"][0]["missing"], "shards 1 of 3 are missing");
   expect_refused("merge new.db a.db c.db a.db", {"a.db and a.db: both have shard 0/3 of the run with"});
+}
+
+TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
+  EXPECT_EQ(run("fuzz --time 1s --seed 9 --subject basic,wang --sweep needle --steps 3 --db timed.db").code,
+            1);
+  const json report = timeless_report("timed.db");
+  const std::string again = report["runs"][0]["again"];
+  ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
+  EXPECT_EQ(run(again.substr(9) + " --db again.db").code, 1);
+  json other = timeless_report("again.db");
+  other["runs"] = report["runs"];  // a number of cases, and not a time
+  EXPECT_EQ(other, report);
 }
 
 TEST_F(Resume, OneProcessWritesAStore) {

@@ -1,0 +1,221 @@
+// Charts: what each shows is in report.json; here is how it looks.
+"use strict";
+
+const style = getComputedStyle(document.documentElement);
+const color = (name) => style.getPropertyValue(name).trim();
+const words = { labelColor: color("--ink"), titleColor: color("--ink") };
+const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
+  legend: { orient: "bottom", columns: 8, ...words }, title: { color: color("--ink") }, header: words,
+  axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
+const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
+
+/** Draws a chart; no code is made of strings, so that the strictest content policy allows it. */
+function draw(id, description, spec) {
+  return vegaEmbed("#" + id, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
+    { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
+}
+
+// Okabe and Ito's colours, which the colour-blind can tell apart.
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47"];
+const subjectNames = Object.keys(report.subjects);
+const subjectColor = {
+  field: "subject", type: "nominal", title: "subject",
+  scale: { domain: subjectNames, range: subjectNames.map((_, i) => palette[i % palette.length]) },
+};
+const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
+
+/** A logarithmic axis for values of which some may be 0: these stand at its lower end, which says so. */
+function logAxisWithZero(values) {
+  const positive = values.filter((v) => v > 0);
+  if (positive.length === 0) return { zero: 0.1, scale: { type: "log", domain: [0.1, 1] }, axis: { values: [0.1], labelExpr: "'0'" } };
+  const exponents = positive.map((v) => Math.log10(v));
+  const lowest = Math.floor(Math.min(...exponents));
+  const highest = Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
+  const step = Math.ceil((highest - lowest) / 7);
+  const decades = [];
+  for (let i = highest; i >= lowest; i -= step) decades.push(10 ** i);
+  const zero = values.some((v) => v === 0) ? 10 ** (lowest - step) : 10 ** lowest;
+  return { zero, scale: { type: "log", domain: [zero, 10 ** highest], nice: false },
+    axis: { values: [...decades, zero], labelExpr: `datum.value < ${10 ** (lowest - 0.5)} ? '0' : format(datum.value, '~g')` } };
+}
+
+function drawErrorTime() {
+  const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
+  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
+  const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
+    scale: { type: "log", nice: false, padding: 30 }, axis: { grid: true, tickCount: 6, format: "~s" } };
+  const tooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
+    { field: "false_negatives", title: "missed" }, { field: "collisions", title: "of collisions" },
+    { field: "false_positive_rate", title: "false positives", format: ".3~%" },
+    { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
+    { field: "q99_fp_distance_over_bound", title: "99 %", format: ".3~g" },
+    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+  const panel = (title, top, marks, front) => {
+    const axis = logAxisWithZero(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
+    const shown = rows.map((row) => {
+      const at = { ...row, top: Math.max(row[top], axis.zero) };
+      marks.forEach((field, i) => (at[`mark${i}`] = Math.max(row[field], axis.zero)));
+      return at;
+    });
+    const y = (field) => ({ field, type: "quantitative", title: null, scale: axis.scale, axis: axis.axis });
+    const own = { x, color: subjectColor, tooltip };
+    return {
+      width: 420, height: 280, title, data: { values: shown },
+      layer: [
+        ...(front.length === 0 ? [] : [{ transform: [{ filter: { field: "subject", oneOf: front } }],
+          mark: { type: "line", interpolate: "step-after", strokeDash: [5, 4], color: color("--soft") }, encoding: { x, y: y("top") } }]),
+        ...(marks.length === 0 ? [] : [
+          { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("mark0"), y2: { field: "top" } } },
+          ...marks.map((_, i) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width: i === 0 ? 8 : 14 },
+            encoding: { ...own, y: y(`mark${i}`) } }))]),
+        { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
+          encoding: { ...own, y: y("top"), shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjectNames } } } },
+        ...(rows.every((row) => row.false_negatives === 0) ? [] : [{ transform: [{ filter: "datum.false_negatives > 0" }],
+          mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper") },
+          encoding: { x, y: y("top"), tooltip } }]),
+      ],
+    };
+  };
+  return draw("error-time", "For each subject the run time of a query, and how far and how many its false positives are.", {
+    hconcat: [
+      panel("distance / bound of false positives", "max_fp_distance_over_bound",
+        ["median_fp_distance_over_bound", "q99_fp_distance_over_bound"], front_by_distance),
+      panel("false positives, of all that is no collision", "false_positive_rate", [], front_by_rate),
+    ],
+  });
+}
+
+const isStepOfSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+
+function drawRates() {
+  const rows = countRows(true).filter((row) => row.false_positives > 0 && !isStepOfSweep(row.family))
+    .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1] }));
+  const families = [...new Set(rows.map((row) => row.family))].sort();
+  const lowest = 10 ** Math.floor(Math.log10(Math.min(...rows.map((row) => row.lo))));
+  const y = { field: "family", type: "nominal", title: null, scale: { domain: families } };
+  const yOffset = { field: "subject", scale: { domain: subjectNames } };
+  const decades = [];
+  for (let decade = 1; decade >= 0.99 * lowest; decade /= 10) decades.push(decade);
+  const rate = (field) => ({ field, type: "quantitative", title: "false positives, of all that is no collision",
+    scale: { type: "log", domain: [lowest, 1], nice: false }, axis: { values: decades, labelExpr: "format(datum.value * 100, '.3~g') + ' %'" } });
+  const tooltip = [{ field: "subject" }, { field: "family" }, { field: "false_positives", title: "false positives" },
+    { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", format: ".3~%" },
+    { field: "lo", title: "from", format: ".3~%" }, { field: "hi", title: "to", format: ".3~%" },
+    { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
+    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+  const panel = (kind, i) => ({
+    width: 400, height: { step: Math.max(4, 12 / subjectNames.length), for: "offset" }, title: kindTitles[kind],
+    transform: [{ filter: `datum.kind === "${kind}"` }],
+    layer: [
+      { mark: { type: "rule", strokeWidth: 1.5 }, encoding: { y, yOffset, x: rate("lo"), x2: { field: "hi" }, color: subjectColor, tooltip } },
+      { mark: { type: "point", filled: true, size: 28 },
+        encoding: { y: i === 0 ? y : { ...y, axis: { labels: false, ticks: false } }, yOffset, x: rate("false_positive_rate"), color: subjectColor, tooltip } },
+    ],
+    resolve: { axis: { y: "shared" } },
+  });
+  return draw("rates", "For each family and subject the rate of false positives with its confidence interval.",
+    { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => rows.some((row) => row.kind === kind)).map(panel) });
+}
+
+function drawDistances() {
+  const borders = report.histogram_borders;
+  const values = [];
+  for (const row of countRows(false)) {
+    let notFarther = 0;
+    if (row.false_positives === 0) continue;
+    row.fp_distance_histogram.forEach((n, i) => {
+      notFarther += n;
+      values.push({ subject: row.subject, kind: row.kind, from: borders[i], to: borders[i + 1], count: n,
+        share: notFarther / row.false_positives });
+    });
+  }
+  const used = values.filter((v) => v.count > 0).map((v) => v.from);
+  const first = borders[Math.max(0, borders.indexOf(Math.min(...used)) - 1)];
+  const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
+    encoding: { x: { field: "bound", type: "quantitative" } } };
+  const panel = (kind, field, title, interpolate, scale) => ({
+    width: 420, height: 200, title: title === "" ? undefined : kindTitles[kind],
+    layer: [
+      {
+        transform: [{ filter: `datum.kind === "${kind}" && datum.from >= ${first}` }],
+        mark: { type: "line", interpolate, strokeWidth: 2 },
+        encoding: {
+          x: { field: field === "count" ? "from" : "to", type: "quantitative", title: "distance / bound", scale: { type: "log", domain: [first, 10] },
+            axis: { format: ".0e", tickCount: 8, labelAngle: -40 } },
+          y: { field, type: "quantitative", title, ...scale },
+          color: subjectColor,
+          tooltip: [{ field: "subject" }, { field: "from", format: ".3e" }, { field: "to", format: ".3e" }, { field: "count" },
+            { field: "share", title: "not farther", format: ".2%" }],
+        },
+      },
+      bound,
+    ],
+  });
+  return draw("distances", "How many false positives there are at each distance, and the share that is not farther.", {
+    data: { values },
+    hconcat: ["vt", "ee"].filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
+      panel(kind, "count", "false positives", "step-after", { scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } }),
+      panel(kind, "share", "not farther", "linear", { scale: { domain: [0, 1] }, axis: { tickCount: 5, format: "%" } }),
+    ] })),
+  });
+}
+
+function drawStages() {
+  const values = [];
+  for (const row of countRows(false))
+    for (const [truth, field] of [["true positives", "true_positives_by_stage"], ["false positives", "false_positives_by_stage"]])
+      for (const [stage, n] of Object.entries(row[field])) values.push({ subject: `${row.subject} ${row.kind}`, truth, stage, count: n });
+  const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"];
+  return draw("stages", "For each subject and kind the share of the true and of the false positives that each test accepted.", {
+    data: { values },
+    facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
+    spec: {
+      width: 360, height: { step: 20 },
+      mark: "bar",
+      encoding: {
+        y: { field: "subject", type: "nominal", title: null },
+        x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
+        color: { field: "stage", type: "nominal", title: "accepted by", sort: order, scale: { domain: order, range: palette } },
+        order: { field: "stage", sort: "ascending" },
+        tooltip: [{ field: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
+      },
+    },
+  });
+}
+
+function drawSweeps() {
+  const values = [];
+  for (const [family, bySubject] of Object.entries(report.sweeps))
+    for (const [subject, steps] of Object.entries(bySubject))
+      steps.forEach((step, i) => values.push({ row: `${family} · ${subject}`, family, subject, step: i, ...step }));
+  const ends = Math.max(...values.map((v) => v.step));
+  const x = { field: "step", type: "ordinal", title: null,
+    axis: { values: [0, ends], labelExpr: "datum.value === 0 ? 'lowest' : 'highest'", labelAngle: 0, labelFlush: true, ticks: false } };
+  const y = { field: "row", type: "nominal", title: null };
+  const tooltip = [{ field: "subject" }, { field: "family" }, { field: "value", title: "parameter" }, { field: "queries" }, { field: "collisions" },
+    { field: "false_negatives", title: "missed" }, { field: "false_positive_rate", title: "false positives", format: ".3~%" },
+    { field: "max_fp_distance_over_bound", title: "largest distance / bound", format: ".4~g" },
+    { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
+  const panel = (field, title, scheme, format, names) => ({
+    title, width: 330, height: { step: 16 },
+    layer: [
+      { mark: { type: "rect", color: color("--ground") },
+        encoding: { x, y: names ? y : { ...y, axis: null }, tooltip } },
+      ...(values.every((v) => !(v[field] > 0)) ? [] : [{ transform: [{ filter: `datum.${field} > 0` }], mark: { type: "rect" },
+        encoding: { x, y: names ? y : { ...y, axis: null }, tooltip,
+          color: { field, type: "quantitative", title: null, scale: { type: "log", scheme, reverse: isDark },
+            legend: { orient: "bottom", format, gradientLength: 280, tickCount: 4 } } } }]),
+    ],
+    resolve: { scale: { color: "independent" } },
+  });
+  return draw("sweeps", "Heat maps of misses, false positives, their distance and the run time along a parameter.", {
+    data: { values },
+    resolve: { scale: { color: "independent" } },
+    vconcat: [
+      { hconcat: [panel("false_negative_rate", "missed, of the collisions", "reds", "~g", true),
+        panel("max_fp_distance_over_bound", "largest distance / bound", "blues", "~g", false)], resolve: { scale: { color: "independent" } } },
+      { hconcat: [panel("false_positive_rate", "false positives, of all else", "oranges", "~g", true),
+        panel("ns_per_query", "ns a query", "purples", "~s", false)], resolve: { scale: { color: "independent" } } },
+    ],
+  });
+}

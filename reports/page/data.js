@@ -1,0 +1,15 @@
+// The report's data, which the page has inside.
+"use strict";
+
+const report = JSON.parse(document.getElementById("report").textContent);
+
+/** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
+function countRows(byFamily) {
+  const rows = [];
+  for (const [subject, ofKind] of Object.entries(report.subjects))
+    for (const [kind, counts] of Object.entries(ofKind)) {
+      const families = byFamily ? counts.families : { "": counts };
+      for (const [family, each] of Object.entries(families)) rows.push({ subject, kind, family, ...each });
+    }
+  return rows;
+}

@@ -1,0 +1,84 @@
+// Tables: rows of report.json under headings that sort.
+"use strict";
+
+const integer = (n) => n.toLocaleString("en-US");
+const short = (x) =>
+  x === null || x === undefined ? "–" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
+const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
+const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
+
+/** A new element; `content` is text, a node, or a list of these. */
+function made(tag, content = [], attributes = {}) {
+  const node = document.createElement(tag);
+  node.append(...[content].flat());
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  return node;
+}
+
+/**
+ * Draws a table.
+ * @param columns {title, text(row): text or node, number(row): by which it sorts, bad(row)}
+ * @param sortable whether a click on a heading sorts
+ */
+function fillTable(table, columns, rows, sortable = false) {
+  const draw = () => {
+    const body = made("tbody");
+    for (const row of rows) {
+      const line = body.insertRow();
+      for (const column of columns) {
+        const cell = line.insertCell();
+        cell.append(column.text(row) ?? "");
+        if (column.number) cell.classList.add("number");
+        if (column.bad?.(row)) cell.classList.add("bad");
+      }
+    }
+    table.tBodies[0]?.remove();
+    table.append(body);
+  };
+  const heading = (column) => {
+    const title = made("th", sortable ? made("button", column.title, { type: "button" }) : column.title, { scope: "col" });
+    if (column.number) title.classList.add("number");
+    if (!sortable) return title;
+    title.firstChild.addEventListener("click", () => {
+      const up = title.getAttribute("aria-sort") === "descending";
+      for (const other of title.parentNode.cells) other.removeAttribute("aria-sort");
+      title.setAttribute("aria-sort", up ? "ascending" : "descending");
+      const key = column.number ?? column.text;
+      rows.sort((a, b) => (key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0) * (up ? 1 : -1));
+      draw();
+    });
+    return title;
+  };
+  table.replaceChildren();
+  table.createTHead().insertRow().append(...columns.map(heading));
+  draw();
+}
+
+const count = (title, field, bad) => ({
+  title, number: (r) => r[field], text: (r) => integer(r[field]), bad: bad ? (r) => r[field] > 0 : undefined,
+});
+const figure = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
+const text = (title, field) => ({ title, text: (r) => r[field] });
+
+/** A button that copies text. */
+function copyButton(content) {
+  const button = made("button", "copy", { type: "button", class: "copy" });
+  button.addEventListener("click", async () => {
+    await navigator.clipboard.writeText(content);
+    button.textContent = "copied";
+  });
+  return button;
+}
+
+/** A command, and a button that copies it. */
+const command = (content) => made("div", [made("code", content), copyButton(content)]);
+
+/** A query as a line of 24 numbers, for nearmiss oracle and verdict; to copy. */
+const copyQuery = (x) => copyButton(x.join(" "));
+
+/** A vertex a line: where it is at t = 0, and where it is at t = 1 if it moves. */
+function queryText(x) {
+  const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
+  const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);
+  return made("pre", [0, 1, 2, 3].map(vertex).join("\n"));
+}

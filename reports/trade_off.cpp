@@ -1,0 +1,61 @@
+#include "reports/trade_off.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reports/json.hpp"
+
+namespace nearmiss {
+
+std::vector<TradeOff> trade_offs(const Statistics& statistics) {
+  std::set<std::string> subjects;
+  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // of how many subjects, by kind and family
+  for (const auto& [key, counts] : statistics.counts) {
+    if (counts.timed_queries == 0) continue;
+    subjects.insert(key.subject);
+    ++asked[{key.kind, key.family}];
+  }
+  std::map<std::string, Counts> sums;
+  for (const auto& [key, counts] : statistics.counts)
+    if (counts.timed_queries != 0 && asked[{key.kind, key.family}] == subjects.size())
+      sums[key.subject].merge(counts);
+  std::vector<TradeOff> all;
+  for (const auto& [subject, counts] : sums) all.push_back({subject, counts});
+  return all;
+}
+
+std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const Counts&)) {
+  std::vector<const TradeOff*> sound;
+  for (const TradeOff& each : all)
+    if (each.sound()) sound.push_back(&each);
+  std::sort(sound.begin(), sound.end(), [&](const TradeOff* a, const TradeOff* b) {
+    return std::pair(a->counts.ns_per_query(), error(a->counts)) <
+           std::pair(b->counts.ns_per_query(), error(b->counts));
+  });
+  std::vector<std::string> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TradeOff* each : sound) {
+    if (error(each->counts) >= least) continue;
+    least = error(each->counts);
+    front.push_back(each->subject);
+  }
+  return front;
+}
+
+nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
+  const auto all = trade_offs(statistics);
+  nlohmann::ordered_json json;
+  json["subjects"] = nlohmann::ordered_json::object();
+  for (const TradeOff& each : all) {
+    auto& subject = json["subjects"][each.subject] = rates_json(each.counts);
+    subject["sound"] = each.sound();
+  }
+  json["front_by_distance"] = pareto_front(all, [](const Counts& c) { return c.max_ratio(); });
+  json["front_by_rate"] = pareto_front(all, [](const Counts& c) { return c.false_positive_rate(); });
+  return json;
+}
+
+}  // namespace nearmiss

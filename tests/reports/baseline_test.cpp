@@ -1,0 +1,185 @@
+// What has changed since an earlier campaign, error against run time, and the verdict in a line.
+#include "reports/baseline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/headline.hpp"
+#include "reports/power_table.hpp"
+#include "reports/shell.hpp"
+#include "reports/trade_off.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::ThrowsMessage;
+
+Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
+              std::uint64_t false_positives, std::uint64_t ns = 0) {
+  Counts c;
+  c.queries = queries;
+  c.collisions = collisions;
+  c.false_negatives = missed;
+  c.false_positives = false_positives;
+  c.timed_queries = ns == 0 ? 0 : queries;
+  c.nanoseconds = ns * queries;
+  if (false_positives != 0) c.farthest.push_back({1e-3 * static_cast<double>(false_positives), {}, "f:1:0"});
+  return c;
+}
+
+Campaign campaign(const std::string& seed, std::map<Key, Counts> all) {
+  Campaign result;
+  result.runs.push_back({{{"command", "fuzz"}, {"seed", seed}}, {{}}, {}});
+  result.statistics.counts = std::move(all);
+  return result;
+}
+
+const Key key{"wang", Kind::edge_edge, "uniform"};
+
+TEST(Changes, ARateWithinItsConfidenceIntervalHasNotChanged) {
+  const Campaign before = campaign("1", {{key, counts(200000, 100000, 0, 1000)}});
+  const Campaign now = campaign("2", {{key, counts(200000, 100000, 0, 1100)}});
+  const Changes found = changes(now, before);
+  EXPECT_THAT(found.rates, IsEmpty());
+  EXPECT_EQ(found.compared_rates, 3);
+  EXPECT_FALSE(found.for_the_worse());
+  ASSERT_THAT(found.facts, SizeIs(1));
+  EXPECT_EQ(found.facts[0].name + found.facts[0].before + found.facts[0].now, "seed12");
+}
+
+TEST(Changes, ARateOutsideOfItIsBetterOrWorse) {
+  const Campaign few = campaign("1", {{key, counts(200000, 100000, 0, 1000)}});
+  const Campaign many = campaign("1", {{key, counts(200000, 100000, 0, 1400)}});
+  const Changes worse = changes(many, few);
+  ASSERT_THAT(worse.rates, SizeIs(1));
+  EXPECT_EQ(worse.rates[0].what, "false positives");
+  EXPECT_TRUE(worse.for_the_worse());
+  EXPECT_EQ(describe(worse),
+            "worse: false positives of wang ee in uniform, 1,000 of 100,000 before, 1,400 of 100,000 now\n");
+  const Changes better = changes(few, many);
+  ASSERT_THAT(better.rates, SizeIs(1));
+  EXPECT_FALSE(better.for_the_worse());
+  EXPECT_THAT(describe(better), HasSubstr("better: "));
+}
+
+TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
+  const auto with_others = [](std::uint64_t false_positives) {
+    std::map<Key, Counts> all{{key, counts(200000, 100000, 0, false_positives)}};
+    for (int i = 0; i < 10000; ++i)
+      all[{"wang", Kind::edge_edge, "family " + std::to_string(i)}] = counts(200000, 100000, 0, 0);
+    return campaign("1", std::move(all));
+  };
+  const auto alone = [](std::uint64_t false_positives) {
+    return campaign("1", {{key, counts(200000, 100000, 0, false_positives)}});
+  };
+  EXPECT_THAT(changes(alone(1300), alone(1000)).rates, SizeIs(1));
+  EXPECT_THAT(changes(with_others(1300), with_others(1000)).rates, IsEmpty());
+}
+
+TEST(Changes, CasesAndMeshesAreNoSamples) {
+  const Key cases{"wang", Kind::edge_edge, "planar/"};
+  const Key mesh{"wang", Kind::edge_edge, "cloth.obj"};
+  const Campaign before = campaign("1", {{cases, counts(1000, 0, 0, 0)}, {mesh, counts(1000, 0, 0, 0)}});
+  const Campaign now = campaign("1", {{cases, counts(1000, 0, 0, 1000)}, {mesh, counts(1000, 0, 0, 1000)}});
+  EXPECT_EQ(changes(now, before).compared_rates, 0);
+}
+
+TEST(Changes, WaysToFailComeAndGo) {
+  Campaign before = campaign("1", {});
+  Campaign now = before;
+  before.statistics.seen[{Finding::What::false_negative, "basic", "old"}] = 3;
+  now.statistics.seen[{Finding::What::fault, "mine", "vt crash SEGV"}] = 1;
+  const Changes found = changes(now, before);
+  ASSERT_THAT(found.new_signatures, SizeIs(1));
+  EXPECT_EQ(found.new_signatures[0].text, "vt crash SEGV");
+  ASSERT_THAT(found.gone_signatures, SizeIs(1));
+  EXPECT_EQ(found.gone_signatures[0].text, "old");
+  EXPECT_TRUE(found.for_the_worse());
+}
+
+TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
+  const Campaign good = campaign("1", {{{"a", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)},
+                                       {{"b", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});
+  EXPECT_EQ(headline(good.statistics, std::nullopt).text, "a and b did not fail.");
+  EXPECT_TRUE(headline(good.statistics, std::nullopt).clean);
+
+  Campaign bad = good;
+  bad.statistics.counts.begin()->second.false_negatives = 1;
+  bad.statistics.oracle[{Kind::edge_edge, "f"}].queries = 1234;
+  EXPECT_EQ(headline(bad.statistics, std::nullopt).text, "a failed; b did not fail, in 1,234 queries.");
+  EXPECT_FALSE(headline(bad.statistics, std::nullopt).clean);
+  // What failed before is no news.
+  EXPECT_EQ(headline(bad.statistics, changes(bad, bad)).text,
+            "a failed; b did not fail, in 1,234 queries; nothing worse since the baseline.");
+  EXPECT_TRUE(headline(bad.statistics, changes(bad, bad)).clean);
+  bad.statistics.seen[{Finding::What::false_negative, "a", "ee"}] = 1;
+  EXPECT_THAT(headline(bad.statistics, changes(bad, good)).text,
+              HasSubstr("; 1 new way to fail since the baseline."));
+  EXPECT_FALSE(headline(bad.statistics, changes(bad, good)).clean);
+
+  bad.statistics.oracle_disagreements = 2;
+  EXPECT_THAT(headline(bad.statistics, changes(bad, bad)).text,
+              HasSubstr("The oracle is not to be trusted: 2 "));
+  EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
+}
+
+TEST(TradeOff, OnTheFrontIsWhatNoSoundOneBeats) {
+  const auto at = [](const char* subject) { return Key{subject, Kind::edge_edge, "f"}; };
+  Statistics statistics;
+  statistics.counts = {{at("exact"), counts(100, 50, 0, 0, 300)},
+                       {at("fast"), counts(100, 50, 0, 40, 100)},
+                       {at("beaten"), counts(100, 50, 0, 41, 200)},
+                       {at("wrong"), counts(100, 50, 1, 0, 50)}};
+  const auto front = pareto_front(trade_offs(statistics), [](const Counts& c) { return c.max_ratio(); });
+  EXPECT_THAT(front, ElementsAre("fast", "exact"));
+}
+
+TEST(TradeOff, OnlyFamiliesOfAllCount) {
+  Statistics statistics;
+  statistics.counts[{"a", Kind::edge_edge, "both"}] = counts(100, 50, 0, 0, 100);
+  statistics.counts[{"b", Kind::edge_edge, "both"}] = counts(100, 50, 0, 0, 200);
+  statistics.counts[{"b", Kind::edge_edge, "only b"}] = counts(100, 50, 0, 0, 9000);
+  const auto all = trade_offs(statistics);
+  ASSERT_THAT(all, SizeIs(2));
+  EXPECT_EQ(all[1].counts.ns_per_query(), 200);
+}
+
+class PowerTable : public testing::TemporaryFolder {};
+
+TEST_F(PowerTable, IsReadAsItIsWritten) {
+  const std::vector<Hunt> hunts{{"defect:vv", "search", "refuted-bound", 1.5, 42, "f:1:0"},
+                                {"defect:mu", "uniform"}};
+  write("power.json", hunts_json(hunts).dump());
+  const auto again = load_hunts(file("power.json"));
+  EXPECT_EQ(hunts_json(again), hunts_json(hunts));
+}
+
+TEST_F(PowerTable, RefusesAnythingElse) {
+  EXPECT_THAT([&] { load_hunts(file("none.json")); },
+              ThrowsMessage<Error>(HasSubstr("none.json: cannot be read")));
+  for (const char* text : {"", "[1]", "{\"subject\": 1}", "[{\"subject\": \"a\", \"way\": \"b\"}]"}) {
+    write("other.json", text);
+    EXPECT_THAT([&] { load_hunts(file("other.json")); },
+                ThrowsMessage<Error>(HasSubstr("expected what nearmiss power --json keeps")))
+        << text;
+  }
+}
+
+TEST(Shell, QuotesWhatItMust) {
+  EXPECT_EQ(shell_quoted("./plugin.so"), "./plugin.so");
+  EXPECT_EQ(shell_quoted("my plugin"), "'my plugin'");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quoted(""), "''");
+}
+
+}  // namespace
+}  // namespace nearmiss
