@@ -125,6 +125,8 @@ int run(const Options& options) {
       {.shard = plan.shard, .shards = plan.shards, .environment = options.trial.plugin_paths(subjects)});
   plan.rounds_before = record.part().rounds;
   plan.findings_before = record.findings();
+  const bool only_time_ends_it = plan.cases == 0;
+  if (only_time_ends_it) *plan.time -= std::chrono::duration<double>(record.part().seconds);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);
@@ -137,7 +139,6 @@ int run(const Options& options) {
         },
         stop);
   }
-  const bool only_time_ends_it = plan.cases == 0;
   return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
 }
 
@@ -182,7 +183,12 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   limit->add_option("--cases", options->cases, "As many queries in all, shared out among the families")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
       ->type_name("N");
-  limit->add_option("--time", options->time, "As many as there is time for: 30s, 2m, 8h")->type_name("T");
+  limit
+      ->add_option(
+          "--time", options->time,
+          "As many as there is time for: 30s, 2m, 8h; what goes on with a campaign has what is left of it, "
+          "and with --cases all of it anew")
+      ->type_name("T");
   limit->require_option(1, 2);
   command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
       ->capture_default_str()

@@ -77,9 +77,10 @@ void close_off() {
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   if (nothing > STDERR_FILENO) close(nothing);
-  std::signal(SIGINT, SIG_IGN);  // the one that asks is interrupted, and then ends this one
+  // The one that asks is interrupted, and then ends this one; a signal to both must not look like a crash.
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   // A crash is to be seen as what it is, also where a sanitizer would make an exit of it.
-  for (const int signal : {SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
 }
 
 /// Ends the process, whatever the plug-in does, when nobody is there any more to ask.

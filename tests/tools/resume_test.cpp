@@ -135,6 +135,13 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   EXPECT_EQ(other, report);
 }
 
+TEST_F(Resume, TimeThatIsSpentIsNotHadAgain) {
+  EXPECT_EQ(run("fuzz --time 1s --db a.db").code, 0);
+  const json report = timeless_report("a.db");
+  EXPECT_EQ(run("fuzz --time 1s --db a.db --resume").code, 0);
+  EXPECT_EQ(timeless_report("a.db"), report);
+}
+
 TEST_F(Resume, OneProcessWritesAStore) {
   const pid_t child = fork();
   if (child == 0) {
