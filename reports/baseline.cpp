@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_random(const std::string& family) { return !family.ends_with('/') && !family.ends_with(".obj"); }
+bool is_random(const std::string& family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
 
 /// The rates of one counter that are compared, intervals not yet told.
 std::vector<std::pair<std::string_view, Rate>> rates_of(const Counts& counts) {

@@ -4,6 +4,7 @@
 
 #include "fuzz/campaign.hpp"
 #include "fuzz/families/mesh_family.hpp"
+#include "fuzz/scenes/scene.hpp"
 #include "fuzz/search.hpp"
 #include "reports/shell.hpp"
 #include "reports/summary.hpp"
@@ -56,7 +57,7 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
 std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
-    known.push_back(mesh_family(read_moving_mesh(options.mesh.front(), options.mesh.back())));
+    known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
   auto chosen = options.sweeps.empty() ? find_families(options.families, known)
                                        : find_sweeps(options.sweeps, options.steps, known);
   if (!options.search) return chosen;

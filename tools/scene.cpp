@@ -1,5 +1,5 @@
 // nearmiss scene: all pairs of a mesh that moves.
-#include "fuzz/scene.hpp"
+#include "fuzz/scenes/candidates.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "corpus/query_text.hpp"
+#include "fuzz/scenes/scene.hpp"
 #include "fuzz/trial_stream.hpp"
 #include "reports/shell.hpp"
 #include "reports/summary.hpp"
@@ -41,10 +42,11 @@ std::optional<double> scene_bound(const std::string& source, const MovingMesh& m
 int run(const Options& options) {
   const auto& stop = interrupted();
   options.trial.make_subjects();  // unknown names are refused before meshes are read
-  const MovingMesh mesh = read_moving_mesh(options.start, options.end);
+  const Scene scene = scene_of_files(options.start, options.end);
+  const MovingMesh mesh = moving_mesh(scene, 0);
   const auto given = scene_bound(options.bound, mesh);
   const Subjects subjects = options.trial.make_subjects(given);
-  const std::string name = options.start.filename().string();
+  const std::string name = step_name(scene, 0);
 
   RunInfo info = options.trial.run_info(
       fmt::format("scene {} {}", shell_quoted(options.start.string()), shell_quoted(options.end.string())));

@@ -9,7 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/families/figures.hpp"
-#include "fuzz/scene.hpp"
+#include "fuzz/scenes/candidates.hpp"
 
 namespace nearmiss {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fuzz/families/families.hpp"
-#include "fuzz/mesh.hpp"
+#include "fuzz/scenes/mesh.hpp"
 
 namespace nearmiss {
 

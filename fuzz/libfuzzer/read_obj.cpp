@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fuzz/libfuzzer/reader_target.hpp"
-#include "fuzz/mesh.hpp"
+#include "fuzz/scenes/mesh.hpp"
 
 void nearmiss::libfuzzer::read(std::istream& in) {
   const Mesh mesh = parse_obj(in, "input.obj");

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "ccd/error.hpp"
-#include "fuzz/scene.hpp"
+#include "fuzz/scenes/candidates.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -35,7 +35,7 @@ MovingMesh falling_sheet() {
       }
     }
   }
-  return make_moving_mesh(start, end, triangles);
+  return make_moving_mesh({start, triangles, {}}, end);
 }
 
 using Coordinates = std::array<double, 24>;
@@ -90,8 +90,8 @@ TEST(MeshFamily, StaysFiniteWhereThePerturbationWouldNot) {
 }
 
 TEST(MeshFamily, AMeshWithoutPairsIsRefused) {
-  const MovingMesh one =
-      make_moving_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const MovingMesh one = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
+                                          {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   EXPECT_THAT([&] { mesh_family(one); }, ThrowsMessage<Error>(HasSubstr("found no vt pair in the mesh")));
 }
 

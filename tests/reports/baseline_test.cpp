@@ -87,7 +87,7 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
 
 TEST(Changes, CasesAndMeshesAreNoSamples) {
   const Key cases{"wang", Kind::edge_edge, "planar/"};
-  const Key mesh{"wang", Kind::edge_edge, "cloth.obj"};
+  const Key mesh{"wang", Kind::edge_edge, "scene:cloth"};
   const Campaign before = campaign("1", {{cases, counts(1000, 0, 0, 0)}, {mesh, counts(1000, 0, 0, 0)}});
   const Campaign now = campaign("1", {{cases, counts(1000, 0, 0, 1000)}, {mesh, counts(1000, 0, 0, 1000)}});
   EXPECT_EQ(changes(now, before).compared_rates, 0);

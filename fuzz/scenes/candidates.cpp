@@ -1,4 +1,4 @@
-#include "fuzz/scene.hpp"
+#include "fuzz/scenes/candidates.hpp"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/box_intersection_d.h>

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "ccd/query.hpp"
-#include "fuzz/mesh.hpp"
+#include "fuzz/scenes/mesh.hpp"
 
 namespace nearmiss {
 

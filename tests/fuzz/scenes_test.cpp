@@ -1,5 +1,6 @@
 // Meshes and their candidate pairs.
-#include "fuzz/scene.hpp"
+#include "fuzz/scenes/candidates.hpp"
+#include "fuzz/scenes/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,16 +24,16 @@ class MeshTest : public testing::TemporaryFolder {
  protected:
   void expect_refused(const std::string& text, const std::string& message) const {
     const auto path = write("mesh.obj", text);
-    EXPECT_THAT([&] { read_obj(path); }, ThrowsMessage<Error>(HasSubstr(path.string() + message)));
+    EXPECT_THAT([&] { read_mesh(path); }, ThrowsMessage<Error>(HasSubstr(path.string() + message)));
   }
 };
 
 constexpr const char* square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_F(MeshTest, ReadsVerticesAndFaces) {
-  const Mesh mesh = read_obj(write("a.obj",
-                                   "# a comment\r\nv 0.1 -2e-3 4\r\nv 1 0 0\r\nv 0 1 0\r\nvn 0 0 1\r\n"
-                                   "vt 0 0\r\nf 1/1/1 2//1 3\r\n"));
+  const Mesh mesh = read_mesh(write("a.obj",
+                                    "# a comment\r\nv 0.1 -2e-3 4\r\nv 1 0 0\r\nv 0 1 0\r\nvn 0 0 1\r\n"
+                                    "vt 0 0\r\nf 1/1/1 2//1 3\r\n"));
   ASSERT_EQ(mesh.points.size(), 3);
   EXPECT_EQ(mesh.points[0], Vector3<double>(0.1, -2e-3, 4));
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}));
@@ -40,25 +41,25 @@ TEST_F(MeshTest, ReadsVerticesAndFaces) {
 
 TEST_F(MeshTest, CoordinatesAreReadToTheLastBit) {
   const Mesh mesh =
-      read_obj(write("a.obj", "v 0.087606608360884852 0.1 1e-310\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+      read_mesh(write("a.obj", "v 0.087606608360884852 0.1 1e-310\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   EXPECT_EQ(mesh.points[0], Vector3<double>(0.087606608360884852, 0.1, 1e-310));
 }
 
 TEST_F(MeshTest, AnyBlanksSeparate) {
   const std::string long_word = "3/" + std::string(300, '0') + "1";
   const Mesh mesh =
-      read_obj(write("a.obj", "v\t0 0\t 0\nv 1 0 0\n v 0 1 0\nf 1\t2/1/1\t" + long_word + "\n"));
+      read_mesh(write("a.obj", "v\t0 0\t 0\nv 1 0 0\n v 0 1 0\nf 1\t2/1/1\t" + long_word + "\n"));
   EXPECT_EQ(mesh.points[2], Vector3<double>(0, 1, 0));
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}));
 }
 
 TEST_F(MeshTest, PolygonsBecomeTriangles) {
-  const Mesh mesh = read_obj(write("a.obj", std::string(square) + "f 1 2 3 4\n"));
+  const Mesh mesh = read_mesh(write("a.obj", std::string(square) + "f 1 2 3 4\n"));
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
 }
 
 TEST_F(MeshTest, NegativeNumbersCountBackwards) {
-  const Mesh mesh = read_obj(write("a.obj", std::string(square) + "f -4 -2 -1\n"));
+  const Mesh mesh = read_mesh(write("a.obj", std::string(square) + "f -4 -2 -1\n"));
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 2, 3}));
 }
 
@@ -70,11 +71,12 @@ TEST_F(MeshTest, BadInputIsNamedWithItsLine) {
   expect_refused(std::string(square) + "f 1 2 x\n", ":5: found 'x' in a face");
   expect_refused("v 0 0 0\nv 0 nan 0\nf 1 1 1\n", ":2: found 'nan', expected a finite number");
   expect_refused("v 0 0\n", ":1: found 2 coordinates of a vertex");
-  expect_refused(square, ": found no face");
-  expect_refused("", ": found no face");
+  expect_refused(std::string(square) + "l 1 5\n", ":5: found vertex 5 in a polyline, expected at most 4");
+  expect_refused(std::string(square) + "l 1\n", ":5: found a polyline of 1 vertices, expected at least 2");
+  expect_refused("", ": found no vertex");
   expect_refused(std::string(square) + "f 1 2 3\nrubbish\n",
                  ":6: found 'rubbish', expected a line of the OBJ format");
-  EXPECT_THAT([&] { read_obj(file("none.obj")); },
+  EXPECT_THAT([&] { read_mesh(file("none.obj")); },
               ThrowsMessage<Error>(HasSubstr("none.obj: cannot be read")));
 }
 
@@ -82,8 +84,7 @@ TEST_F(MeshTest, BothMeshesMustMatch) {
   const auto start = write("start.obj", std::string(square) + "f 1 2 3\n");
   const auto expect_mismatch = [&](const std::string& text, const std::string& message) {
     const auto end = write("end.obj", text);
-    EXPECT_THAT([&] { read_moving_mesh(start, end); },
-                ThrowsMessage<Error>(HasSubstr(end.string() + message)));
+    EXPECT_THAT([&] { scene_of_files(start, end); }, ThrowsMessage<Error>(HasSubstr(end.string() + message)));
   };
   expect_mismatch("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", ": found 3 vertices, expected 4");
   expect_mismatch(std::string(square) + "f 1 2 3 4\n", ": found 2 triangles, expected 1");
@@ -93,7 +94,7 @@ TEST_F(MeshTest, BothMeshesMustMatch) {
 TEST_F(MeshTest, EveryEdgeIsThereOnce) {
   const auto path = write("a.obj", std::string(square) + "f 1 2 3 4\nf 4 4 1\n");
   EXPECT_THAT(
-      read_moving_mesh(path, path).edges,
+      moving_mesh(scene_of_files(path, path), 0).edges,
       ElementsAre(std::array{0, 1}, std::array{0, 2}, std::array{0, 3}, std::array{1, 2}, std::array{2, 3}));
 }
 
@@ -110,7 +111,7 @@ MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
     const int a = random.integer(0, points - 4);
     faces.push_back({a, a + 1, a + random.integer(2, 3)});
   }
-  return make_moving_mesh(start, end, faces);
+  return make_moving_mesh({start, faces, {}}, end);
 }
 
 /// All pairs, one by one.
@@ -146,8 +147,8 @@ TEST(Scene, FindsExactlyThePairsWhoseSweptBoxesMeet) {
 }
 
 TEST(Scene, AMeshOfOneTriangleHasNoPair) {
-  const MovingMesh mesh =
-      make_moving_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const MovingMesh mesh = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
+                                           {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   find_candidates(mesh, [](const Candidate&) { FAIL(); });
 }
 

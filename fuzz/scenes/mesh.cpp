@@ -1,0 +1,76 @@
+#include "fuzz/scenes/mesh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws Error where two lists of figures differ.
+template <std::size_t n>
+void expect_same(const std::vector<std::array<int, n>>& first, const std::string& first_name,
+                 const std::vector<std::array<int, n>>& other, const std::string& other_name,
+                 std::string_view one, std::string_view many) {
+  if (first.size() != other.size())
+    throw Error(fmt::format("{}: found {} {}, expected {} as in {}", other_name, other.size(), many,
+                            first.size(), first_name));
+  const auto [a, b] = std::mismatch(first.begin(), first.end(), other.begin());
+  if (a == first.end()) return;
+  const auto counted_from_one = [](std::array<int, n> figure) {
+    for (int& vertex : figure) ++vertex;
+    return figure;
+  };
+  throw Error(fmt::format("{}: found {} {} of vertices {}, expected {} as in {}", other_name, one,
+                          b - other.begin() + 1, fmt::join(counted_from_one(*b), " "),
+                          fmt::join(counted_from_one(*a), " "), first_name));
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& file) {
+  if (file.extension() != ".obj")
+    throw Error(
+        fmt::format("{}: found the ending '{}', expected .obj", file.string(), file.extension().string()));
+  std::ifstream in(file);
+  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
+  Mesh mesh = parse_obj(in, file.string());
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", file.string()));
+  return mesh;
+}
+
+MovingMesh make_moving_mesh(Mesh mesh, std::vector<Vector3<double>> end) {
+  std::vector<std::array<int, 2>> edges;
+  edges.reserve(3 * mesh.triangles.size() + mesh.lines.size());
+  const auto add = [&](int a, int b) {
+    if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+  };
+  for (const auto& [a, b] : mesh.lines) add(a, b);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    add(a, b);
+    add(b, c);
+    add(c, a);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return {std::move(mesh.points), std::move(end), std::move(mesh.triangles), std::move(edges)};
+}
+
+void expect_same_figures(const Mesh& first, const std::string& first_name, const Mesh& other,
+                         const std::string& other_name) {
+  if (first.points.size() != other.points.size())
+    throw Error(fmt::format("{}: found {} vertices, expected {} as in {}", other_name, other.points.size(),
+                            first.points.size(), first_name));
+  expect_same(first.triangles, first_name, other.triangles, other_name, "triangle", "triangles");
+  expect_same(first.lines, first_name, other.lines, other_name, "line", "lines");
+}
+
+}  // namespace nearmiss
