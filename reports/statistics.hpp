@@ -137,7 +137,8 @@ struct Counts {
 struct Key {
   std::string subject;
   Kind kind{};
-  std::string family;  ///< of random queries; or a folder of cases, "NAME/", or a step of a scene, "scene:NAME"
+  std::string
+      family;  ///< of random queries; or a folder of cases, "NAME/", or a step of a scene, "scene:NAME"
 
   bool operator==(const Key&) const = default;
   bool operator<(const Key& other) const {
