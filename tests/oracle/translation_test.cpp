@@ -1,0 +1,108 @@
+// Rest and translation, against exact arithmetic.
+#include "oracle/translation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Small integers, so that figures often touch, are degenerate, or lie in one plane; each figure has one
+/// velocity.
+Query translating_query(std::mt19937_64& random, Kind kind, bool rest) {
+  std::uniform_int_distribution<int> coordinate(-3, 3);
+  Query query{.kind = kind};
+  std::array<Vector3<double>, 2> velocities;
+  for (auto& velocity : velocities)
+    velocity = {double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
+  if (rest) velocities[1] = velocities[0];
+  for (int i = 0; i < 4; ++i) {
+    const Vector3<double> p{double(coordinate(random)), double(coordinate(random)),
+                            double(coordinate(random))};
+    query.set_start(i, p);
+    query.set_end(i, p + velocities[i < split(kind) ? 0 : 1]);
+  }
+  return query;
+}
+
+TEST(Translation, AgreesWithExactArithmetic) {
+  std::mt19937_64 random(1);
+  int met = 0;
+  int apart = 0;
+  for (int n = 0; n < 40000; ++n) {
+    const bool rest = n % 3 == 0;
+    const Query query = translating_query(random, kinds[static_cast<std::size_t>(n % 2)], rest);
+    const RelativeMotion motion = relative_motion(query);
+    ASSERT_NE(motion, RelativeMotion::other) << n;
+    ASSERT_TRUE(!rest || motion == RelativeMotion::rest) << n;
+    const auto answer = meets_by_translation(query);
+    if (!answer) continue;
+    ++(*answer ? met : apart);
+    ASSERT_EQ(*answer, collides_exactly(query)) << n;
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(apart, 10000);
+}
+
+TEST(Translation, VelocitiesAreComparedExactly) {
+  Query query{.kind = Kind::vertex_triangle};
+  for (int i = 1; i < 4; ++i) {
+    query.set_start(i, Vector3<double>(i, i * i, 0.1));
+    query.set_end(i, Vector3<double>(i, i * i, 0.1));
+  }
+  query.set_start(0, Vector3<double>(0, 0, 1));
+  query.set_end(0, Vector3<double>(0, 0, -1));
+  EXPECT_EQ(relative_motion(query), RelativeMotion::translation);
+  // 1e-30 is lost where 1 is subtracted from 1 + its rounding, but it is there.
+  query.set_end(2, Vector3<double>(2, 4, std::nextafter(0.1, 1)));
+  EXPECT_EQ(relative_motion(query), RelativeMotion::other);
+  query.set_end(2, Vector3<double>(2, 4, 0.1));
+  query.set_start(3, Vector3<double>(3, 9, 1e-30));
+  query.set_end(3, Vector3<double>(3, 9, 2e-30));
+  EXPECT_EQ(relative_motion(query), RelativeMotion::other);
+}
+
+TEST(Translation, ARoundedDifferenceIsNotTheVelocity) {
+  // The rounded differences are 1 for both, the exact ones differ by 1e-20.
+  Query query{.kind = Kind::edge_edge};
+  query.set_start(0, Vector3<double>(1e-20, 0, 0));
+  query.set_end(0, Vector3<double>(1, 0, 0));
+  query.set_start(1, Vector3<double>(0, 1, 0));
+  query.set_end(1, Vector3<double>(1, 1, 0));
+  query.set_start(2, Vector3<double>(0, 0, 1));
+  query.set_end(2, Vector3<double>(0, 0, 1));
+  query.set_start(3, Vector3<double>(0, 0, 2));
+  query.set_end(3, Vector3<double>(0, 0, 2));
+  EXPECT_EQ(1 - 1e-20, 1.0);
+  EXPECT_EQ(relative_motion(query), RelativeMotion::other);
+}
+
+TEST(Translation, WhatOverflowsOrIsNoDoubleIsLeftToOthers) {
+  Query query{.kind = Kind::edge_edge};
+  const double huge = std::numeric_limits<double>::max();
+  for (int i = 0; i < 4; ++i) {
+    query.set_start(i, Vector3<double>(huge, i, i * i));
+    query.set_end(i, Vector3<double>(-huge, i, i * i));
+  }
+  EXPECT_EQ(relative_motion(query), RelativeMotion::other);
+
+  Query inexact{.kind = Kind::vertex_triangle};
+  inexact.set_start(0, Vector3<double>(0.25, 0.25, 1));
+  inexact.set_end(0, Vector3<double>(0.25, 0.25, 1e-20));
+  const std::array<Vector3<double>, 3> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  for (int i = 1; i < 4; ++i) {
+    inexact.set_start(i, corners[static_cast<std::size_t>(i - 1)]);
+    inexact.set_end(i, corners[static_cast<std::size_t>(i - 1)] + Vector3<double>(0, 0, 1));
+  }
+  EXPECT_EQ(relative_motion(inexact), RelativeMotion::translation);
+  EXPECT_FALSE(meets_by_translation(inexact).has_value());  // 1e-20 - 1 is no double
+}
+
+}  // namespace
+}  // namespace nearmiss
