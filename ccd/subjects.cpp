@@ -1,5 +1,6 @@
 // The built-in subjects.
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 
@@ -135,9 +136,26 @@ void Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> ve
   }
 }
 
+namespace {
+
+/// The B of a name "NAME@B"; nothing where there is none.
+std::optional<double> bound_in(std::string_view name) {
+  const auto at = name.rfind('@');
+  if (at == std::string_view::npos) return std::nullopt;
+  double bound = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + at + 1, end, bound);
+  if (error != std::errc() || rest != end || !(bound > 0) || !std::isfinite(bound)) return std::nullopt;
+  return bound;
+}
+
+}  // namespace
+
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  const auto bound = bound_in(name_or_path);
+  const std::string_view name = bound ? name_or_path.substr(0, name_or_path.rfind('@')) : name_or_path;
   for (const Entry& each : registry)
-    if (each.info.name == name_or_path) return each.make(name_or_path, given_bound);
+    if (each.info.name == name) return each.make(name_or_path, bound ? bound : given_bound);
   if (is_plugin_path(name_or_path)) return std::make_unique<Plugin>(std::string(name_or_path));
   return nullptr;
 }

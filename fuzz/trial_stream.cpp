@@ -20,7 +20,7 @@ TrialStream::TrialStream(const Subjects& subjects, const Comparison& comparison,
       sieve_(subjects, jobs, stop) {}
 
 bool TrialStream::add(const std::string& family, const Query& query, std::optional<bool> truth,
-                      std::string provenance) {
+                      std::function<std::string()> provenance) {
   Pending& pending = pending_[{family, query.kind}];
   pending.batch.kind = query.kind;
   pending.batch.family = family;
@@ -46,7 +46,7 @@ void TrialStream::hold_trials() {
   std::vector<TrialResult> results(full_.size());
   in_parallel(jobs_, full_.size(), [&](std::size_t i) {
     Pending& pending = full_[i];
-    pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n]; };
+    pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n](); };
     if (!stop_) results[i] = hold_trial(subjects_, pending.batch, comparison_);
   });
   TrialResult sum;

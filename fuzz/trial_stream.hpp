@@ -24,8 +24,10 @@ class TrialStream {
   TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs, const std::atomic<bool>& stop,
               Sink sink);
 
-  /// Takes a query; false once `stop` is set. Throws Error as hold_trial does.
-  bool add(const std::string& family, const Query& query, std::optional<bool> truth, std::string provenance);
+  /// Takes a query; false once `stop` is set. `provenance` is called, until finish(), only for what is kept.
+  /// Throws Error as hold_trial does.
+  bool add(const std::string& family, const Query& query, std::optional<bool> truth,
+           std::function<std::string()> provenance);
 
   /// Decides what is still held. Queries that came before `stop` was set but are not decided yet are left
   /// out.
@@ -34,7 +36,7 @@ class TrialStream {
  private:
   struct Pending {
     Batch batch;
-    std::vector<std::string> provenances;
+    std::vector<std::function<std::string()>> provenances;
   };
 
   void hold_trials();

@@ -9,6 +9,7 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/confidence.hpp"
+#include "reports/funnel.hpp"
 #include "reports/sweep.hpp"
 
 namespace nearmiss {
@@ -162,6 +163,7 @@ ordered_json summary_json(const Campaign& campaign) {
   for (const auto& [key, counts] : campaign.statistics.counts)
     json["subjects"][key.subject][std::string(short_name(key.kind))]["families"][key.family] =
         counts_json(counts);
+  if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
   if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
   return json;
 }

@@ -175,6 +175,7 @@ void Statistics::merge(const Statistics& other) {
   for (const auto& [key, each] : other.counts) counts[key].merge(each);
   for (const auto& [name, each] : other.extremes)
     if (const auto [own, fresh] = extremes.try_emplace(name, each); !fresh) own->second.merge(each);
+  for (const auto& [key, each] : other.funnels) funnels[key].merge(each);
   for (const auto& [signature, count] : other.seen) seen[signature] += count;
   oracle_disagreements += other.oracle_disagreements;
   mismatches_with_recorded_truth += other.mismatches_with_recorded_truth;

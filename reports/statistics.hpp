@@ -15,6 +15,7 @@
 #include "ccd/subject.hpp"
 #include "oracle/filter.hpp"
 #include "reports/extreme.hpp"
+#include "reports/funnel.hpp"
 
 namespace nearmiss {
 
@@ -204,6 +205,7 @@ inline Signature signature_of(const Finding& finding) {
 struct Statistics {
   std::map<Key, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
+  std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
   std::map<Signature, std::uint64_t> seen;                      ///< how often a query failed in each way
   std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
   std::uint64_t oracle_disagreements = 0;                       ///< between the oracle's own answers

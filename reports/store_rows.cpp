@@ -37,6 +37,10 @@ constexpr const char* schema = R"sql(
   CREATE TABLE extreme (
     name TEXT PRIMARY KEY, of TEXT NOT NULL, value TEXT NOT NULL, kind TEXT NOT NULL, query TEXT NOT NULL,
     provenance TEXT NOT NULL, queries INTEGER NOT NULL) STRICT;
+  CREATE TABLE funnel (
+    step TEXT NOT NULL, kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), pairs TEXT NOT NULL,
+    touching INTEGER NOT NULL, finding_ns INTEGER NOT NULL, deciding_ns INTEGER NOT NULL,
+    PRIMARY KEY (step, kind)) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
   CREATE TABLE seen (
     what TEXT NOT NULL, subject TEXT NOT NULL, signature TEXT NOT NULL, times INTEGER NOT NULL,
@@ -134,6 +138,17 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     extreme.bind(7, stored(each.queries));
     extreme.exec();
     extreme.reset();
+  }
+  SQLite::Statement funnel(db, "INSERT OR REPLACE INTO funnel VALUES (?,?,?,?,?,?)");
+  for (const auto& [key, each] : statistics.funnels) {
+    funnel.bind(1, key.first);
+    funnel.bind(2, std::string(short_name(key.second)));
+    funnel.bind(3, json(each.pairs).dump());
+    funnel.bind(4, stored(each.touching));
+    funnel.bind(5, stored(each.finding_ns));
+    funnel.bind(6, stored(each.deciding_ns));
+    funnel.exec();
+    funnel.reset();
   }
   SQLite::Statement seen(db, "INSERT OR REPLACE INTO seen VALUES (?,?,?,?)");
   for (const auto& [signature, times] : statistics.seen) {
@@ -287,6 +302,19 @@ void read_extremes(SQLite::Database& db, const std::string& where, Statistics& s
   }
 }
 
+void read_funnels(SQLite::Database& db, const std::string& where, Statistics& statistics) {
+  SQLite::Statement funnels(db, "SELECT * FROM funnel");
+  while (funnels.executeStep()) {
+    Funnel& funnel =
+        statistics
+            .funnels[{funnels.getColumn(0).getString(), parse_kind(funnels.getColumn(1).getString(), where)}];
+    json::parse(funnels.getColumn(2).getString()).get_to(funnel.pairs);
+    funnel.touching = count(funnels.getColumn(3));
+    funnel.finding_ns = count(funnels.getColumn(4));
+    funnel.deciding_ns = count(funnels.getColumn(5));
+  }
+}
+
 void read_seen(SQLite::Database& db, const std::string& where, Statistics& statistics) {
   SQLite::Statement seen(db, "SELECT * FROM seen");
   while (seen.executeStep())
@@ -321,6 +349,7 @@ Campaign read_campaign(SQLite::Database& db, const std::string& where) {
   read_counts(db, where, campaign.statistics);
   read_oracle(db, where, campaign.statistics);
   read_extremes(db, where, campaign.statistics);
+  read_funnels(db, where, campaign.statistics);
   read_seen(db, where, campaign.statistics);
   read_findings(db, where, index, campaign);
   return campaign;

@@ -109,7 +109,7 @@ std::string oracle_complaint(const Statistics& statistics) {
 
 std::string summary_table(const Statistics& statistics) {
   std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
-  if (!extremes.empty() && statistics.counts.empty()) return extremes;
+  if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
   std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
                                               "rate below*", "false pos.", "max dist/bound", "ns/query"}};
   for (const auto& [key, counts] : statistics.by_subject_and_kind()) {

@@ -53,7 +53,7 @@ int run(const Options& options) {
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
         if (stop) return;
-        stream.add(family_of(each.name), each.query, each.truth, each.name);
+        stream.add(family_of(each.name), each.query, each.truth, [name = each.name] { return name; });
         ++count;
         if (progress.due())
           progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),

@@ -4,6 +4,9 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,28 +35,142 @@ std::vector<Box> swept_boxes(const MovingMesh& mesh, const Primitives& primitive
 
 }  // namespace
 
-void find_candidates(const MovingMesh& mesh, const std::function<void(const Candidate&)>& sink) {
-  const auto vertex = [](std::size_t i) { return std::array{static_cast<int>(i)}; };
-  const auto triangle = [&](std::size_t i) { return mesh.triangles[i]; };
-  const auto edge = [&](std::size_t i) { return mesh.edges[i]; };
-  {
-    auto vertices = swept_boxes(mesh, mesh.start, vertex);
-    auto triangles = swept_boxes(mesh, mesh.triangles, triangle);
-    CGAL::box_intersection_d(vertices.begin(), vertices.end(), triangles.begin(), triangles.end(),
-                             [&](const Box& a, const Box& b) {
-                               const int v = static_cast<int>(a.info());
-                               const auto& t = mesh.triangles[b.info()];
-                               if (std::find(t.begin(), t.end(), v) != t.end()) return;
-                               sink({Kind::vertex_triangle, {v, t[0], t[1], t[2]}});
-                             });
+namespace {
+
+/// The pair of vertex v and triangle t, or of edges i and j; nothing where they have a vertex in common.
+std::optional<Candidate> vertex_triangle(const MovingMesh& mesh, std::size_t v, std::size_t t) {
+  const auto vertex = static_cast<int>(v);
+  const auto& corners = mesh.triangles[t];
+  if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return std::nullopt;
+  return Candidate{Kind::vertex_triangle, {vertex, corners[0], corners[1], corners[2]}};
+}
+
+std::optional<Candidate> edge_edge(const MovingMesh& mesh, std::size_t i, std::size_t j) {
+  const auto& e = mesh.edges[std::min(i, j)];
+  const auto& f = mesh.edges[std::max(i, j)];
+  if (std::find_first_of(e.begin(), e.end(), f.begin(), f.end()) != e.end()) return std::nullopt;
+  return Candidate{Kind::edge_edge, {e[0], e[1], f[0], f[1]}};
+}
+
+/// The end of an enumeration that has no other way to be left.
+struct Stopped {};
+
+/// Passes pairs on and counts those with a common vertex.
+class Passer {
+ public:
+  Passer(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const std::function<bool()>& stop)
+      : mesh_(mesh), kind_(kind), sink_(sink), stop_(stop) {}
+
+  void pass(std::size_t i, std::size_t j) {
+    constexpr std::uint64_t now_and_then = 1 << 16;
+    if (++passed_ % now_and_then == 0 && stop_()) throw Stopped();
+    const auto candidate =
+        kind_ == Kind::vertex_triangle ? vertex_triangle(mesh_, i, j) : edge_edge(mesh_, i, j);
+    if (candidate)
+      sink_(*candidate);
+    else
+      ++sharing_;
   }
-  auto edges = swept_boxes(mesh, mesh.edges, edge);
-  CGAL::box_self_intersection_d(edges.begin(), edges.end(), [&](const Box& a, const Box& b) {
-    const auto& e = mesh.edges[std::min(a.info(), b.info())];
-    const auto& f = mesh.edges[std::max(a.info(), b.info())];
-    if (std::find_first_of(e.begin(), e.end(), f.begin(), f.end()) != e.end()) return;
-    sink({Kind::edge_edge, {e[0], e[1], f[0], f[1]}});
-  });
+  [[nodiscard]] std::uint64_t sharing() const { return sharing_; }
+
+ private:
+  const MovingMesh& mesh_;
+  Kind kind_;
+  const CandidateSink& sink_;
+  const std::function<bool()>& stop_;
+  std::uint64_t passed_ = 0;
+  std::uint64_t sharing_ = 0;
+};
+
+/// The boxes of the two sides of a kind; of edges one side.
+std::pair<std::vector<Box>, std::vector<Box>> boxes_of(const MovingMesh& mesh, Kind kind) {
+  if (kind == Kind::edge_edge)
+    return {swept_boxes(mesh, mesh.edges, [&](std::size_t i) { return mesh.edges[i]; }), {}};
+  return {swept_boxes(mesh, mesh.start, [](std::size_t i) { return std::array{static_cast<int>(i)}; }),
+          swept_boxes(mesh, mesh.triangles, [&](std::size_t i) { return mesh.triangles[i]; })};
+}
+
+}  // namespace
+
+std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
+                              const std::function<bool()>& stop) {
+  Passer passer(mesh, kind, sink, stop);
+  auto [first, second] = boxes_of(mesh, kind);
+  const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };
+  try {
+    if (kind == Kind::vertex_triangle)
+      CGAL::box_intersection_d(first.begin(), first.end(), second.begin(), second.end(), pass);
+    else
+      CGAL::box_self_intersection_d(first.begin(), first.end(), pass);
+  } catch (const Stopped&) {
+  }
+  return passer.sharing();
+}
+
+void find_candidates(const MovingMesh& mesh, const CandidateSink& sink) {
+  for (const Kind kind : kinds) find_candidates(mesh, kind, sink, [] { return false; });
+}
+
+std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
+                                       const std::function<bool()>& stop) {
+  struct Swept {
+    std::array<double, 3> lo, hi;
+    std::size_t info;
+    bool second;
+  };
+  std::vector<Swept> all;
+  const auto add = [&](std::span<const int> vertices, std::size_t info, bool second) {
+    Swept box{.lo = {}, .hi = {}, .info = info, .second = second};
+    box.lo.fill(std::numeric_limits<double>::infinity());
+    box.hi.fill(-std::numeric_limits<double>::infinity());
+    for (const int vertex : vertices)
+      for (const auto* points : {&mesh.start, &mesh.end})
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double c = (*points)[static_cast<std::size_t>(vertex)][static_cast<int>(k)];
+          box.lo[k] = std::min(box.lo[k], c);
+          box.hi[k] = std::max(box.hi[k], c);
+        }
+    all.push_back(box);
+  };
+  const bool one_side = kind == Kind::edge_edge;
+  if (one_side)
+    for (std::size_t i = 0; i < mesh.edges.size(); ++i) add(mesh.edges[i], i, false);
+  else
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) add(mesh.triangles[i], i, true);
+  for (int v = 0; !one_side && v < static_cast<int>(mesh.start.size()); ++v)
+    add(std::array{v}, static_cast<std::size_t>(v), false);
+
+  std::sort(all.begin(), all.end(), [](const Swept& a, const Swept& b) { return a.lo[0] < b.lo[0]; });
+  Passer passer(mesh, kind, sink, stop);
+  try {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = i + 1; j < all.size() && all[j].lo[0] <= all[i].hi[0]; ++j) {
+        const Swept& a = all[i];
+        const Swept& b = all[j];
+        if (!one_side && a.second == b.second) continue;
+        if (a.lo[1] > b.hi[1] || b.lo[1] > a.hi[1] || a.lo[2] > b.hi[2] || b.lo[2] > a.hi[2]) continue;
+        if (a.second)
+          passer.pass(b.info, a.info);
+        else
+          passer.pass(a.info, b.info);
+      }
+  } catch (const Stopped&) {
+  }
+  return passer.sharing();
+}
+
+std::size_t pair_rows(const MovingMesh& mesh, Kind kind) {
+  return kind == Kind::edge_edge ? mesh.edges.size() : mesh.start.size();
+}
+
+std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row,
+                               const CandidateSink& sink) {
+  const std::function<bool()> never = [] { return false; };
+  Passer passer(mesh, kind, sink, never);
+  const bool of_edges = kind == Kind::edge_edge;
+  const std::size_t end = of_edges ? mesh.edges.size() : mesh.triangles.size();
+  for (std::size_t i = of_edges ? row + 1 : 0; i < end; ++i) passer.pass(row, i);
+  return passer.sharing();
 }
 
 Query make_query(const MovingMesh& mesh, const Candidate& candidate) {

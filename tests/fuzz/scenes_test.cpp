@@ -146,6 +146,23 @@ TEST(Scene, FindsExactlyThePairsWhoseSweptBoxesMeet) {
   }
 }
 
+TEST(Scene, TheSweepFindsTheSamePairs) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const MovingMesh mesh = random_mesh(seed, 60, 80);
+    for (const Kind kind : kinds) {
+      std::multiset<Candidate> by_boxes;
+      std::multiset<Candidate> by_sweep;
+      const auto never = [] { return false; };
+      const auto sharing = find_candidates(
+          mesh, kind, [&](const Candidate& each) { by_boxes.insert(each); }, never);
+      EXPECT_EQ(find_candidates_by_sweep(
+                    mesh, kind, [&](const Candidate& each) { by_sweep.insert(each); }, never),
+                sharing);
+      EXPECT_TRUE(by_boxes == by_sweep) << "seed " << seed;
+    }
+  }
+}
+
 TEST(Scene, AMeshOfOneTriangleHasNoPair) {
   const MovingMesh mesh = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
                                            {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});

@@ -173,7 +173,8 @@ TEST(TrialStream, DecidesEverythingInOrder) {
   TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   constexpr int count = 12345;
   for (int i = 0; i < count; ++i)
-    stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt, std::to_string(i));
+    stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt,
+               [i] { return std::to_string(i); });
   stream.finish();
   EXPECT_EQ(counts_of(sum).queries, count);
   const Signature missed{Finding::What::false_negative, "never", "vt simple-root inside in-face"};
@@ -187,7 +188,7 @@ TEST(TrialStream, DecidesNothingOnceItIsToStop) {
   const std::atomic<bool> stop{true};
   TrialResult sum;
   TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
-  EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, ""));
+  EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, [] { return ""; }));
   stream.finish();
   EXPECT_TRUE(sum.statistics.counts.empty());
 }

@@ -43,6 +43,7 @@ Statistics some_statistics(const std::string& subject) {
   oracle.missed_by_parity = 1;
   statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
   statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
+  statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
   statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
   statistics.oracle_disagreements = 3;
   statistics.mismatches_with_recorded_truth = 4;
@@ -194,10 +195,10 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("old.db"));
   sqlite3* db = nullptr;
   sqlite3_open(file("old.db").c_str(), &db);
-  sqlite3_exec(db, "PRAGMA user_version = 6", nullptr, nullptr, nullptr);
+  sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 6, expected 7")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 8")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

@@ -153,7 +153,7 @@ const std::string fallen_triangle =
 TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
   write("start.obj", falling_triangle);
   write("end.obj", fallen_triangle);
-  const std::string mesh = "--mesh start.obj end.obj --json new.json ";
+  const std::string mesh = "--mesh start.obj end.obj --json scene.json ";
   EXPECT_EQ(run("fuzz --cases 400 --family mesh " + mesh).code, 0);
   EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["ee"]["families"]["mesh"]["queries"], 200);
   EXPECT_EQ(run("fuzz --cases 400 --sweep mesh --steps 2 " + mesh).code, 0);
@@ -165,11 +165,27 @@ TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
 TEST_F(CommandLine, SceneComparesAllPairs) {
   write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 1 1\nf 1 2 3\nf 4 5 6\n");
   write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 1 -1\nf 1 2 3\nf 4 5 6\n");
-  for (const char* bound : {"pair", "scene", "100"}) {
-    const Answer answer = run(std::string("scene start.obj end.obj --json new.json --bound ") + bound);
-    EXPECT_EQ(answer.code, 0) << answer.error;
-    EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["vt"]["collisions"], 3) << bound;
-  }
+  const std::string scene = "scene start.obj end.obj --json scene.json ";
+  const Answer answer = run(scene + "--leave-out boxes --bound pair,scene,100 --export pairs");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  const json subjects = read_json("scene.json")["subjects"];
+  EXPECT_EQ(subjects.size(), 4);  // basic knows no bound
+  for (const char* name : {"basic", "wang", "wang@100"})
+    EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
+  EXPECT_TRUE(std::filesystem::exists(file("pairs.vt")));
+  expect_refused("scene start.obj end.obj --export pairs", {"pairs.vt: exists already"});
+  // The exported pairs give the same counts.
+  EXPECT_EQ(run("replay pairs.vt pairs.ee --subject wang --json replay.json").code, 0);
+  for (const char* kind : {"vt", "ee"})
+    for (const char* count : {"queries", "collisions", "positives", "false_positives"})
+      EXPECT_EQ(read_json("replay.json")["subjects"]["wang"][kind][count], subjects["wang"][kind][count]);
+  // Both triangles only translate, so that the plan needs no subject.
+  const Answer planned = run(scene + "--verify-plan");
+  EXPECT_EQ(planned.code, 0) << planned.error;
+  EXPECT_THAT(planned.out, HasSubstr("plan verified: "));
+  const json funnel = read_json("scene.json")["scenes"]["scene:start"]["vt"];
+  EXPECT_EQ(funnel["asked"], 0);
+  EXPECT_EQ(funnel["touching"], 3);
 }
 
 TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
