@@ -153,7 +153,7 @@ const std::string fallen_triangle =
 TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
   write("start.obj", falling_triangle);
   write("end.obj", fallen_triangle);
-  const std::string mesh = "--mesh start.obj end.obj --json scene.json ";
+  const std::string mesh = "--mesh start.obj end.obj --json new.json ";
   EXPECT_EQ(run("fuzz --cases 400 --family mesh " + mesh).code, 0);
   EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["ee"]["families"]["mesh"]["queries"], 200);
   EXPECT_EQ(run("fuzz --cases 400 --sweep mesh --steps 2 " + mesh).code, 0);
