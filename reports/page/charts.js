@@ -85,11 +85,16 @@ function drawErrorTime() {
   });
 }
 
-const isStepOfSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+/** Rates of random families, but of no sweep; cases and scenes are no samples. */
+function rateRows() {
+  const isShownElsewhere = (family) => family.endsWith("/") || family.startsWith("scene:") ||
+    Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+  return countRows(true).filter((row) => row.false_positives > 0 && !isShownElsewhere(row.family))
+    .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1] }));
+}
 
 function drawRates() {
-  const rows = countRows(true).filter((row) => row.false_positives > 0 && !isStepOfSweep(row.family))
-    .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1] }));
+  const rows = rateRows();
   const families = [...new Set(rows.map((row) => row.family))].sort();
   const lowest = 10 ** Math.floor(Math.log10(Math.min(...rows.map((row) => row.lo))));
   const y = { field: "family", type: "nominal", title: null, scale: { domain: families } };

@@ -103,6 +103,20 @@ function drawCounts() {
   fillTable(element("counts"), columns, rows, true);
 }
 
+function drawScenes() {
+  const rows = Object.entries(report.scenes ?? {}).flatMap(([step, ofKind]) =>
+    Object.entries(ofKind).map(([kind, funnel]) => ({ step: step.replace(/^scene:/, ""), kind, ...funnel, ...funnel.times })));
+  if (rows.length === 0) return;
+  show("scenes-section");
+  const share = (title, field) => ({ title, number: (r) => r[field], text: (r) => `${integer(r[field])} (${percent(r.all ? r[field] / r.all : 0)})` });
+  fillTable(element("scenes"), [
+    text("step", "step"), text("kind", "kind"), count("all pairs", "all"), share("boxes apart", "boxes_apart"),
+    share("share a vertex", "share_vertex"), share("at rest", "at_rest"), share("in translation", "in_translation"),
+    share("asked", "asked"), count("not asked, but collide", "touching"),
+    { title: "found in", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
+  ], rows, true);
+}
+
 function drawSlowest() {
   const rows = countRows(false).flatMap((r) => (r.times.slowest ?? []).slice(0, 2).map((slow) => ({ subject: r.subject, kind: r.kind, ...slow })));
   if (rows.length === 0) return;
@@ -232,6 +246,7 @@ drawHead();
 drawBaseline();
 drawCounts();
 element("by-family").addEventListener("change", drawCounts);
+drawScenes();
 drawSlowest();
 drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
@@ -242,7 +257,7 @@ drawFarthest();
 drawHow();
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
-  ["rates-section", drawRates, countRows(false).some((row) => row.false_positives > 0)],
+  ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
   ["stages-section", drawStages, countRows(false).some((row) => row.false_positives > 0 || row.collisions > row.false_negatives)],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],

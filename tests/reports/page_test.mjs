@@ -1,7 +1,7 @@
 // Opens reports in Chromium as a user does and looks at what is drawn. Usage: page_test.mjs NEARMISS
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -176,6 +176,18 @@ async function showsTheBaseline(browser) {
   await page.close();
 }
 
+async function showsScenes(browser) {
+  const obj = (z) => `v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 ${z}\nv 1 0.5 ${-z}\nv 0.5 1 ${z}\nf 1 2 3\nf 4 5 6\n`;
+  writeFileSync(join(folder, "start.obj"), obj(1));
+  writeFileSync(join(folder, "end.obj"), obj(-1));
+  run("scene", "start.obj", "end.obj", "--db", "scene.db");
+  run("report", "scene.db", "-o", "scene");
+  const page = await open(browser, pathToFileURL(join(folder, "scene", "index.html")).href);
+  assert.equal(await count(page, "#scenes tbody tr"), 2);
+  assert.match(await page.locator("#scenes tbody tr").first().textContent(), /^startvt12/);
+  await page.close();
+}
+
 async function showsThePowerOfDetection(browser) {
   run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
@@ -208,6 +220,7 @@ try {
   await showsTheBaseline(browser);
   await showsSweeps(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
+  await showsScenes(browser);
   await showsThePowerOfDetection(browser);
   await fitsEveryMedium(browser);
 } finally {
