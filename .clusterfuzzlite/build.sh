@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds the libFuzzer targets as OSS-Fuzz and ClusterFuzzLite have it: from the current folder, with the compilers and
+# flags of the environment, into $OUT, with what goes beside each. Arguments name targets; without one it is all.
+set -euo pipefail
+
+# Ubuntu's libraries are built with libstdc++, which a program must share. What a newer clang warns of is no error here.
+CXXFLAGS="${CXXFLAGS//-stdlib=libc++/} -w"
+
+build=$WORK/build
+cmake -G Ninja -B "$build" -DNEARMISS_LIBFUZZER=ON -DNEARMISS_FUZZING_ENGINE="$LIB_FUZZING_ENGINE" \
+  -DCMAKE_C_FLAGS="$CFLAGS" -DCMAKE_CXX_FLAGS="$CXXFLAGS" -DCMAKE_BUILD_RPATH='$ORIGIN/lib'
+cmake --build "$build" --target fuzz_seeds
+rm -rf "$WORK/seeds"
+"$build/fuzz_seeds" "$WORK/seeds" corpus/cases
+(($#)) || set -- $(ls "$WORK/seeds")
+cmake --build "$build" --target "${@/#/fuzz_}"
+
+mkdir -p "$OUT/lib"
+for target in "$@"; do
+  name=fuzz_$target
+  cp "$build/$name" "$OUT/"
+  (cd "$WORK/seeds/$target" && cmake -E tar cf "$OUT/${name}_seed_corpus.zip" --format=zip .)
+  kind=query
+  if [[ $target == read_* ]]; then
+    kind=reader
+    cp "fuzz/libfuzzer/$target.dict" "$OUT/$name.dict"
+  fi
+  cp "fuzz/libfuzzer/${kind}_target.options" "$OUT/$name.options"
+  # Where the target runs no library is certain to be there but those of glibc.
+  ldd "$build/$name" | awk '$2 == "=>" && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
+    xargs cp -Lt "$OUT/lib"
+done

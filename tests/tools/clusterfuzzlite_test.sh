@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# What .clusterfuzzlite/build.sh makes, run as OSS-Fuzz runs it but for the container, runs where nothing of ours is.
+# Arguments name the targets; one of each kind where there is none. The build folder is kept: the first time takes
+# minutes.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+(($#)) || set -- read_csv false_negative
+
+fail() { echo "$1" >&2; exit 1; }
+command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
+
+# As the Dockerfile and base-builder set them, with libFuzzer and the address sanitizer. One process at a time: other
+# tests run beside this one.
+root=$PWD/build/clusterfuzzlite
+flags="-O1 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
+flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"
+export SRC=$root/src WORK=$root/work OUT=$root/out
+export CC=clang CXX=clang++ CFLAGS=$flags CXXFLAGS="$flags -stdlib=libc++" LIB_FUZZING_ENGINE=-fsanitize=fuzzer
+export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-1}
+rm -rf "$SRC" "$OUT"
+mkdir -p "$SRC" "$WORK" "$OUT"
+cp .clusterfuzzlite/build.sh "$SRC/"
+bash -eux "$SRC/build.sh" "$@"
+
+# Somewhere else, with another folder as the current one and no environment.
+away=$(mktemp -d)
+trap 'rm -rf "$away"' EXIT
+mv "$OUT" "$away/out"
+mkdir "$away/run"
+cd "$away/run"
+
+for target in "$@"; do
+  exe=$away/out/fuzz_$target
+  strangers=$(env -i /usr/bin/ldd "$exe" | awk -v lib="$away/out/lib/" \
+    '$2 == "=>" && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ && index($3, lib) != 1 {print $1}')
+  [[ -z $strangers ]] || fail "fuzz_$target does not find these in lib: $strangers"
+
+  mkdir seeds
+  (cd seeds && cmake -E tar xf "${exe}_seed_corpus.zip")
+  seeds=$(find seeds -type f | wc -l)
+  ((seeds > 100)) || fail "fuzz_$target has $seeds seeds"
+
+  # The arguments are base-runner's: its own, then those of NAME.options, and NAME.dict where there is one.
+  arguments=(-rss_limit_mb=2560 -timeout=25 $(sed -n 's/^[a-z_]*=/-&/p' "$exe.options"))
+  [[ ! -e $exe.dict ]] || arguments+=(-dict="$exe.dict")
+  try() {
+    env -i "$exe" "${arguments[@]}" "$@" &>log || { cat log; fail "fuzz_$target fails"; }
+  }
+  try -runs=4
+  grep -q "^Done 4 runs" log || fail "fuzz_$target does not run without seeds"
+  try -runs=$((seeds + 100)) seeds
+  grep -q "seed corpus: files: $seeds " log || { cat log; fail "fuzz_$target does not read its seeds"; }
+  if [[ $target == read_* ]]; then
+    grep -q "^Dictionary: [1-9]" log || fail "fuzz_$target has no dictionary"
+  fi
+  echo "fuzz_$target: $seeds seeds, $(grep '^Done' log)"
+  rm -r seeds
+done
