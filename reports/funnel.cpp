@@ -4,7 +4,6 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <vector>
 
 #include "corpus/query_text.hpp"
@@ -28,15 +27,6 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
 }
 
 }  // namespace
-
-std::uint64_t Funnel::all() const { return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0}); }
-
-void Funnel::merge(const Funnel& other) {
-  for (std::size_t i = 0; i < pair_fate_count; ++i) pairs[i] += other.pairs[i];
-  touching += other.touching;
-  finding_ns += other.finding_ns;
-  deciding_ns += other.deciding_ns;
-}
 
 std::string funnel_tables(const Statistics& statistics) {
   struct Sum {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <numeric>
 #include <string>
 #include <string_view>
 
@@ -35,10 +36,17 @@ struct Funnel {
   std::uint64_t finding_ns = 0;                        ///< time to find the pairs whose boxes meet
   std::uint64_t deciding_ns = 0;  ///< time to tell fates, and to decide those at rest or in translation
 
-  [[nodiscard]] std::uint64_t all() const;
+  [[nodiscard]] std::uint64_t all() const {
+    return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0});
+  }
   std::uint64_t& operator[](PairFate fate) { return pairs[static_cast<std::size_t>(fate)]; }
   std::uint64_t operator[](PairFate fate) const { return pairs[static_cast<std::size_t>(fate)]; }
-  void merge(const Funnel& other);
+  void merge(const Funnel& other) {
+    for (std::size_t i = 0; i < pair_fate_count; ++i) pairs[i] += other.pairs[i];
+    touching += other.touching;
+    finding_ns += other.finding_ns;
+    deciding_ns += other.deciding_ns;
+  }
 
   bool operator==(const Funnel&) const = default;
 };

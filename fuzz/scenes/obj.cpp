@@ -105,7 +105,7 @@ Mesh parse_obj(std::istream& in, const std::string& name) {
     if (largest > vertices)  // a figure may come before its vertices
       throw Error(fmt::format("{}:{}: found vertex {} in a {}, expected at most {}, the number of vertices",
                               name, line, largest, is_face ? "face" : "polyline", vertices));
-    const auto vertex = [&](std::size_t i) { return static_cast<int>(figure[i] - 1); };
+    const auto vertex = [&of = figure](std::size_t i) { return static_cast<int>(of[i] - 1); };
     for (std::size_t i = 1; !is_face && i < figure.size(); ++i)
       mesh.lines.push_back({vertex(i - 1), vertex(i)});
     for (std::size_t i = 2; is_face && i < figure.size(); ++i)
