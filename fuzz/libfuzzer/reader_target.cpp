@@ -1,5 +1,6 @@
 #include "fuzz/libfuzzer/reader_target.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -35,6 +36,15 @@ void expect_round_trip(const Case& each) {
   expect(again.why == each.why, "the same reason");
   expect(again.provenance == each.provenance, "the same provenance");
   expect(same_bits(parse_line(each.query.kind, to_line(each.query), "again"), each.query), "the same line");
+}
+
+void expect_sound(const Mesh& mesh) {
+  const int points = static_cast<int>(mesh.points.size());
+  const auto exists = [&](int i) { return 0 <= i && i < points; };
+  expect(points > 0, "a point");
+  for (const auto& p : mesh.points) expect(p.allFinite(), "finite coordinates");
+  for (const auto& t : mesh.triangles) expect(std::all_of(t.begin(), t.end(), exists), "vertices that exist");
+  for (const auto& l : mesh.lines) expect(std::all_of(l.begin(), l.end(), exists), "vertices that exist");
 }
 
 }  // namespace nearmiss::libfuzzer

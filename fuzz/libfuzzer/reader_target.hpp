@@ -5,6 +5,7 @@
 #include <iosfwd>
 
 #include "corpus/case.hpp"
+#include "fuzz/scenes/mesh.hpp"
 
 namespace nearmiss::libfuzzer {
 
@@ -16,5 +17,8 @@ void expect(bool condition, const char* what);
 
 /// A case as text must be read as the same case, to the last bit.
 void expect_round_trip(const Case& each);
+
+/// A mesh must have a point, finite coordinates, and figures of points that exist.
+void expect_sound(const Mesh& mesh);
 
 }  // namespace nearmiss::libfuzzer

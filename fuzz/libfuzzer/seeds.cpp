@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ccd/error.hpp"
@@ -64,6 +66,58 @@ std::string obj(const Query& query) {
   return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";
 }
 
+/// Two triangles, in the encoding that `numbers` writes.
+std::string ply(const std::string& encoding, const std::string& numbers) {
+  return "ply\nformat " + encoding +
+         " 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nelement face 2\n"
+         "property list uchar int vertex_indices\nend_header\n" +
+         numbers;
+}
+
+template <class Number>
+void append(std::string& bytes, Number value, bool little_endian = true) {
+  std::array<char, sizeof value> raw{};
+  std::memcpy(raw.data(), &value, sizeof value);
+  if (!little_endian) std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.begin(), raw.end());
+}
+
+std::string binary_ply(const Query& query, bool little_endian) {
+  std::string numbers;
+  for (const double c : query.x) append(numbers, c, little_endian);
+  for (const std::int32_t first : {0, 4}) {
+    append(numbers, std::uint8_t{3});
+    for (std::int32_t i = 0; i < 3; ++i) append(numbers, first + i, little_endian);
+  }
+  return ply(little_endian ? "binary_little_endian" : "binary_big_endian", numbers);
+}
+
+std::string binary_stl(const Query& query) {
+  std::string bytes(80, ' ');
+  append(bytes, std::uint32_t{1});
+  for (int i = 0; i < 3; ++i) append(bytes, 0.0F);
+  for (std::size_t i = 0; i < 9; ++i)
+    append(bytes, std::clamp(static_cast<float>(query.x[i]), -1e30F, 1e30F));
+  append(bytes, std::uint16_t{0});
+  return bytes;
+}
+
+std::vector<std::string> meshes(const Query& query) {
+  const auto points = [&](std::string_view before, std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+      text += fmt::format("{}{} {} {}\n", before, query.x[3 * i], query.x[3 * i + 1], query.x[3 * i + 2]);
+    return text;
+  };
+  return {
+      "OFF\n8 2 0\n" + points("", 8) + "3 0 1 2\n4 4 5 6 7\n",
+      ply("ascii", points("", 8) + "3 0 1 2\n3 4 5 6\n"),
+      binary_ply(query, true),
+      binary_ply(query, false),
+      "solid a\nfacet normal 0 0 1\nouter loop\n" + points("vertex ", 3) + "endloop\nendfacet\nendsolid a\n",
+      binary_stl(query)};
+}
+
 void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
   const auto write = [&](const char* target, const std::string& name, const std::string& text) {
     fs::create_directories(folder / target);
@@ -76,6 +130,8 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_csv", each.name, sample_csv(each));
     write("read_queries", each.name, fmt::format("# {}\n{}\n", each.name, to_line(each.query)));
     write("read_obj", each.name, obj(each.query));
+    for (std::size_t i = 0; const std::string& mesh : meshes(each.query))
+      write("read_mesh", fmt::format("{}-{}", each.name, i++), mesh);
   }
 }
 

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <map>
+#include <numeric>
 #include <string_view>
 
 #include "ccd/error.hpp"
@@ -34,17 +37,57 @@ void expect_same(const std::vector<std::array<int, n>>& first, const std::string
                           fmt::join(counted_from_one(*a), " "), first_name));
 }
 
+using Reader = Mesh (*)(std::istream&, const std::string&);
+
+const std::map<std::string, Reader>& readers() {
+  static const std::map<std::string, Reader> by_ending{
+      {".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}};
+  return by_ending;
+}
+
 }  // namespace
 
+std::string mesh_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return readers().contains(ending) ? ending : "";
+}
+
 Mesh read_mesh(const fs::path& file) {
-  if (file.extension() != ".obj")
-    throw Error(
-        fmt::format("{}: found the ending '{}', expected .obj", file.string(), file.extension().string()));
-  std::ifstream in(file);
+  const auto reader = readers().find(mesh_ending(file));
+  if (reader == readers().end())
+    throw Error(fmt::format("{}: found the ending '{}', expected .obj, .off, .ply or .stl", file.string(),
+                            file.extension().string()));
+  std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
-  Mesh mesh = parse_obj(in, file.string());
-  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", file.string()));
-  return mesh;
+  return reader->second(in, file.string());
+}
+
+Bodies bodies(const Mesh& mesh) {
+  // Of each point one of the same body with a smaller number, or itself: the way leads to the smallest.
+  std::vector<int> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto at = [&](int point) -> int& { return parent[static_cast<std::size_t>(point)]; };
+  const auto smallest = [&](int point) {
+    while (at(point) != point) point = at(point) = at(at(point));
+    return point;
+  };
+  const auto join = [&](int a, int b) {
+    const auto [first, second] = std::minmax({smallest(a), smallest(b)});
+    at(second) = first;
+  };
+  for (const auto& [a, b] : mesh.lines) join(a, b);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    join(a, b);
+    join(a, c);
+  }
+  Bodies found{0, std::vector<int>(mesh.points.size())};
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    const auto first = static_cast<std::size_t>(smallest(static_cast<int>(i)));
+    found.of_point[i] = first == i ? found.count++ : found.of_point[first];
+  }
+  return found;
 }
 
 MovingMesh make_moving_mesh(Mesh mesh, std::vector<Vector3<double>> end) {

@@ -2,9 +2,107 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <memory>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "ccd/error.hpp"
+
 namespace nearmiss {
 
+namespace {
+
 namespace fs = std::filesystem;
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// Cuts the number off the front of a text, without zeros in front.
+std::string_view cut_number(std::string_view& text) {
+  const std::string_view all = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+  text.remove_prefix(all.size());
+  return all.substr(std::min(all.find_first_not_of('0'), all.size()));
+}
+
+/// Whether a name comes before another one: numbers in them by their values, all else by characters.
+bool comes_before(std::string_view a, std::string_view b) {
+  const std::string_view whole_a = a;
+  const std::string_view whole_b = b;
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a[0]) && is_digit(b[0])) {
+      const std::string_view x = cut_number(a);
+      const std::string_view y = cut_number(b);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else {
+      if (a[0] != b[0]) return a[0] < b[0];
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  if (a.empty() != b.empty()) return a.empty();
+  return whole_a < whole_b;  // 1 and 01
+}
+
+/// The mesh files of a folder, in their order.
+std::vector<fs::path> mesh_files(const fs::path& folder) {
+  std::error_code error;
+  fs::directory_iterator entries(folder, error);
+  if (error) throw Error(fmt::format("{}: cannot be read as a folder", folder.string()));
+  std::vector<fs::path> files;
+  for (const auto& entry : entries)
+    if (entry.is_regular_file() && !mesh_ending(entry).empty() &&
+        !entry.path().filename().string().starts_with('.'))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+/// Of each point the first one in the same place.
+std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
+  const auto in_order = [&](std::size_t a, std::size_t b) {
+    for (int i = 0; i < 3; ++i)
+      if (points[a][i] != points[b][i]) return points[a][i] < points[b][i];
+    return a < b;
+  };
+  std::vector<std::size_t> sorted(points.size());
+  std::iota(sorted.begin(), sorted.end(), 0);
+  std::sort(sorted.begin(), sorted.end(), in_order);
+  std::vector<std::size_t> first(points.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const bool again = i > 0 && points[sorted[i]] == points[sorted[i - 1]];
+    first[sorted[i]] = again ? first[sorted[i - 1]] : sorted[i];
+  }
+  return first;
+}
+
+/// The points that are the first ones in their places. Throws Error where others are elsewhere.
+std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
+                                         const std::vector<std::size_t>& first, const std::string& where) {
+  std::vector<Vector3<double>> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i] != points[first[i]])
+      throw Error(
+          fmt::format("{}: found vertices {} and {} apart, expected them in one place as at frame 0, where "
+                      "they were made one",
+                      where, first[i] + 1, i + 1));
+    if (first[i] == i) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+template <std::size_t n>
+void renumber(std::vector<std::array<int, n>>& figures, const std::vector<int>& number) {
+  for (auto& figure : figures)
+    for (int& vertex : figure) vertex = number[static_cast<std::size_t>(vertex)];
+}
+
+}  // namespace
 
 MovingMesh moving_mesh(const Scene& scene, std::size_t step) {
   Mesh mesh = scene.mesh;
@@ -26,6 +124,41 @@ Scene scene_of_files(const fs::path& start, const fs::path& end) {
           .frames = 2,
           .mesh = std::move(first),
           .points = [points = std::move(points)](std::size_t frame) { return points.at(frame); }};
+}
+
+Scene scene_of_folder(const fs::path& folder) {
+  const std::vector<fs::path> files = mesh_files(folder);
+  if (files.size() < 2)
+    throw Error(
+        fmt::format("{}: found {} files with a mesh, expected at least 2", folder.string(), files.size()));
+  for (const fs::path& file : files)
+    if (mesh_ending(file) != mesh_ending(files[0]))
+      throw Error(fmt::format("{}: found {} and {}, expected meshes with one ending", folder.string(),
+                              files[0].filename().string(), file.filename().string()));
+  const auto first = std::make_shared<const Mesh>(read_mesh(files[0]));
+  return {.name = fs::canonical(folder).filename().string(),
+          .frames = files.size(),
+          .mesh = *first,
+          .points = [files, first](std::size_t frame) {
+            if (frame == 0) return first->points;
+            Mesh mesh = read_mesh(files.at(frame));
+            expect_same_figures(*first, files[0].string(), mesh, files[frame].string());
+            return std::move(mesh.points);
+          }};
+}
+
+Scene welded(Scene scene) {
+  const std::vector<std::size_t> first = first_in_place(scene.mesh.points);
+  std::vector<int> number(first.size());
+  int count = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) number[i] = first[i] == i ? count++ : number[first[i]];
+  renumber(scene.mesh.triangles, number);
+  renumber(scene.mesh.lines, number);
+  scene.mesh.points = kept_points(scene.mesh.points, first, scene.name);
+  scene.points = [points = std::move(scene.points), first, name = scene.name](std::size_t frame) {
+    return kept_points(points(frame), first, fmt::format("{}, frame {}", name, frame));
+  };
+  return scene;
 }
 
 }  // namespace nearmiss

@@ -1,0 +1,68 @@
+// Text formats, line by line and word by word.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+/// All that a stream has. Throws Error where it cannot be read to its end.
+std::string read_all(std::istream& in, std::string_view name);
+
+/// The lines of a text that hold a word, one at a time, each split into words at blanks. The text must outlive
+/// this.
+class Lines {
+ public:
+  enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
+
+  Lines(std::string_view text, std::string_view name, Comments comments);
+
+  /// Goes on to the next line; false at the end of the text.
+  bool next();
+
+  /// The words of this line, at least one.
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+
+  /// The next word of this line, or of the lines that follow; empty at the end of the text.
+  std::string_view next_word();
+
+  /// Makes next_word go on behind this line.
+  void skip_line() { read_ = words_.size(); }
+
+  /// The text behind this line.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+  /// The number of this line, from 1.
+  [[nodiscard]] long number() const { return number_; }
+
+  /// "NAME:LINE", for messages.
+  [[nodiscard]] std::string where() const { return where(number_); }
+  [[nodiscard]] std::string where(long line) const;
+
+  /// What is not as it should be at this line.
+  [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
+
+ private:
+  std::string_view rest_;
+  std::string name_;
+  Comments comments_;
+  long number_ = 0;
+  std::vector<std::string_view> words_;
+  std::size_t read_ = 0;  ///< words that next_word has given
+};
+
+/// Throws Error where a word is no finite decimal number.
+void expect_decimal(std::string_view word, const Lines& lines);
+
+/// Throws Error where a file has no point, or more than an int can count.
+void expect_points(std::size_t points, std::string_view name);
+
+/// How a word, or the lack of one, is shown in a message.
+std::string shown(std::string_view word);
+
+}  // namespace nearmiss
