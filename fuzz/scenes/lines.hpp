@@ -14,8 +14,8 @@ namespace nearmiss {
 /// All that a stream has. Throws Error where it cannot be read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// The lines of a text that hold a word, one at a time, each split into words at blanks. The text must outlive
-/// this.
+/// The lines of a text that hold a word, one at a time, each split into words at blanks. The text must
+/// outlive this.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line

@@ -19,33 +19,36 @@ struct Mesh {
   std::vector<std::array<int, 2>> lines;
 };
 
-/// Reads an OBJ file: vertices, faces and polylines; all else that the format has is passed over. `name` stands
-/// for the file in messages. Throws Error with file and line for what is no finite number, a figure with a
-/// vertex that does not exist or with too few, and a line that is not of the format; and for a file without a
-/// point.
+/// Reads an OBJ file: vertices, faces and polylines; all else that the format has is passed over. `name`
+/// stands for the file in messages. Throws Error with file and line for what is no finite number, a figure
+/// with a vertex that does not exist or with too few, and a line that is not of the format; and for a file
+/// without a point.
 ///
-/// Of all formats: polygons become fans of triangles. Nothing else is changed: faces that have a vertex twice, or
-/// that are there twice, are for a CCD to cope with, points that are in no figure too. A point set is a mesh.
+/// Of all formats: polygons become fans of triangles. Nothing else is changed: faces that have a vertex
+/// twice, or that are there twice, are for a CCD to cope with, points that are in no figure too. A point set
+/// is a mesh.
 Mesh parse_obj(std::istream& in, const std::string& name);
 
-/// Reads an OFF file, as text: OFF with normals, colours or textures too, which are passed over, as are comments.
-/// A vertex or a face is a line. Throws Error as parse_obj does, and where the file ends too early or goes on.
+/// Reads an OFF file, as text: OFF with normals, colours or textures too, which are passed over, as are
+/// comments. A vertex or a face is a line. Throws Error as parse_obj does, and where the file ends too early
+/// or goes on.
 Mesh parse_off(std::istream& in, const std::string& name);
 
-/// Reads a PLY file, as text or binary in either order of bytes: the elements vertex, with x, y and z that are
-/// float or double (and no more exact than that), and face; others are passed over, but edge, halfedge and
-/// tristrips, without which the mesh would be another one, are refused. Throws Error as parse_off does.
+/// Reads a PLY file, as text or binary in either order of bytes: the elements vertex, with x, y and z that
+/// are float or double (and no more exact than that), and face; others are passed over, but edge, halfedge
+/// and tristrips, without which the mesh would be another one, are refused. Throws Error as parse_off does.
 Mesh parse_ply(std::istream& in, const std::string& name);
 
-/// Reads an STL file, as text or binary, several solids as one mesh. The format gives each triangle three points
-/// of its own; those that are equal (0 and -0 are) become one, the first of them. Throws Error as parse_off does.
+/// Reads an STL file, as text or binary, several solids as one mesh. The format gives each triangle three
+/// points of its own; those that are equal (0 and -0 are) become one, the first of them: two frames have the
+/// same figures only if the same corners meet in both. Throws Error as parse_off does.
 Mesh parse_stl(std::istream& in, const std::string& name);
 
 /// The ending of a file in lower case if read_mesh knows it (.obj, .off, .ply, .stl), else nothing.
 std::string mesh_ending(const std::filesystem::path& file);
 
-/// Reads a file by its ending, in any case. Throws Error as the format's reader does, and where the file cannot be read or has
-/// another ending.
+/// Reads a file by its ending, in any case. Throws Error as the format's reader does, and where the file
+/// cannot be read or has another ending.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// The connected parts of a mesh.
@@ -54,7 +57,8 @@ struct Bodies {
   std::vector<int> of_point;  ///< of each point the number of its body; by their first points, from 0
 };
 
-/// The bodies of a mesh: points that triangles and lines join are of one. A point in no figure is one of its own.
+/// The bodies of a mesh: points that triangles and lines join are of one. A point in no figure is one of its
+/// own.
 Bodies bodies(const Mesh& mesh);
 
 /// A mesh whose points move linearly.

@@ -49,18 +49,26 @@ bool comes_before(std::string_view a, std::string_view b) {
 
 /// The mesh files of a folder, in their order.
 std::vector<fs::path> mesh_files(const fs::path& folder) {
-  std::error_code error;
-  fs::directory_iterator entries(folder, error);
-  if (error) throw Error(fmt::format("{}: cannot be read as a folder", folder.string()));
+  const auto is_frame = [](const fs::directory_entry& entry) {
+    return entry.is_regular_file() && !mesh_ending(entry).empty() &&
+           !entry.path().filename().string().starts_with('.');
+  };
   std::vector<fs::path> files;
-  for (const auto& entry : entries)
-    if (entry.is_regular_file() && !mesh_ending(entry).empty() &&
-        !entry.path().filename().string().starts_with('.'))
-      files.push_back(entry.path());
+  try {
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (is_frame(entry)) files.push_back(entry.path());
+  } catch (const fs::filesystem_error&) {
+    throw Error(fmt::format("{}: cannot be read as a folder", folder.string()));
+  }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return comes_before(a.filename().string(), b.filename().string());
   });
   return files;
+}
+
+/// Also where the path ends in a slash or a dot.
+std::string folder_name(const fs::path& folder) {
+  return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
 }
 
 /// Of each point the first one in the same place.
@@ -136,7 +144,7 @@ Scene scene_of_folder(const fs::path& folder) {
       throw Error(fmt::format("{}: found {} and {}, expected meshes with one ending", folder.string(),
                               files[0].filename().string(), file.filename().string()));
   const auto first = std::make_shared<const Mesh>(read_mesh(files[0]));
-  return {.name = fs::canonical(folder).filename().string(),
+  return {.name = folder_name(folder),
           .frames = files.size(),
           .mesh = *first,
           .points = [files, first](std::size_t frame) {

@@ -32,10 +32,10 @@ std::string step_name(const Scene& scene, std::size_t step);
 /// The same mesh at t = 0 and at t = 1, from two files. Throws Error.
 Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::path& end);
 
-/// The frames are the mesh files of a folder, by name, where numbers count as such: frame 2 comes before frame
-/// 10. What has no ending of a mesh (pictures, notes), is hidden (".frame.obj") or is a folder is passed over.
-/// Throws Error where there are fewer than two, or meshes with several endings, since nobody knows which are
-/// meant.
+/// The frames are the mesh files of a folder, by name, where numbers count as such: frame 2 comes before
+/// frame 10. What has no ending of a mesh (pictures, notes), is hidden (".frame.obj") or is a folder is
+/// passed over. Throws Error where there are fewer than two, or meshes with several endings, since nobody
+/// knows which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
 /// The scene with points that are in one place at frame 0 (0 and -0 are equal) made one, and the figures

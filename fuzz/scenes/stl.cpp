@@ -28,7 +28,7 @@ void expect_words(Lines& lines, std::initializer_list<std::string_view> expected
   }
 }
 
-/// A facet behind the word "facet". The normal may be anything: exporters write nan for a degenerate triangle.
+/// A facet behind the word "facet". The normal may be anything: exporters write nan for a degenerate one.
 void add_facet(Lines& lines, std::string& plain) {
   expect_words(lines, {"normal"});
   for (int i = 0; i < 3; ++i) lines.next_word();

@@ -124,6 +124,7 @@ TEST_F(FolderTest, FramesAreInTheOrderOfTheirNumbers) {
   for (std::size_t i = 0; i < scene.frames; ++i) heights.push_back(scene.points(i)[0][2]);
   EXPECT_THAT(heights, ElementsAre(0, 1, 3, 2, 4, 5, 6, 7, 8, 9, 10));  // 02 is 2, and 0 comes before 2
   EXPECT_EQ(scene_of_folder(file("frames") / "").name, "frames");
+  EXPECT_EQ(scene_of_folder(file("frames") / ".").name, "frames");
 }
 
 TEST_F(FolderTest, WhatIsNoMeshIsPassedOver) {
