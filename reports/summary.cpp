@@ -61,6 +61,15 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
   return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
 }
 
+std::string fraction_of_bound(double ratio) {
+  std::string text;
+  for (int digits = 3; digits <= 17; ++digits) {
+    text = fmt::format("{:.{}g}", ratio, digits);
+    if (ratio >= 1 || text != "1") break;
+  }
+  return text;
+}
+
 bool found_anything(const Statistics& statistics) {
   return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +
              statistics.mismatches_with_recorded_truth + statistics.faults() >
@@ -86,9 +95,9 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
                           fmt::join(faults, ", "));
     if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
     if (counts.false_positives > 0)
-      text += fmt::format(", {}, the farthest at {:.3g} of the bound",
+      text += fmt::format(", {}, the farthest at {} of the bound",
                           counted(counts.false_positives, "false positive", "false positives"),
-                          counts.max_ratio());
+                          fraction_of_bound(counts.max_ratio()));
     else
       text += ", no false positive";
     verdicts.push_back({subject, !missed && !refuted && faults.empty(), std::move(text)});
@@ -116,7 +125,7 @@ std::string summary_table(const Statistics& statistics) {
     rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
                     with_separators(counts.collisions), with_separators(counts.false_negatives),
                     fmt::format("{:.2g}", clopper_pearson_upper(counts.false_negatives, counts.collisions)),
-                    with_separators(counts.false_positives), fmt::format("{:.3g}", counts.max_ratio()),
+                    with_separators(counts.false_positives), fraction_of_bound(counts.max_ratio()),
                     counts.timed_queries == 0 ? "-" : fmt::format("{:.0f}", counts.ns_per_query())});
   }
   std::string verdicts;

@@ -36,6 +36,9 @@ std::string columns(const std::vector<std::vector<std::string>>& rows, std::size
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);
 
+/// Three digits, or as many as it takes to tell what is below 1 from 1.
+std::string fraction_of_bound(double ratio);
+
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 

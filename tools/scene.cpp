@@ -31,7 +31,7 @@ struct Options {
   TrialOptions trial{.subjects = {"basic", "wang"}};
   std::vector<std::string> bounds{"pair"};
   std::string leave_out = "all";
-  bool plan_only = false, verify_plan = false;
+  bool weld = false, plan_only = false, verify_plan = false;
   fs::path export_to;
   RecordOptions record;
 };
@@ -41,7 +41,7 @@ const std::map<std::string, LeaveOut> leave_outs{
 
 Scene open_scene(const std::vector<std::string>& arguments) {
   if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
-  throw Error(fmt::format("{}: no such scene", arguments[0]));
+  return scene_of_folder(arguments[0]);
 }
 
 /// The largest bound B of all pairs whose boxes meet (§5), over all steps.
@@ -111,7 +111,8 @@ int run(const Options& given) {
   const auto& stop = interrupted();
   Options options = given;
   options.trial.make_subjects();  // unknown names are refused before meshes are read
-  const Scene scene = open_scene(options.scene);
+  Scene scene = open_scene(options.scene);
+  if (options.weld) scene = welded(std::move(scene));
   options.trial.subjects = names_with_bounds(options, scene);
   const Subjects subjects = options.trial.make_subjects();
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
@@ -121,6 +122,10 @@ int run(const Options& given) {
   RunInfo info = options.trial.run_info(command);
   info["left out"] = options.leave_out;
   info["again"] += " --leave-out " + options.leave_out;
+  if (options.weld) {
+    info["welded"] = "yes";
+    info["again"] += " --weld";
+  }
   Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
   Export exported(options.export_to);
   Verification verification;
@@ -161,10 +166,11 @@ int run(const Options& given) {
   }
   exported.finish();
   const MovingMesh mesh = moving_mesh(scene, 0);
-  fmt::print("{}: {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
+  fmt::print("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
              counted(mesh.start.size(), "vertex", "vertices"),
              counted(mesh.triangles.size(), "triangle", "triangles"),
-             counted(mesh.edges.size(), "edge", "edges"));
+             counted(mesh.edges.size(), "edge", "edges"),
+             counted(bodies(scene.mesh).count, "body", "bodies"));
   const int code = record.finish(stop, !stop);
   if (!options.verify_plan || stop) return code;
   fmt::print("\n{}", describe(verification));
@@ -180,8 +186,8 @@ void add_scene(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "SCENE", options->scene,
-          "The mesh at t = 0 and the same mesh at t = 1 (START END), or a folder of frames, or a built-in "
-          "scene (NAME or NAME@SIZE)")
+          "The mesh at t = 0 and the same mesh at t = 1 (START END), or a folder of frames: *.obj, *.off, "
+          "*.ply or *.stl")
       ->required()
       ->expected(1, 2);
   options->trial.add_to(*command);
@@ -199,6 +205,7 @@ void add_scene(CLI::App& app, int& exit_code) {
           "those at rest or in translation relative to each other")
       ->check(CLI::IsMember({"nothing", "boxes", "all"}))
       ->capture_default_str();
+  command->add_flag("--weld", options->weld, "Make points that are in one place at the first frame one");
   command->add_flag("--plan-only", options->plan_only,
                     "Ask no subject, say only what would be left out and why");
   command->add_flag(

@@ -58,7 +58,7 @@ function drawBaseline() {
     text: (r) => `${r.before ? form(r.before[field]) : "–"} → ${form(r.now[field])}` });
   fillTable(element("before-and-now"), [
     text("subject", "subject"), text("kind", "kind"), pair("queries", "queries"), pair("false negatives", "false_negatives"),
-    pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound"),
+    pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound", fraction),
     pair("ns / query", "ns_per_query"),
   ], baseline.subjects);
   if (baseline.changed_facts.length > 0)
@@ -87,7 +87,7 @@ function drawCounts() {
   const rows = countRows(byFamily);
   if (rows.length === 0) return;
   show("counts-section");
-  const largest = figure("largest dist.", "max_fp_distance_over_bound");
+  const largest = { ...figure("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) };
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
@@ -182,7 +182,7 @@ function drawTightness() {
 
 /** What failed, how often, and where it was found. */
 function drawWhat(finding) {
-  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, at ${short(finding.ratio)} of the bound` : "");
+  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, at ${fraction(finding.ratio)} of the bound` : "");
   return made("div", [
     ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
     made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
@@ -224,7 +224,7 @@ function drawFarthest() {
   show("farthest-section");
   fillTable(element("farthest"), [
     picture("query"),
-    { title: "of", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", `${short(r.ratio)} of the bound`), made("div", `from ${r.provenance}`)]) },
+    { title: "of", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", `${fraction(r.ratio)} of the bound`), made("div", `from ${r.provenance}`)]) },
     { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
   ], rows);
 }

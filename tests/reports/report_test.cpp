@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
@@ -81,6 +82,14 @@ TEST(Summary, NumbersAreGroupedByThousands) {
   EXPECT_EQ(with_separators(7), "7");
   EXPECT_EQ(with_separators(1234), "1,234");
   EXPECT_EQ(with_separators(123456789), "123,456,789");
+}
+
+TEST(Summary, WhatIsBelowTheBoundIsNotRoundedToIt) {
+  EXPECT_EQ(fraction_of_bound(0.99999962), "0.9999996");
+  EXPECT_EQ(fraction_of_bound(0.1234), "0.123");
+  EXPECT_EQ(fraction_of_bound(1), "1");
+  EXPECT_EQ(fraction_of_bound(1.0001), "1");
+  EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
 }
 
 TEST(Csv, OneRowASubjectKindAndFamily) {
