@@ -8,6 +8,7 @@
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/plan.hpp"
+#include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/scenes/verify.hpp"
 #include "fuzz/subjects.hpp"
@@ -30,7 +31,7 @@ struct Options {
   std::vector<std::string> scene;
   TrialOptions trial{.subjects = {"basic", "wang"}};
   std::vector<std::string> bounds{"pair"};
-  std::string leave_out = "all";
+  std::string leave_out = "all", thickness;
   bool weld = false, plan_only = false, verify_plan = false;
   fs::path export_to;
   RecordOptions record;
@@ -79,6 +80,26 @@ std::vector<std::string> names_with_bounds(const Options& options, const Scene& 
   return names;
 }
 
+/// The cheapest subject whose false positives stay within the contact's thickness; prints what each promises and
+/// costs. Throws Error where there is none.
+std::string subject_for_thickness(const Options& options, const Scene& scene, const Subjects& subjects) {
+  const double thickness = parse_number(options.thickness, "--thickness");
+  const auto all =
+      precisions(scene, leave_outs.at(options.leave_out), subjects, [] { return interrupted().load(); });
+  const Precision* const best = cheapest_within(all, thickness);
+  std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
+  for (const Precision& each : all)
+    rows.push_back({each.subject, fmt::format("{:.3g}", each.claimed),
+                    fmt::format("{:.0f}", each.ns_per_query),
+                    &each == best ? "the cheapest within the thickness"
+                                  : (each.claimed <= thickness ? "" : "more than the thickness")});
+  fmt::print("contact thickness {:g}\n{}\n", thickness, columns(rows, 1));
+  if (best == nullptr)
+    throw Error(fmt::format("--thickness: found {}, expected at least what one of the subjects claims",
+                            options.thickness));
+  return best->subject;
+}
+
 /// Files for nearmiss replay: FILE.vt and FILE.ee, a query a line.
 class Export {
  public:
@@ -114,6 +135,8 @@ int run(const Options& given) {
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
   options.trial.subjects = names_with_bounds(options, scene);
+  if (!options.thickness.empty())
+    options.trial.subjects = {subject_for_thickness(options, scene, options.trial.make_subjects())};
   const Subjects subjects = options.trial.make_subjects();
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
 
@@ -205,6 +228,12 @@ void add_scene(CLI::App& app, int& exit_code) {
           "those at rest or in translation relative to each other")
       ->check(CLI::IsMember({"nothing", "boxes", "all"}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--thickness", options->thickness,
+          "The thickness of contact: of the subjects ask only the cheapest whose claimed distance of false "
+          "positives stays below it")
+      ->type_name("H");
   command->add_flag("--weld", options->weld, "Make points that are in one place at the first frame one");
   command->add_flag("--plan-only", options->plan_only,
                     "Ask no subject, say only what would be left out and why");

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "fuzz/random.hpp"
+#include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/verify.hpp"
 #include "oracle/oracle.hpp"
 
@@ -85,6 +86,37 @@ TEST(Plan, HairHasNoTrianglesAndPointsHaveNoEdges) {
   EXPECT_EQ(of_hair.at(Kind::edge_edge).all(), 1);
   const MovingMesh points = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}}, {}, {}}, {{0, 0, 2}, {1, 0, 2}});
   for (const auto& [kind, funnel] : run(points, LeaveOut::all).funnels) EXPECT_EQ(funnel.all(), 0);
+}
+
+TEST(Precision, TheCheapestWithinTheThicknessIsTaken) {
+  const std::vector<Precision> all{
+      {"far", 1e-2, 10}, {"near", 1e-4, 100}, {"nearer", 1e-5, 90}, {"exact", 0, 1000}};
+  EXPECT_EQ(cheapest_within(all, 1)->subject, "far");
+  EXPECT_EQ(cheapest_within(all, 1e-3)->subject, "nearer");
+  EXPECT_EQ(cheapest_within(all, 1e-6)->subject, "exact");
+  EXPECT_EQ(cheapest_within({all[0]}, 1e-6), nullptr);
+}
+
+TEST(Precision, IsTheLargestBoundOfAllPairs) {
+  const MovingMesh mesh = bodies(1);
+  const Scene scene{
+      .name = "bodies", .frames = 2, .mesh = {mesh.start, mesh.triangles, {}}, .points = [&](std::size_t) {
+        return mesh.end;
+      }};
+  Subjects subjects;
+  subjects.push_back(make_subject("wang"));
+  const auto found = precisions(scene, LeaveOut::all, subjects, never);
+  double largest = 0;
+  follow_plan(
+      mesh, LeaveOut::all,
+      [&](const Candidate&, const Query& query) {
+        largest = std::max(largest, subjects[0]->distance_bound(query));
+      },
+      {}, never);
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_GT(largest, 0);
+  EXPECT_EQ(found[0].claimed, largest);
+  EXPECT_GT(found[0].ns_per_query, 0);
 }
 
 TEST(Plan, IsVerified) {

@@ -110,9 +110,9 @@ async function showsFindings(browser) {
   assert.notEqual(await drawn(), byMouse);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   const copied = async (number) => {
-    const button = page.locator("#findings button").nth(number);
-    await button.click();
-    await page.waitForFunction((b) => b.textContent === "copied", await button.elementHandle());
+    const buttons = page.locator("#findings button");
+    await buttons.nth(number).click();
+    await buttons.nth(number).and(page.getByText("copied", { exact: true })).waitFor();
     return page.evaluate(() => navigator.clipboard.readText());
   };
   assert.equal(await copied(0), command);

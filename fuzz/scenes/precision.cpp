@@ -1,0 +1,54 @@
+#include "fuzz/scenes/precision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::size_t timed_pairs = 20000;
+constexpr int timings = 5;  // of which the quickest counts: what disturbs only adds
+
+double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Verdict> verdicts(queries.size());
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < timings; ++i) {
+    const auto start = Clock::now();
+    subject.decide(queries, verdicts);
+    const std::chrono::duration<double, std::nano> time = Clock::now() - start;
+    best = std::min(best, time.count());
+  }
+  return queries.empty() ? 0 : best / static_cast<double>(queries.size());
+}
+
+}  // namespace
+
+std::vector<Precision> precisions(const Scene& scene, LeaveOut leave_out, const Subjects& subjects,
+                                  const std::function<bool()>& stop) {
+  std::vector<Precision> found;
+  for (const auto& subject : subjects) found.push_back({.subject = subject->name()});
+  std::vector<Query> sample;
+  const auto look = [&](const Candidate&, const Query& query) {
+    if (sample.size() < timed_pairs) sample.push_back(query);
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      found[i].claimed = std::max(found[i].claimed, subjects[i]->distance_bound(query));
+  };
+  for (std::size_t step = 0; step < scene.steps() && !stop(); ++step)
+    follow_plan(moving_mesh(scene, step), leave_out, look, {}, stop);
+  for (std::size_t i = 0; i < subjects.size() && !stop(); ++i)
+    found[i].ns_per_query = quickest_ns(*subjects[i], sample);
+  return found;
+}
+
+const Precision* cheapest_within(const std::vector<Precision>& precisions, double thickness) {
+  const Precision* best = nullptr;
+  for (const Precision& each : precisions)
+    if (each.claimed <= thickness && (best == nullptr || each.ns_per_query < best->ns_per_query))
+      best = &each;
+  return best;
+}
+
+}  // namespace nearmiss
