@@ -12,13 +12,13 @@ namespace nearmiss {
 /// guaranteed: a root that rounding hides, or a weight that it moves outside, is a miss.
 template <Kind kind, class T, bool plane_culling>
 Verdict basic(const Query& query) {
-  if (plane_culling && separated_by_plane<kind>(query)) return {};
+  if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Miss::planes);
   Pair<kind, T> pair;  // without a bound B, and so without normalisation
   form_vectors(query, pair);
-  for (const T t : solve_cubic(coplanarity(pair), T(0))) {
-    if (Figure<kind, T>(pair, t).inside()) return {true, Stage::proximity, static_cast<double>(t)};
-  }
-  return {};
+  const auto roots = solve_cubic(coplanarity(pair), T(0));
+  for (const T t : roots)
+    if (Figure<kind, T>(pair, t).inside()) return Verdict::accepted(Stage::proximity, static_cast<double>(t));
+  return Verdict::rejected(roots.count == 0 ? Miss::no_root : Miss::tests);
 }
 
 }  // namespace nearmiss

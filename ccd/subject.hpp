@@ -34,6 +34,22 @@ inline constexpr std::size_t stage_count = 8;
 inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none", "proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"};
 
+/// What told that a pair does not collide.
+enum class Miss : std::uint8_t {
+  untold,   ///< a collision was reported, or the subject does not tell
+  planes,   ///< plane culling
+  apart,    ///< vectors that no colliding pair has (§4.1)
+  no_root,  ///< the cubic has no root in [0, 1]
+  culled,   ///< VE culling (§5): VE tests were not needed
+  tests,    ///< all tests of the algorithm
+};
+
+inline constexpr std::size_t miss_count = 6;
+
+/// Names of these, in order, as they stand in files and reports.
+inline constexpr std::array<std::string_view, miss_count> miss_names{"untold",  "planes", "apart",
+                                                                     "no-root", "culled", "tests"};
+
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
@@ -55,7 +71,11 @@ struct Verdict {
   Stage stage = Stage::none;
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] where hit; NaN where not known
   Fault fault = Fault::none;                               ///< otherwise there is no answer
+  Miss miss = Miss::untold;
   std::int32_t fault_code = 0;  ///< what an error returned; of a crash the signal, or the exit code negated
+
+  static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
+  static Verdict rejected(Miss miss) { return {.miss = miss}; }
 };
 
 /// A CCD on trial: a pure function of the query.

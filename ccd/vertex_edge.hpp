@@ -97,7 +97,7 @@ Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Ste
   const auto accept = [&](Step step, T t) {
     return steps.does(step) && detail::near_edge(ve, t, tol, steps);
   };
-  const auto found = [](Stage stage, T t) { return Verdict{true, stage, static_cast<double>(t)}; };
+  const auto found = [](Stage stage, T t) { return Verdict::accepted(stage, static_cast<double>(t)); };
 
   if (accept(Step::ve_start, T(0))) return found(Stage::ve_end, T(0));
   if (accept(Step::ve_end, T(1))) return found(Stage::ve_end, T(1));

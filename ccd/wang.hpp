@@ -38,7 +38,7 @@ inline constexpr auto ve_tests = [] {
 template <Kind kind, class T, class Steps>
 [[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const Order& order,
                                             const Tolerances<T>& tol, const Steps& steps) {
-  if (!steps.does(Step::vertex_edge)) return {};
+  if (!steps.does(Step::vertex_edge)) return Verdict::rejected(Miss::tests);
   for (const auto& test : ve_tests<kind>) {
     if (&test == &ve_tests<kind>.back() && !steps.does(Step::last_edge)) break;
     const int vertex = order[static_cast<std::size_t>(test[0])];
@@ -49,7 +49,7 @@ template <Kind kind, class T, class Steps>
                            relative_motion<T>(query, vertex, j, frame)};
     if (const Verdict verdict = vertex_edge(ve, tol, steps); verdict.hit) return verdict;
   }
-  return {};
+  return Verdict::rejected(Miss::tests);
 }
 
 // A pair with a given B in the place of its own, in the frame that this B asks for.
@@ -102,7 +102,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
         (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, figure, t, tol, steps)));
     return false;
   };
-  const auto hit = [](T t) { return Verdict{true, Stage::proximity, static_cast<double>(t)}; };
+  const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
   for (const T t : roots)
     if (proximity(t, true)) return hit(t);
   // T ∪ {0, 1} of the algorithms: a candidate only where its residual is a root's. Then t = 0 is the left
@@ -110,7 +110,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
   using std::abs;
   if (steps.does(Step::proximity_end) && at_most(T(abs(F(T(1)))), tol.mu, steps) && proximity(T(1), false))
     return hit(T(1));
-  if (culled) return {};
+  if (culled) return Verdict::rejected(roots.count == 0 ? Miss::no_root : Miss::culled);
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol, steps);
 }
 
@@ -120,7 +120,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
                                        const Steps& steps) {
   auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query, steps), given_order, steps);
   if (given) pair = with_given_bound(query, pair, *given);
-  if (!bring_within_reach(query, pair, steps)) return {};
+  if (!bring_within_reach(query, pair, steps)) return Verdict::rejected(Miss::apart);
   return wang_tests<kind, T, options>(query, pair, coplanarity(pair), steps);
 }
 
@@ -132,11 +132,12 @@ template <Kind kind, class T, WangOptions options, class Steps>
 /// set, takes the place of the pair's own B; one that is smaller throws Error (§5).
 template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt, const Steps& steps = {}) {
-  if (options.plane_culling && separated_by_plane<kind>(query, steps)) return {};
+  if (options.plane_culling && separated_by_plane<kind>(query, steps)) return Verdict::rejected(Miss::planes);
   Pair<kind, T> pair;
   form_vectors(query, pair);
   const Cubic<T> F = coplanarity(pair);
-  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, steps)) return {};
+  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, steps))
+    return Verdict::rejected(Miss::no_root);
   detail::form_bound(pair, steps);
   if (given || !in_range(pair.B) || !within_reach(pair))
     return detail::wang_careful<kind, T, options>(query, given, steps);

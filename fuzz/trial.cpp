@@ -170,6 +170,7 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
         outcome.bound_refuted = claims && distance.exceeds;
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
+      if (batch.observe) batch.observe(i, s, outcome);
       if (outcome.verdict.fault != Fault::none)
         find(Finding::What::fault, subjects[s]->name(), fault_signature(batch.kind, outcome.verdict));
       else if (outcome.collision && !outcome.verdict.hit)

@@ -19,11 +19,13 @@ using Subjects = std::vector<std::unique_ptr<Subject>>;
 /// Queries of one kind that are decided, timed and counted together.
 struct Batch {
   Kind kind{};
-  std::string family;  ///< what they are counted under
-  std::vector<Query> queries;
-  std::vector<std::optional<bool>> truths;  ///< recorded truths; empty where there are none
+  std::string family = {};  ///< what they are counted under
+  std::vector<Query> queries = {};
+  std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty where there are none
   /// Says where query i of the batch comes from; called only for what is kept.
-  std::function<std::string(std::size_t)> provenance;
+  std::function<std::string(std::size_t)> provenance = {};
+  /// Is told of every outcome where it is set: of query i and of a subject, by its place among the subjects.
+  std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 };
 
 /// What a trial found.

@@ -71,6 +71,7 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
         run.parts.push_back(part);
       }
       run.findings.insert(run.findings.end(), each.findings.begin(), each.findings.end());
+      run.pictures.insert(run.pictures.end(), each.pictures.begin(), each.pictures.end());
     }
   }
   for (auto& [info, run] : runs) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/scene_picture.hpp"
 #include "reports/statistics.hpp"
 
 namespace nearmiss {
@@ -37,6 +38,7 @@ struct Run {
   RunInfo info;
   std::vector<Part> parts;        ///< by shard
   std::vector<Finding> findings;  ///< in order; the first ones of each signature, as many as are kept
+  std::vector<ScenePicture> pictures = {};  ///< by step
 
   bool operator==(const Run&) const = default;
 };

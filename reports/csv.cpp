@@ -29,6 +29,7 @@ std::string statistics_csv(const Statistics& statistics) {
   text += ",median_ns,q99_ns";
   for (const auto stage : stage_names) text += fmt::format(",true_by_{}", stage);
   for (const auto stage : stage_names) text += fmt::format(",false_by_{}", stage);
+  for (const auto miss : miss_names) text += fmt::format(",rejected_by_{}", miss);
   text += '\n';
   for (const auto& [key, c] : statistics.counts) {
     const Interval rate = clopper_pearson(c.false_positives, c.queries - c.collisions);
@@ -43,6 +44,7 @@ std::string statistics_csv(const Statistics& statistics) {
       text += c.times.total() == 0 ? "," : fmt::format(",{:.0f}", c.times.quantile(part));
     for (const auto count : c.true_by_stage) text += fmt::format(",{}", count);
     for (const auto count : c.false_by_stage) text += fmt::format(",{}", count);
+    for (const auto count : c.rejected_by) text += fmt::format(",{}", count);
     text += '\n';
   }
   return text;

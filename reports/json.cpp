@@ -38,10 +38,13 @@ ordered_json rates_json(const Counts& counts) {
 
 namespace {
 
-ordered_json by_stage(const std::array<std::uint64_t, stage_count>& counts) {
+/// Of counts that have names those that are not 0.
+template <std::size_t n>
+ordered_json by_name(const std::array<std::uint64_t, n>& counts, const std::array<std::string_view, n>& names,
+                     std::size_t first = 0) {
   ordered_json json = ordered_json::object();
-  for (std::size_t i = 0; i < stage_count; ++i)
-    if (counts[i] != 0) json[std::string(stage_names[i])] = counts[i];
+  for (std::size_t i = first; i < n; ++i)
+    if (counts[i] != 0) json[std::string(names[i])] = counts[i];
   return json;
 }
 
@@ -61,12 +64,11 @@ ordered_json times_json(const Counts& counts) {
 ordered_json counts_json(const Counts& counts) {
   ordered_json json = rates_json(counts);
   json["positives"] = counts.positives;
-  json["faults"] = ordered_json::object();
-  for (std::size_t i = 1; i < fault_count; ++i)
-    if (counts.faults[i] != 0) json["faults"][std::string(fault_names[i])] = counts.faults[i];
+  json["faults"] = by_name(counts.faults, fault_names, 1);
   json["times"] = times_json(counts);
-  json["true_positives_by_stage"] = by_stage(counts.true_by_stage);
-  json["false_positives_by_stage"] = by_stage(counts.false_by_stage);
+  json["true_positives_by_stage"] = by_name(counts.true_by_stage, stage_names);
+  json["false_positives_by_stage"] = by_name(counts.false_by_stage, stage_names);
+  json["rejected_by"] = by_name(counts.rejected_by, miss_names);
   json["fp_distance_histogram"] = counts.distances.bins;
   json["farthest"] = ordered_json::array();
   for (const FarCase& far : counts.farthest)

@@ -113,6 +113,14 @@ void Store::save(const Statistics& statistics, const Part& part, std::span<const
   }
 }
 
+void Store::add(const ScenePicture& picture) {
+  try {
+    write_pictures(database_->connection->db, database_->run, std::span(&picture, 1));
+  } catch (const SQLite::Exception& error) {
+    fail(database_->file, error);
+  }
+}
+
 Campaign load_campaign(const fs::path& file) {
   const std::string where = file.string();
   if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", where));
@@ -149,6 +157,7 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
       const std::int64_t id = write_run(connection.db, run.info);
       for (const Part& each : run.parts) write_part(connection.db, id, each);
       write_findings(connection.db, id, run.findings);
+      write_pictures(connection.db, id, run.pictures);
     }
     write_statistics(connection.db, campaign.statistics);
     transaction.commit();

@@ -27,6 +27,9 @@ class Store {
   /// Throws Error; then the file holds what it held before.
   void save(const Statistics& statistics, const Part& part, std::span<const Finding> new_findings);
 
+  /// Adds a picture. Throws Error likewise.
+  void add(const ScenePicture& picture);
+
  private:
   struct Database;
   std::unique_ptr<Database> database_;

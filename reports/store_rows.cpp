@@ -25,8 +25,8 @@ constexpr const char* schema = R"sql(
     subject TEXT NOT NULL, kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL,
     queries INTEGER NOT NULL, collisions INTEGER NOT NULL, positives INTEGER NOT NULL,
     false_negatives INTEGER NOT NULL, false_positives INTEGER NOT NULL, refuted_bounds INTEGER NOT NULL,
-    true_by_stage TEXT NOT NULL, false_by_stage TEXT NOT NULL, distances TEXT NOT NULL, farthest TEXT NOT NULL,
-    faults TEXT NOT NULL, timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL, times TEXT NOT NULL,
+    true_by_stage TEXT NOT NULL, false_by_stage TEXT NOT NULL, rejected_by TEXT NOT NULL,
+    distances TEXT NOT NULL, farthest TEXT NOT NULL, faults TEXT NOT NULL, timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL, times TEXT NOT NULL,
     slowest TEXT NOT NULL,
     PRIMARY KEY (subject, kind, family)) STRICT;
   CREATE TABLE oracle_statistics (
@@ -41,6 +41,9 @@ constexpr const char* schema = R"sql(
     step TEXT NOT NULL, kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), pairs TEXT NOT NULL,
     touching INTEGER NOT NULL, finding_ns INTEGER NOT NULL, deciding_ns INTEGER NOT NULL,
     PRIMARY KEY (step, kind)) STRICT;
+  CREATE TABLE picture (
+    run INTEGER NOT NULL REFERENCES run, step TEXT NOT NULL, picture TEXT NOT NULL,
+    PRIMARY KEY (run, step)) STRICT;
   CREATE TABLE oracle (disagreements INTEGER NOT NULL, truth_mismatches INTEGER NOT NULL) STRICT;
   CREATE TABLE seen (
     what TEXT NOT NULL, subject TEXT NOT NULL, signature TEXT NOT NULL, times INTEGER NOT NULL,
@@ -91,8 +94,8 @@ void make_tables(SQLite::Database& db) {
 }
 
 void write_statistics(SQLite::Database& db, const Statistics& statistics) {
-  SQLite::Statement insert(db,
-                           "INSERT OR REPLACE INTO statistics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  SQLite::Statement insert(
+      db, "INSERT OR REPLACE INTO statistics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const auto& [key, c] : statistics.counts) {
     int i = 0;
     insert.bind(++i, key.subject);
@@ -103,6 +106,7 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
       insert.bind(++i, stored(n));
     insert.bind(++i, json(c.true_by_stage).dump());
     insert.bind(++i, json(c.false_by_stage).dump());
+    insert.bind(++i, json(c.rejected_by).dump());
     insert.bind(++i, json(c.distances.bins).dump());
     insert.bind(++i, far_json(c.farthest).dump());
     insert.bind(++i, json(c.faults).dump());
@@ -185,6 +189,17 @@ void write_findings(SQLite::Database& db, std::int64_t run, std::span<const Find
   }
 }
 
+void write_pictures(SQLite::Database& db, std::int64_t run, std::span<const ScenePicture> pictures) {
+  SQLite::Statement insert(db, "INSERT OR REPLACE INTO picture VALUES (?,?,?)");
+  for (const ScenePicture& picture : pictures) {
+    insert.bind(1, run);
+    insert.bind(2, picture.step);
+    insert.bind(3, picture.json);
+    insert.exec();
+    insert.reset();
+  }
+}
+
 void write_part(SQLite::Database& db, std::int64_t run, const Part& part) {
   SQLite::Statement insert(db, "INSERT OR REPLACE INTO part VALUES (?,?,?,?,?,?,?,?,?)");
   int i = 0;
@@ -258,6 +273,7 @@ void read_counts(SQLite::Database& db, const std::string& where, Statistics& sta
       *n = count(rows.getColumn(++i));
     json::parse(rows.getColumn(++i).getString()).get_to(c.true_by_stage);
     json::parse(rows.getColumn(++i).getString()).get_to(c.false_by_stage);
+    json::parse(rows.getColumn(++i).getString()).get_to(c.rejected_by);
     json::parse(rows.getColumn(++i).getString()).get_to(c.distances.bins);
     c.farthest = far_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
     json::parse(rows.getColumn(++i).getString()).get_to(c.faults);
@@ -341,6 +357,15 @@ void read_findings(SQLite::Database& db, const std::string& where, const RunInde
   }
 }
 
+void read_pictures(SQLite::Database& db, const RunIndex& index, Campaign& campaign) {
+  SQLite::Statement pictures(db, "SELECT * FROM picture ORDER BY run, step");
+  while (pictures.executeStep()) {
+    const json content = json::parse(pictures.getColumn(2).getString());  // throws where it is none
+    campaign.runs.at(index.at(pictures.getColumn(0).getInt64()))
+        .pictures.push_back({pictures.getColumn(1).getString(), content.dump()});
+  }
+}
+
 }  // namespace
 
 Campaign read_campaign(SQLite::Database& db, const std::string& where) {
@@ -352,6 +377,7 @@ Campaign read_campaign(SQLite::Database& db, const std::string& where) {
   read_funnels(db, where, campaign.statistics);
   read_seen(db, where, campaign.statistics);
   read_findings(db, where, index, campaign);
+  read_pictures(db, index, campaign);
   return campaign;
 }
 

@@ -12,7 +12,7 @@
 namespace nearmiss {
 
 /// Of the tables; any change of them, or of what stands in them, raises it.
-inline constexpr int schema_version = 8;
+inline constexpr int schema_version = 9;
 
 /// Makes the tables in an empty database.
 void make_tables(SQLite::Database& db);
@@ -28,6 +28,9 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics);
 
 /// Adds findings of a run, behind those that are there.
 void write_findings(SQLite::Database& db, std::int64_t run, std::span<const Finding> findings);
+
+/// Adds pictures of a run.
+void write_pictures(SQLite::Database& db, std::int64_t run, std::span<const ScenePicture> pictures);
 
 /// Everything. Throws Error, with `where`, for a value that no store has; and what SQLite and the JSON library
 /// throw.

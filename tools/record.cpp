@@ -113,6 +113,10 @@ void Record::add(TrialResult&& result, std::uint64_t rounds) {
   if (Clock::now() - last_save_ >= save_interval) save();
 }
 
+void Record::add(const ScenePicture& picture) {
+  if (store_) store_->add(picture);
+}
+
 void Record::save() {
   part_.seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
   part_.cases = statistics_.oracle_total().queries;
@@ -125,9 +129,10 @@ void Record::save() {
 int Record::finish(bool interrupted, bool complete) {
   part_.complete = complete;
   save();
-  const Campaign campaign{{{info_, {part_}, findings_}}, statistics_};
+  const Campaign campaign{{{info_, {part_}, findings_, {}}}, statistics_};
   if (!options_.json.empty()) replace_file(options_.json, summary_json(campaign).dump(2) + "\n");
-  fmt::print("{}{}{}", summary_table(statistics_), sweep_tables(statistics_), funnel_tables(statistics_));
+  fmt::print("{}{}{}", options_.summary ? summary_table(statistics_) : "", sweep_tables(statistics_),
+             funnel_tables(statistics_));
   const auto findings = campaign.findings();
   if (!findings.empty()) fmt::print("\nthe first findings:\n");
   for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)

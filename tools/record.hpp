@@ -18,6 +18,7 @@ namespace nearmiss::tools {
 struct RecordOptions {
   std::filesystem::path json, db;
   bool quiet = false;   ///< says nothing of progress
+  bool summary = true;  ///< prints how the subjects did
   bool resume = false;  ///< goes on with what `db` holds of the same run and part, where there is such a file
 
   void add_to(CLI::App& command);
@@ -42,6 +43,8 @@ class Record {
 
   /// Adds a result to what is held; saved now and then. A campaign says how many of its rounds are done.
   void add(TrialResult&& result, std::uint64_t rounds = 0);
+  /// Keeps a picture, where there is a store.
+  void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
   /// Saves, writes the JSON file, prints the summary and the first findings, and gives the exit code.

@@ -1,8 +1,8 @@
 // nearmiss scene: what the pairs of a moving mesh need, and what becomes of them.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 
 #include "ccd/error.hpp"
@@ -10,10 +10,9 @@
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/scene.hpp"
+#include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
 #include "fuzz/subjects.hpp"
-#include "fuzz/trial_stream.hpp"
-#include "reports/funnel.hpp"
 #include "reports/shell.hpp"
 #include "reports/summary.hpp"
 #include "tools/commands.hpp"
@@ -111,8 +110,13 @@ class Export {
       files_[kind] = {name, std::ofstream(name)};
     }
   }
-  void add(const Query& query) {
-    if (!files_.empty()) files_[query.kind].second << to_line(query) << '\n';
+  /// Writes the pairs of a step that are asked.
+  void add_all(const MovingMesh& mesh, LeaveOut leave_out, const std::atomic<bool>& stop) {
+    if (files_.empty()) return;
+    const auto write = [&](const Pairs& pairs) {
+      for (const Query& query : pairs.queries) files_[pairs.kind].second << to_line(query) << '\n';
+    };
+    follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.load(); });
   }
   /// Throws Error where not everything could be written. An empty file is removed.
   void finish() {
@@ -131,6 +135,8 @@ class Export {
 int run(const Options& given) {
   const auto& stop = interrupted();
   Options options = given;
+  if (options.plan_only) options.trial.subjects = {"wang"};
+  options.record.summary = !options.plan_only;
   options.trial.make_subjects();  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
@@ -152,40 +158,32 @@ int run(const Options& given) {
   Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
   Export exported(options.export_to);
   Verification verification;
+  std::chrono::duration<double> asking{};
   {
     Progress progress(options.record.quiet);
-    TrialStream stream(subjects, options.trial.comparison, options.trial.jobs, stop,
-                       [&](TrialResult&& result) { record.add(std::move(result)); });
+    SceneTrial trial(subjects, options.trial.comparison, options.trial.jobs, stop,
+                     [&](TrialResult&& result) { record.add(std::move(result)); });
     for (std::size_t step = 0; step < scene.steps() && !stop; ++step) {
       const MovingMesh mesh = moving_mesh(scene, step);
-      const std::string name = step_name(scene, step);
-      std::uint64_t asked = 0;
-      const auto ask = [&](const Candidate& candidate, const Query& query) {
-        ++asked;
-        exported.add(query);
-        if (!options.plan_only)
-          stream.add(name, query, std::nullopt, [&name, candidate] {
-            return fmt::format("{}:{}:{}", name, short_name(candidate.kind),
-                               fmt::join(candidate.vertices, ","));
-          });
+      const auto show = [&](const std::string& what, double part) {
         if (progress.due())
           progress.show(
-              fmt::format("step {} of {}: {} pairs asked, {} false negatives", step + 1, scene.steps(),
-                          with_separators(asked), with_separators(record.statistics().false_negatives())),
-              static_cast<double>(step) / static_cast<double>(scene.steps()));
+              fmt::format("{}{}: {} false negatives", what,
+                          scene.steps() == 1 ? "" : fmt::format(" step {} of {}", step + 1, scene.steps()),
+                          with_separators(record.statistics().false_negatives())),
+              (static_cast<double>(step) + part) / static_cast<double>(scene.steps()));
       };
-      TrialResult plan;
-      for (auto& [kind, funnel] : follow_plan(mesh, leave_out, ask, {}, [&] { return stop.load(); }))
-        plan.statistics.funnels[{name, kind}] = funnel;
-      stream.finish();
-      record.add(std::move(plan));
+      exported.add_all(mesh, leave_out, stop);
+      const auto start = std::chrono::steady_clock::now();
+      trial.hold(step_name(scene, step), mesh, leave_out, [&](double part) { show("asking", part); });
+      asking += std::chrono::steady_clock::now() - start;
       if (options.verify_plan)
-        verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double done) {
-          if (progress.due())
-            progress.show(fmt::format("verifying step {} of {}", step + 1, scene.steps()), done);
+        verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
+          show("verifying", part);
           return !stop;
         }));
     }
+    if (trial.picture()) record.add(*trial.picture());
   }
   exported.finish();
   const MovingMesh mesh = moving_mesh(scene, 0);
@@ -196,7 +194,10 @@ int run(const Options& given) {
              counted(bodies(scene.mesh).count, "body", "bodies"));
   const int code = record.finish(stop, !stop);
   if (!options.verify_plan || stop) return code;
-  fmt::print("\n{}", describe(verification));
+  fmt::print(
+      "\n{}following the plan took {:.3g} s; asking about all that it leaves out {:.3g} s, {:.3g} times as "
+      "long\n",
+      describe(verification), asking.count(), verification.seconds, verification.seconds / asking.count());
   return verification.fine() ? code : exit_found;
 }
 
@@ -236,7 +237,7 @@ void add_scene(CLI::App& app, int& exit_code) {
       ->type_name("H");
   command->add_flag("--weld", options->weld, "Make points that are in one place at the first frame one");
   command->add_flag("--plan-only", options->plan_only,
-                    "Ask no subject, say only what would be left out and why");
+                    "Say only what is left out and why, and what wang and the oracle need for the rest");
   command->add_flag(
       "--verify-plan", options->verify_plan,
       "Ask the oracle about everything that is left out too; exit code 1 where a collision is lost");

@@ -17,11 +17,11 @@ namespace {
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
 /// The boxes that primitives sweep; a box's info is the primitive's number.
-template <class Primitives, class Vertices>
-std::vector<Box> swept_boxes(const MovingMesh& mesh, const Primitives& primitives, const Vertices& vertices) {
+template <class Vertices>
+std::vector<Box> swept_boxes(const MovingMesh& mesh, std::size_t count, const Vertices& vertices) {
   std::vector<Box> boxes;
-  boxes.reserve(primitives.size());
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
+  boxes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
     CGAL::Bbox_3 bounds;
     for (const int vertex : vertices(i)) {
       const auto v = static_cast<std::size_t>(vertex);
@@ -33,9 +33,50 @@ std::vector<Box> swept_boxes(const MovingMesh& mesh, const Primitives& primitive
   return boxes;
 }
 
-}  // namespace
+/// Brings boxes that are near each other together: borders[i] to borders[i + 1] is a part.
+class Parts {
+ public:
+  explicit Parts(std::vector<Box>& boxes)
+      : boxes_(boxes), most_(std::clamp(boxes.size() / 64, smallest, largest)) {
+    split(0, boxes.size());
+    borders_.push_back(boxes.size());
+  }
+  std::vector<std::size_t> borders() && { return std::move(borders_); }
 
-namespace {
+ private:
+  // Each part looks at the boxes of all others once, which large meshes need few of.
+  static constexpr std::size_t smallest = 256;
+  static constexpr std::size_t largest = 16384;
+
+  [[nodiscard]] auto begin(std::size_t i) const { return boxes_.begin() + static_cast<std::ptrdiff_t>(i); }
+
+  /// In the middle of what is longest, until a part is small enough.
+  void split(std::size_t first, std::size_t end) {
+    const auto in_order = [](int d) {
+      return [d](const Box& a, const Box& b) {
+        return a.min_coord(d) != b.min_coord(d) ? a.min_coord(d) < b.min_coord(d) : a.info() < b.info();
+      };
+    };
+    if (end - first <= most_) {
+      borders_.push_back(first);
+      std::sort(begin(first), begin(end), [](const Box& a, const Box& b) { return a.info() < b.info(); });
+      return;
+    }
+    CGAL::Bbox_3 all;
+    std::for_each(begin(first), begin(end), [&](const Box& box) { all += box.bbox(); });
+    int longest = 0;
+    for (const int d : {1, 2})
+      if (all.max(d) - all.min(d) > all.max(longest) - all.min(longest)) longest = d;
+    const std::size_t middle = first + (end - first) / 2;
+    std::nth_element(begin(first), begin(middle), begin(end), in_order(longest));
+    split(first, middle);
+    split(middle, end);
+  }
+
+  std::vector<Box>& boxes_;
+  std::size_t most_;
+  std::vector<std::size_t> borders_;
+};
 
 /// The pair of vertex v and triangle t, or of edges i and j; nothing where they have a vertex in common.
 std::optional<Candidate> vertex_triangle(const MovingMesh& mesh, std::size_t v, std::size_t t) {
@@ -58,7 +99,7 @@ struct Stopped {};
 /// Passes pairs on and counts those with a common vertex.
 class Passer {
  public:
-  Passer(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const std::function<bool()>& stop)
+  Passer(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop)
       : mesh_(mesh), kind_(kind), sink_(sink), stop_(stop) {}
 
   void pass(std::size_t i, std::size_t j) {
@@ -77,34 +118,78 @@ class Passer {
   const MovingMesh& mesh_;
   Kind kind_;
   const CandidateSink& sink_;
-  const std::function<bool()>& stop_;
+  const Stop& stop_;
   std::uint64_t passed_ = 0;
   std::uint64_t sharing_ = 0;
 };
 
-/// The boxes of the two sides of a kind; of edges one side.
-std::pair<std::vector<Box>, std::vector<Box>> boxes_of(const MovingMesh& mesh, Kind kind) {
-  if (kind == Kind::edge_edge)
-    return {swept_boxes(mesh, mesh.edges, [&](std::size_t i) { return mesh.edges[i]; }), {}};
-  return {swept_boxes(mesh, mesh.start, [](std::size_t i) { return std::array{static_cast<int>(i)}; }),
-          swept_boxes(mesh, mesh.triangles, [&](std::size_t i) { return mesh.triangles[i]; })};
-}
-
 }  // namespace
 
-std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                              const std::function<bool()>& stop) {
-  Passer passer(mesh, kind, sink, stop);
-  auto [first, second] = boxes_of(mesh, kind);
-  const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };
-  try {
-    if (kind == Kind::vertex_triangle)
-      CGAL::box_intersection_d(first.begin(), first.end(), second.begin(), second.end(), pass);
-    else
-      CGAL::box_self_intersection_d(first.begin(), first.end(), pass);
-  } catch (const Stopped&) {
+/// Triangles or edges, in parts, and the vertices.
+class CandidateFinder::Boxes {
+ public:
+  Boxes(const MovingMesh& mesh, Kind kind) : mesh_(mesh), kind_(kind) {
+    if (kind == Kind::edge_edge) {
+      own_ = swept_boxes(mesh, mesh.edges.size(), [&](std::size_t i) { return mesh.edges[i]; });
+    } else {
+      own_ = swept_boxes(mesh, mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i]; });
+      others_ =
+          swept_boxes(mesh, mesh.start.size(), [](std::size_t i) { return std::array{static_cast<int>(i)}; });
+    }
+    borders_ = Parts(own_).borders();
   }
-  return passer.sharing();
+
+  [[nodiscard]] std::size_t parts() const { return borders_.size() - 1; }
+
+  std::uint64_t find(std::size_t part, const CandidateSink& sink, const Stop& stop) const {
+    const auto at = [](const std::vector<Box>& boxes, std::size_t i) {
+      return boxes.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::vector<Box> own(at(own_, borders_[part]), at(own_, borders_[part + 1]));
+    CGAL::Bbox_3 all;
+    for (const Box& box : own) all += box.bbox();
+    std::vector<Box> near;
+    const auto is_near = [&](const Box& box) { return CGAL::do_overlap(all, box.bbox()); };
+    if (kind_ == Kind::edge_edge)  // of two parts the one in front finds what is between them
+      std::copy_if(at(own_, borders_[part + 1]), own_.end(), std::back_inserter(near), is_near);
+    else
+      std::copy_if(others_.begin(), others_.end(), std::back_inserter(near), is_near);
+
+    Passer passer(mesh_, kind_, sink, stop);
+    const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };
+    try {
+      if (kind_ == Kind::edge_edge) CGAL::box_self_intersection_d(own.begin(), own.end(), pass);
+      CGAL::box_intersection_d(near.begin(), near.end(), own.begin(), own.end(), pass);
+    } catch (const Stopped&) {
+    }
+    return passer.sharing();
+  }
+
+ private:
+  const MovingMesh& mesh_;
+  Kind kind_;
+  std::vector<Box> own_, others_;
+  std::vector<std::size_t> borders_;
+};
+
+CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind)
+    : boxes_(std::make_unique<const Boxes>(mesh, kind)) {}
+CandidateFinder::CandidateFinder(CandidateFinder&&) noexcept = default;
+CandidateFinder::~CandidateFinder() = default;
+
+std::size_t CandidateFinder::parts() const { return boxes_->parts(); }
+
+std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink, const Stop& stop) const {
+  return boxes_->find(part, sink, stop);
+}
+
+std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
+                              const Stop& stop) {
+  const CandidateFinder finder(mesh, kind);
+  std::uint64_t sharing = 0;
+  for (std::size_t part = 0; part < finder.parts() && !stop(); ++part)
+    sharing += finder.find(part, sink, stop);
+  return sharing;
 }
 
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink) {
@@ -112,7 +197,7 @@ void find_candidates(const MovingMesh& mesh, const CandidateSink& sink) {
 }
 
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                                       const std::function<bool()>& stop) {
+                                       const Stop& stop) {
   struct Swept {
     std::array<double, 3> lo, hi;
     std::size_t info;
@@ -163,13 +248,15 @@ std::size_t pair_rows(const MovingMesh& mesh, Kind kind) {
   return kind == Kind::edge_edge ? mesh.edges.size() : mesh.start.size();
 }
 
-std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row,
-                               const CandidateSink& sink) {
-  const std::function<bool()> never = [] { return false; };
-  Passer passer(mesh, kind, sink, never);
+std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
+                               const Stop& stop) {
+  Passer passer(mesh, kind, sink, stop);
   const bool of_edges = kind == Kind::edge_edge;
   const std::size_t end = of_edges ? mesh.edges.size() : mesh.triangles.size();
-  for (std::size_t i = of_edges ? row + 1 : 0; i < end; ++i) passer.pass(row, i);
+  try {
+    for (std::size_t i = of_edges ? row + 1 : 0; i < end; ++i) passer.pass(row, i);
+  } catch (const Stopped&) {
+  }
   return passer.sharing();
 }
 

@@ -22,47 +22,120 @@ std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
+/// Takes the pairs of one part, and deals with them when there are enough for a batch.
+class Dealer {
+ public:
+  Dealer(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
+         const DecidedSink& decided)
+      : mesh_(mesh), leave_out_(leave_out), ask_(ask), decided_(decided) {
+    asked_.kind = kind;
+  }
+
+  void take(const Candidate& candidate) {
+    found_.push_back(candidate);
+    if (found_.size() == batch_pairs) deal();
+  }
+
+  /// The time that this took, which is not that of finding.
+  [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
+  [[nodiscard]] Funnel finish() {
+    deal();
+    return funnel_;
+  }
+
+ private:
+  static constexpr std::size_t batch_pairs = 1000;
+
+  void deal() {
+    const auto start = Clock::now();
+    for (const Candidate& candidate : found_) {
+      const Query query = make_query(mesh_, candidate);
+      const auto [what, collides] =
+          leave_out_ == LeaveOut::all ? fate(query) : std::pair(PairFate::asked, false);
+      ++funnel_[what];
+      funnel_.touching += collides ? 1 : 0;
+      if (what == PairFate::asked) {
+        asked_.candidates.push_back(candidate);
+        asked_.queries.push_back(query);
+      } else if (decided_) {
+        decided_(candidate, query, what, collides);
+      }
+    }
+    funnel_.deciding_ns += since(start);
+    if (!asked_.candidates.empty()) ask_(asked_);
+    found_.clear();
+    asked_.candidates.clear();
+    asked_.queries.clear();
+    nanoseconds_ += since(start);
+  }
+
+  const MovingMesh& mesh_;
+  LeaveOut leave_out_;
+  const AskSink& ask_;
+  const DecidedSink& decided_;
+  std::vector<Candidate> found_;
+  Pairs asked_;
+  Funnel funnel_;
+  std::uint64_t nanoseconds_ = 0;
+};
+
 }  // namespace
 
-Funnels follow_plan(const MovingMesh& mesh, LeaveOut leave_out,
-                    const std::function<void(const Candidate&, const Query&)>& ask,
-                    const DecidedSink& decided, const std::function<bool()>& stop) {
-  Funnels funnels;
+std::pair<PairFate, bool> fate(const Query& query) {
+  const RelativeMotion motion = relative_motion(query);
+  if (motion == RelativeMotion::other) return {PairFate::asked, false};
+  const auto meets = meets_by_translation(query);
+  if (!meets) return {PairFate::asked, false};
+  return {motion == RelativeMotion::rest ? PairFate::at_rest : PairFate::in_translation, *meets};
+}
+
+Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out) : mesh_(mesh), leave_out_(leave_out) {
   for (const Kind kind : kinds) {
-    Funnel& funnel = funnels[kind];
-    std::uint64_t asking_ns = 0;  // of others, and not of finding
-    const auto take = [&](const Candidate& candidate) {
-      const auto start = Clock::now();
-      const Query query = make_query(mesh, candidate);
-      const auto fate_and_answer = [&]() -> std::pair<PairFate, bool> {
-        if (leave_out != LeaveOut::all) return {PairFate::asked, false};
-        const RelativeMotion motion = relative_motion(query);
-        if (motion == RelativeMotion::other) return {PairFate::asked, false};
-        const auto meets = meets_by_translation(query);
-        if (!meets) return {PairFate::asked, false};
-        return {motion == RelativeMotion::rest ? PairFate::at_rest : PairFate::in_translation, *meets};
-      };
-      const auto [fate, collides] = fate_and_answer();
-      ++funnel[fate];
-      funnel.touching += collides ? 1 : 0;
-      funnel.deciding_ns += since(start);
-      if (fate == PairFate::asked)
-        ask(candidate, query);
-      else if (decided)
-        decided(candidate, query, fate, collides);
-      asking_ns += since(start);
-    };
     const auto start = Clock::now();
-    const std::uint64_t all = all_pairs(mesh, kind);
-    if (leave_out == LeaveOut::nothing)
-      for (std::size_t row = 0; row < pair_rows(mesh, kind) && !stop(); ++row)
-        funnel[PairFate::share_vertex] += for_pairs_of_row(mesh, kind, row, take);
-    else
-      funnel[PairFate::share_vertex] = find_candidates(mesh, kind, take, stop);
-    funnel.finding_ns = since(start) - asking_ns;
-    funnel[PairFate::boxes_apart] = stop() ? 0 : all - funnel.all();
+    if (leave_out != LeaveOut::nothing) finders_.emplace(kind, CandidateFinder(mesh, kind));
+    making_ns_[kind] = since(start);
+    const std::size_t count =
+        leave_out == LeaveOut::nothing ? pair_rows(mesh, kind) : finders_.at(kind).parts();
+    for (std::size_t i = 0; i < count; ++i) parts_.emplace_back(kind, i);
   }
-  return funnels;
+}
+
+Funnels Plan::follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
+                     const Stop& stop) const {
+  const auto [kind, number] = parts_[part];
+  Dealer dealer(mesh_, kind, leave_out_, ask, decided);
+  const CandidateSink take = [&](const Candidate& candidate) { dealer.take(candidate); };
+  const auto start = Clock::now();
+  const std::uint64_t sharing = leave_out_ == LeaveOut::nothing
+                                    ? for_pairs_of_row(mesh_, kind, number, take, stop)
+                                    : finders_.at(kind).find(number, take, stop);
+  const std::uint64_t finding_ns = since(start) - dealer.nanoseconds();
+  Funnel funnel = dealer.finish();
+  funnel[PairFate::share_vertex] = sharing;
+  funnel.finding_ns = finding_ns;
+  return {{kind, funnel}};
+}
+
+Funnels Plan::rest(const Funnels& parts) const {
+  Funnels rest;
+  for (const Kind kind : kinds) {
+    const auto found = parts.find(kind);
+    rest[kind][PairFate::boxes_apart] =
+        all_pairs(mesh_, kind) - (found == parts.end() ? 0 : found->second.all());
+    rest[kind].finding_ns = making_ns_.at(kind);
+  }
+  return rest;
+}
+
+Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const Stop& stop) {
+  Funnels sum;
+  const auto add = [&](const Funnels& funnels) {
+    for (const auto& [kind, funnel] : funnels) sum[kind].merge(funnel);
+  };
+  for (std::size_t part = 0; part < plan.parts() && !stop(); ++part)
+    add(plan.follow(part, ask, decided, stop));
+  if (!stop()) add(plan.rest(sum));
+  return sum;
 }
 
 }  // namespace nearmiss

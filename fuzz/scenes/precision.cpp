@@ -31,13 +31,17 @@ std::vector<Precision> precisions(const Scene& scene, LeaveOut leave_out, const 
   std::vector<Precision> found;
   for (const auto& subject : subjects) found.push_back({.subject = subject->name()});
   std::vector<Query> sample;
-  const auto look = [&](const Candidate&, const Query& query) {
-    if (sample.size() < timed_pairs) sample.push_back(query);
-    for (std::size_t i = 0; i < subjects.size(); ++i)
-      found[i].claimed = std::max(found[i].claimed, subjects[i]->distance_bound(query));
+  const auto look = [&](const Pairs& pairs) {
+    for (const Query& query : pairs.queries) {
+      if (sample.size() < timed_pairs) sample.push_back(query);
+      for (std::size_t i = 0; i < subjects.size(); ++i)
+        found[i].claimed = std::max(found[i].claimed, subjects[i]->distance_bound(query));
+    }
   };
-  for (std::size_t step = 0; step < scene.steps() && !stop(); ++step)
-    follow_plan(moving_mesh(scene, step), leave_out, look, {}, stop);
+  for (std::size_t step = 0; step < scene.steps() && !stop(); ++step) {
+    const MovingMesh mesh = moving_mesh(scene, step);
+    follow_plan(Plan(mesh, leave_out), look, {}, stop);
+  }
   for (std::size_t i = 0; i < subjects.size() && !stop(); ++i)
     found[i].ns_per_query = quickest_ns(*subjects[i], sample);
   return found;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <vector>
 
@@ -33,45 +34,31 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Pairs that are left out, decided a batch at a time.
-class Check {
- public:
-  explicit Check(const Subjects& subjects) : subjects_(subjects) {}
-
-  void take(const Query& query) {
-    const bool boxes = boxes_meet(query);
-    std::optional<bool> answer;
-    if (boxes && relative_motion(query) != RelativeMotion::other) answer = meets_by_translation(query);
-    if (boxes && !answer) return;  // it is asked
-    queries_.push_back(query);
-    expected_.push_back(answer.value_or(false));
-    if (queries_.size() == 4096) decide_all();
-    if (answer && !*answer)
-      for (const auto& subject : subjects_)
-        found_.spared[subject->name()] += subject->decide(query).hit ? 1 : 0;
+/// Asks about those of some pairs that are left out.
+Verification verify(const Pairs& pairs, const Subjects& subjects) {
+  std::vector<Query> queries;
+  std::vector<bool> expected;
+  for (const Query& query : pairs.queries) {
+    const auto [what, collides] = boxes_meet(query) ? fate(query) : std::pair(PairFate::boxes_apart, false);
+    if (what == PairFate::asked) continue;
+    queries.push_back(query);
+    expected.push_back(collides);
   }
-
-  Verification finish() {
-    decide_all();
-    return std::move(found_);
+  Verification found;
+  found.left_out = queries.size();
+  std::vector<Decision> decisions(queries.size());
+  decide(queries, decisions);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    found.wrong += decisions[i].collision != expected[i] ? 1 : 0;
+  std::vector<Verdict> verdicts(queries.size());
+  for (const auto& subject : subjects) {
+    subject->decide(queries, verdicts);
+    std::uint64_t& spared = found.spared[subject->name()];
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      spared += verdicts[i].hit && !decisions[i].collision ? 1 : 0;
   }
-
- private:
-  void decide_all() {
-    std::vector<Decision> decisions(queries_.size());
-    decide(queries_, decisions);
-    for (std::size_t i = 0; i < queries_.size(); ++i)
-      found_.wrong += decisions[i].collision != expected_[i] ? 1 : 0;
-    found_.left_out += queries_.size();
-    queries_.clear();
-    expected_.clear();
-  }
-
-  const Subjects& subjects_;
-  std::vector<Query> queries_;
-  std::vector<bool> expected_;
-  Verification found_;
-};
+  return found;
+}
 
 }  // namespace
 
@@ -79,6 +66,7 @@ void Verification::merge(const Verification& other) {
   left_out += other.left_out;
   wrong += other.wrong;
   different_searches += other.different_searches;
+  seconds += other.seconds;
   for (const auto& [subject, count] : other.spared) spared[subject] += count;
 }
 
@@ -95,20 +83,23 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
     find_candidates_by_sweep(
         mesh, kind, [&](const Candidate& each) { by_sweep.add(each); }, stopped);
     sum.different_searches += by_boxes == by_sweep ? 0 : 1;
-
-    const std::size_t rows = pair_rows(mesh, kind);
-    std::mutex mutex;
-    std::size_t done = 0;
-    in_parallel(jobs, rows, [&](std::size_t row) {
-      if (stop) return;
-      Check check(subjects);
-      for_pairs_of_row(mesh, kind, row, [&](const Candidate& each) { check.take(make_query(mesh, each)); });
-      const std::lock_guard lock(mutex);
-      sum.merge(check.finish());
-      const double part = static_cast<double>(++done) / static_cast<double>(rows);
-      if (!progress(kind == kinds[0] ? part / 2 : 0.5 + part / 2)) stop = true;
-    });
   }
+
+  const auto start = std::chrono::steady_clock::now();
+  const Plan everything(mesh, LeaveOut::nothing);
+  std::mutex mutex;
+  std::size_t done = 0;
+  in_parallel(jobs, everything.parts(), [&](std::size_t part) {
+    if (stop) return;
+    Verification found;
+    everything.follow(
+        part, [&](const Pairs& pairs) { found.merge(verify(pairs, subjects)); }, {},
+        [&] { return stop.load(); });
+    const std::lock_guard lock(mutex);
+    sum.merge(found);
+    if (!progress(static_cast<double>(++done) / static_cast<double>(everything.parts()))) stop = true;
+  });
+  sum.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sum;
 }
 

@@ -38,6 +38,31 @@ TEST_P(EveryWang, ReportsEdgesThatCross) {
   EXPECT_NEAR(verdict.time, 0.25, 1e-9);
 }
 
+TEST(Wang, TellsWhatRejectedAPair) {
+  const auto miss = [](const char* name, const Query& query) {
+    return make_subject(name)->decide(query).miss;
+  };
+  const Query above = falling_vertex(0.25, 0.25, 2, 1);
+  EXPECT_EQ(miss("wang", above), Miss::planes);
+  EXPECT_EQ(miss("wang-plain", above), Miss::tests);
+  EXPECT_EQ(miss("basic-plain", above), Miss::no_root);
+
+  const Vector3<double> o(0, 0, 0);
+  const Vector3<double> a(1, 0, 0), b(0, 2, 0);
+  const Query beside =
+      make_query(Kind::vertex_triangle, {{0.6, 1, 0.25}, o, a, b}, {{0.6, 1, -0.25}, o, a, b});
+  EXPECT_EQ(miss("wang", beside), Miss::culled);
+  EXPECT_EQ(miss("wang-plain", beside), Miss::tests);
+  EXPECT_EQ(miss("basic", beside), Miss::tests);
+
+  const Vector3<double> c(1, 0, 1), d(0, 2, 2);
+  const Query above_slope =
+      make_query(Kind::vertex_triangle, {{0.5, 0.5, 1.9}, o, c, d}, {{0.5, 0.5, 1.2}, o, c, d});
+  EXPECT_EQ(miss("wang", above_slope), Miss::no_root);
+  EXPECT_EQ(miss("wang-plain", above_slope), Miss::tests);
+  EXPECT_EQ(miss("wang", falling_vertex(0.25, 0.25, 1, -1)), Miss::untold);
+}
+
 TEST_P(EveryWang, ReportsContactAtTheStart) {
   EXPECT_TRUE(decide(falling_vertex(0.25, 0.25, 0, 1)).hit);
   EXPECT_TRUE(decide(falling_edge(0, 1)).hit);

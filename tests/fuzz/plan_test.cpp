@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "fuzz/random.hpp"
 #include "fuzz/scenes/precision.hpp"
+#include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
+#include "fuzz/subjects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -34,6 +37,28 @@ MovingMesh bodies(std::uint64_t seed) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
+/// Two square grids of n × n fields, one above the other, the upper one falling through the lower one.
+MovingMesh grids(int n) {
+  Mesh mesh;
+  std::vector<Vector3<double>> end;
+  Random random(1, 0, 0);
+  for (const double height : {0.0, 0.25}) {
+    const int first = static_cast<int>(mesh.points.size());
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        mesh.points.emplace_back(i, j, height + random.uniform(-0.125, 0.125));
+        end.emplace_back(i, j, random.uniform(-0.125, 0.125) - height);
+      }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const int corner = first + i * (n + 1) + j;
+        mesh.triangles.push_back({corner, corner + 1, corner + n + 1});
+        mesh.triangles.push_back({corner + 1, corner + n + 2, corner + n + 1});
+      }
+  }
+  return make_moving_mesh(std::move(mesh), std::move(end));
+}
+
 constexpr auto never = [] { return false; };
 
 struct Outcomes {
@@ -44,9 +69,10 @@ struct Outcomes {
 Outcomes run(const MovingMesh& mesh, LeaveOut leave_out) {
   Outcomes result;
   result.funnels = follow_plan(
-      mesh, leave_out,
-      [&](const Candidate& candidate, const Query& query) {
-        if (collides(query)) result.colliding.insert(candidate);
+      Plan(mesh, leave_out),
+      [&](const Pairs& pairs) {
+        for (std::size_t i = 0; i < pairs.queries.size(); ++i)
+          if (collides(pairs.queries[i])) result.colliding.insert(pairs.candidates[i]);
       },
       [&](const Candidate& candidate, const Query&, PairFate, bool hit) {
         if (hit) result.colliding.insert(candidate);
@@ -75,6 +101,28 @@ TEST(Plan, LosesNoCollisionHoweverMuchIsLeftOut) {
       EXPECT_GT(all.funnels.at(kind).touching, 0);
     }
   }
+}
+
+TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
+  const MovingMesh mesh = grids(40);  // large enough for several parts of each kind
+  const Plan plan(mesh, LeaveOut::all);
+  ASSERT_GT(plan.parts(), 8);
+  std::multiset<Candidate> together;
+  const Funnels all = follow_plan(
+      plan, [&](const Pairs& pairs) { together.insert(pairs.candidates.begin(), pairs.candidates.end()); },
+      {}, never);
+  std::multiset<Candidate> alone;
+  Funnels sum;
+  for (std::size_t part = plan.parts(); part-- > 0;)
+    for (const auto& [kind, funnel] : plan.follow(
+             part,
+             [&](const Pairs& pairs) { alone.insert(pairs.candidates.begin(), pairs.candidates.end()); }, {},
+             never))
+      sum[kind].merge(funnel);
+  for (const auto& [kind, funnel] : plan.rest(sum)) sum[kind].merge(funnel);
+  EXPECT_GT(together.size(), 1000);
+  EXPECT_TRUE(alone == together);
+  for (const Kind kind : kinds) EXPECT_EQ(sum.at(kind).pairs, all.at(kind).pairs);
 }
 
 TEST(Plan, HairHasNoTrianglesAndPointsHaveNoEdges) {
@@ -108,15 +156,91 @@ TEST(Precision, IsTheLargestBoundOfAllPairs) {
   const auto found = precisions(scene, LeaveOut::all, subjects, never);
   double largest = 0;
   follow_plan(
-      mesh, LeaveOut::all,
-      [&](const Candidate&, const Query& query) {
-        largest = std::max(largest, subjects[0]->distance_bound(query));
+      Plan(mesh, LeaveOut::all),
+      [&](const Pairs& pairs) {
+        for (const Query& query : pairs.queries)
+          largest = std::max(largest, subjects[0]->distance_bound(query));
       },
       {}, never);
   ASSERT_EQ(found.size(), 1);
   EXPECT_GT(largest, 0);
   EXPECT_EQ(found[0].claimed, largest);
   EXPECT_GT(found[0].ns_per_query, 0);
+}
+
+/// A whole trial, with so many threads.
+struct Held {
+  TrialResult result;
+  std::optional<ScenePicture> picture;
+};
+
+Held hold(const MovingMesh& mesh, int jobs) {
+  Subjects subjects;
+  for (const char* name : {"basic", "wang", "defect:lambda2*0.1"}) subjects.push_back(make_any_subject(name));
+  const std::atomic<bool> stop = false;
+  Held held;
+  SceneTrial trial(subjects, {.one_in = 16}, jobs, stop,
+                   [&](TrialResult&& result) { held.result.merge(std::move(result)); });
+  double done = 0;
+  trial.hold("scene:grids", mesh, LeaveOut::all, [&](double part) {
+    EXPECT_GT(part, done);
+    done = part;
+  });
+  EXPECT_EQ(done, 1);
+  held.picture = trial.picture();
+  for (auto& [key, counts] : held.result.statistics.counts) {
+    counts.nanoseconds = 0;
+    counts.times = {};
+    counts.slowest.clear();
+  }
+  for (auto& [key, funnel] : held.result.statistics.funnels) funnel.finding_ns = funnel.deciding_ns = 0;
+  return held;
+}
+
+TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
+  const MovingMesh mesh = grids(40);
+  const Held one = hold(mesh, 1);
+  const Held three = hold(mesh, 3);
+  EXPECT_EQ(one.result.statistics, three.result.statistics);
+  EXPECT_EQ(one.result.findings, three.result.findings);
+  ASSERT_TRUE(one.picture.has_value());
+  EXPECT_EQ(one.picture, three.picture);
+}
+
+TEST(SceneTrial, CountsWhatThePlanLeaves) {
+  const MovingMesh mesh = grids(12);
+  const Held held = hold(mesh, 2);
+  const Outcomes expected = run(mesh, LeaveOut::all);
+  std::uint64_t collisions = 0;
+  for (const Kind kind : kinds) {
+    const Funnel& funnel = held.result.statistics.funnels.at({"scene:grids", kind});
+    EXPECT_EQ(funnel.pairs, expected.funnels.at(kind).pairs);
+    const Counts& counts = held.result.statistics.counts.at({"wang", kind, "scene:grids"});
+    EXPECT_EQ(counts.queries, funnel[PairFate::asked]);
+    EXPECT_EQ(counts.false_negatives, 0);
+    collisions += counts.collisions + funnel.touching;
+  }
+  EXPECT_EQ(collisions, expected.colliding.size());
+}
+
+TEST(SceneTrial, ThePictureMarksWhatCollides) {
+  Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {8, 8, 8}}, {{0, 1, 2}}, {{3, 4}}};
+  const MovingMesh moving =
+      make_moving_mesh(std::move(mesh), {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {8, 8, 8}});
+  const auto picture = hold(moving, 1).picture;
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->step, "scene:grids");
+  const auto json = nlohmann::json::parse(picture->json);
+  EXPECT_EQ(json["meanings"].size(), 7);
+  EXPECT_EQ(json["figures"], 3);  // triangle, line, and the vertex that falls
+  ASSERT_EQ(json["triangles"].size(), 4);
+  EXPECT_EQ(json["triangles"][3].get<int>() & 1, 1);
+  ASSERT_EQ(json["dots"].size(), 2);
+  EXPECT_EQ(json["dots"][1].get<int>() & 1, 1);
+  EXPECT_EQ(json["lines"].size(), 3);
+  EXPECT_EQ(json["lines"][2], 0);
+  EXPECT_EQ(json["points"].size(), 6 * 5);
+  EXPECT_EQ(json["points"][6 * json["lines"][1].get<std::size_t>()], 8888);  // x = 8, where all is within 9
 }
 
 TEST(Plan, IsVerified) {

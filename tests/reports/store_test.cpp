@@ -29,7 +29,8 @@ Statistics some_statistics(const std::string& subject) {
              [] { return "uniform:1:1"; });
   counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
              [] { return "uniform:1:3"; });
-  counts.timed_queries = 2;
+  counts.add({.verdict = Verdict::rejected(Miss::culled)}, query, [] { return "uniform:1:5"; });
+  counts.timed_queries = 3;
   counts.nanoseconds = 99;
   OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
   oracle.queries = 2;
@@ -80,10 +81,14 @@ TEST_F(StoreTest, GivesBackWhatWasSaved) {
     Store store(file("a.db"), info, before);
     store.save({}, before, std::span(findings).first(1));
     store.save(some_statistics("wang"), part, std::span(findings).last(1));
+    store.add({"scene:cloth", R"({"points":[1,2]})"});
   }
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
-  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, findings}}));
+  const std::vector<ScenePicture> pictures{{"scene:cloth", R"({"points":[1,2]})"}};
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, findings, pictures}}));
+  write_campaign(campaign, file("copy.db"));
+  EXPECT_EQ(load_campaign(file("copy.db")).runs, campaign.runs);
 }
 
 TEST_F(StoreTest, CanBeReadWhileItIsWritten) {
@@ -110,14 +115,14 @@ TEST_F(StoreTest, GoesOn) {
   later.rounds = 78;
   Store(file("a.db")).save(some_statistics("wang"), later, std::span(&second, 1));
   const Campaign campaign = load_campaign(file("a.db"));
-  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {later}, {first, second}}}));
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {later}, {first, second}, {}}}));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
 }
 
 TEST_F(StoreTest, GoesOnWithOnePartOfOneRunOnly) {
   Part other = part;
   other.shard = 3;
-  write_campaign({{{info, {part, other}, {}}}, {}}, file("a.db"));
+  write_campaign({{{info, {part, other}, {}, {}}}, {}}, file("a.db"));
   EXPECT_THAT([&] { Store(file("a.db")); }, ThrowsMessage<Error>(HasSubstr("a.db: found several parts")));
   EXPECT_THAT([&] { Store(file("none.db")); }, ThrowsMessage<Error>(HasSubstr("none.db: unable to open")));
 }
@@ -198,7 +203,7 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 8")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 9")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

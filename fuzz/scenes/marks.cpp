@@ -1,0 +1,154 @@
+#include "fuzz/scenes/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::size_t most_figures = 8000;  // with a mark, and as many without
+constexpr std::size_t most_subjects = 15;   // bits of a mark: 1 + 2 * 15
+
+template <class Figure>
+std::uint32_t mark_of(const std::map<Figure, std::uint32_t>& marks, const Figure& figure) {
+  const auto found = marks.find(figure);
+  return found == marks.end() ? 0 : found->second;
+}
+
+std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Numbers the points that are shown, and gives their coordinates as integers.
+class Points {
+ public:
+  explicit Points(const MovingMesh& mesh) : mesh_(mesh), numbers_(mesh.start.size(), -1) {
+    for (const auto* points : {&mesh.start, &mesh.end})
+      for (const auto& p : *points) {
+        lo_ = lo_.cwiseMin(p);
+        hi_ = hi_.cwiseMax(p);
+      }
+    // In halves, since a difference may overflow.
+    scale_ = (hi_ / 2 - lo_ / 2).maxCoeff();
+  }
+
+  /// Adds a figure to a list: the numbers of its points, and its mark.
+  template <class Vertices>
+  void show(nlohmann::json& list, const Vertices& vertices, std::uint32_t mark) {
+    for (const int vertex : vertices) list.push_back(number(vertex));
+    list.push_back(mark);
+  }
+  nlohmann::json coordinates() && { return std::move(coordinates_); }
+
+ private:
+  int number(int vertex) {
+    int& number = numbers_[static_cast<std::size_t>(vertex)];
+    if (number < 0) {
+      number = count_++;
+      for (const auto* points : {&mesh_.start, &mesh_.end})
+        for (int k = 0; k < 3; ++k) {
+          const double part = ((*points)[static_cast<std::size_t>(vertex)][k] / 2 - lo_[k] / 2) / scale_;
+          coordinates_.push_back(scale_ > 0 ? std::lround(9999 * part) : 0);
+        }
+    }
+    return number;
+  }
+
+  const MovingMesh& mesh_;
+  Vector3<double> lo_ = Vector3<double>::Constant(std::numeric_limits<double>::infinity());
+  Vector3<double> hi_ = -lo_;
+  double scale_ = 0;
+  std::vector<int> numbers_;
+  int count_ = 0;
+  nlohmann::json coordinates_ = nlohmann::json::array();
+};
+
+/// Evenly, at most so many of the things of a list.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  std::vector<T> some;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+    some.push_back(all[all.size() <= most ? i : i * all.size() / most]);
+  return some;
+}
+
+/// A triangle, a line or a dot.
+struct Marked {
+  std::vector<int> vertices;
+  std::uint32_t mark;
+};
+
+}  // namespace
+
+void Marks::add(const Candidate& candidate, std::size_t subject, const Outcome& outcome) {
+  if (outcome.collision) add(candidate, 1);
+  if (subject >= most_subjects || outcome.verdict.fault != Fault::none) return;
+  if (outcome.verdict.hit != outcome.collision)
+    add(candidate, Mark{outcome.collision ? 2U : 1U} << (1 + 2 * subject));
+}
+
+void Marks::add(const Candidate& candidate, Mark mark) {
+  const auto& v = candidate.vertices;
+  if (candidate.kind == Kind::vertex_triangle) {
+    points_[v[0]] |= mark;
+    triangles_[{v[1], v[2], v[3]}] |= mark;
+  } else {
+    edges_[edge(v[0], v[1])] |= mark;
+    edges_[edge(v[2], v[3])] |= mark;
+  }
+}
+
+void Marks::merge(const Marks& other) {
+  for (const auto& [figure, mark] : other.triangles_) triangles_[figure] |= mark;
+  for (const auto& [figure, mark] : other.edges_) edges_[figure] |= mark;
+  for (const auto& [point, mark] : other.points_) points_[point] |= mark;
+}
+
+ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
+                            const std::vector<std::string>& subjects) const {
+  std::vector<Marked> marked;
+  std::vector<Marked> others;
+  const auto add_figure = [&](std::vector<int> vertices, Mark mark) {
+    (mark != 0 ? marked : others).push_back({std::move(vertices), mark});
+  };
+  std::vector<bool> in_figure(mesh.start.size());
+  std::set<std::array<int, 2>> of_triangles;
+  for (const auto& t : mesh.triangles) {
+    Mark mark = mark_of(triangles_, t);
+    for (const auto& side : {edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])}) {
+      mark |= mark_of(edges_, side);
+      of_triangles.insert(side);
+    }
+    add_figure({t.begin(), t.end()}, mark);
+    for (const int vertex : t) in_figure[static_cast<std::size_t>(vertex)] = true;
+  }
+  for (const auto& e : mesh.edges) {
+    if (!of_triangles.contains(e)) add_figure({e.begin(), e.end()}, mark_of(edges_, e));
+    for (const int vertex : e) in_figure[static_cast<std::size_t>(vertex)] = true;
+  }
+  for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)
+    if (const Mark mark = mark_of(points_, v); mark != 0 || !in_figure[static_cast<std::size_t>(v)])
+      add_figure({v}, mark);
+
+  nlohmann::json json;
+  json["figures"] = marked.size() + others.size();
+  json["meanings"] = {"collides"};
+  for (const std::string& subject : subjects)
+    for (const char* what : {"falsely reported by", "missed by"})
+      json["meanings"].push_back(fmt::format("{} {}", what, subject));
+  constexpr std::array lists{"dots", "lines", "triangles"};
+  for (const char* list : lists) json[list] = nlohmann::json::array();
+  Points points(mesh);
+  for (const std::vector<Marked>& some : {thinned(others, most_figures), thinned(marked, most_figures)})
+    for (const Marked& each : some)
+      points.show(json[lists[each.vertices.size() - 1]], each.vertices, each.mark);
+  json["points"] = std::move(points).coordinates();
+  return {step, json.dump()};
+}
+
+}  // namespace nearmiss
