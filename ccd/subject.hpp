@@ -126,9 +126,12 @@ struct SubjectInfo {
 /// The built-in subjects, in the order in which `nearmiss subjects` lists them.
 std::vector<SubjectInfo> subjects();
 
+/// Behind the name of a subject that takes a scene's bound for that of each pair.
+inline constexpr std::string_view of_scene = "@scene";
+
 /// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). A bound, given as
-/// NAME@B or as `given_bound`, in the queries' unit of length, takes the place of every pair's own bound B (§5 of the paper: per scene, or
-/// given by the user); subjects without B take no notice of it. Throws Error for a name that is not known or
+/// NAME@B or as `given_bound` (of NAME and NAME@scene), in the queries' unit of length, takes the place of every
+/// pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B take no notice of it. Throws Error for a name that is not known or
 /// a plug-in that cannot be used.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);

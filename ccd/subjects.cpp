@@ -138,10 +138,11 @@ void Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> ve
 
 namespace {
 
-/// The B of a name "NAME@B"; nothing where there is none.
-std::optional<double> bound_in(std::string_view name) {
+/// The B of a name "NAME@B", or of "NAME@scene" the one that is given; nothing where there is none.
+std::optional<double> bound_in(std::string_view name, std::optional<double> given) {
   const auto at = name.rfind('@');
   if (at == std::string_view::npos) return std::nullopt;
+  if (name.substr(at) == of_scene) return given;
   double bound = 0;
   const char* const end = name.data() + name.size();
   const auto [rest, error] = std::from_chars(name.data() + at + 1, end, bound);
@@ -152,7 +153,7 @@ std::optional<double> bound_in(std::string_view name) {
 }  // namespace
 
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
-  const auto bound = bound_in(name_or_path);
+  const auto bound = bound_in(name_or_path, given_bound);
   const std::string_view name = bound ? name_or_path.substr(0, name_or_path.rfind('@')) : name_or_path;
   for (const Entry& each : registry)
     if (each.info.name == name) return each.make(name_or_path, bound ? bound : given_bound);

@@ -20,6 +20,8 @@ NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
 NEARMISS_ASSET(nearmiss_page_data, NEARMISS_PAGE "/data.js");
 NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
+NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
+NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
 NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
 NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
@@ -70,7 +72,9 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_data_begin, nearmiss_page_data_end),
                                       between(nearmiss_page_tables_begin, nearmiss_page_tables_end),
                                       between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
+                                      between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
+                                      between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
                                       between(nearmiss_page_js_begin, nearmiss_page_js_end)})
     scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
   std::string page(between(nearmiss_page_html_begin, nearmiss_page_html_end));

@@ -112,6 +112,11 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(campaign.statistics))
     json["farthest"].push_back(farthest_json(each));
+  for (const Run& run : campaign.runs)
+    for (const ScenePicture& picture : run.pictures) {
+      json["pictures"].push_back({{"step", picture.step}});
+      json["pictures"].back().update(ordered_json::parse(picture.json));
+    }
   if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
   if (since) {
     json["baseline"] = changes_json(*since);

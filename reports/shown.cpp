@@ -89,7 +89,10 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown) 
   if (subject.empty()) return command + " --compare 1";
   const Run* const run = run_of(campaign, shown.finding);
   const auto path = run == nullptr ? std::nullopt : plugin_path(*run, subject);
-  command += fmt::format(" --subject {}", shell_quoted(path.value_or(subject)));
+  std::string name = path.value_or(subject);
+  if (run != nullptr && name.ends_with(of_scene))
+    name.replace(name.rfind('@') + 1, std::string::npos, run->info.at("scene's bound"));
+  command += fmt::format(" --subject {}", shell_quoted(name));
   if (run == nullptr) return command;
   for (const char* option : {"bound", "query-time", "query-memory"})
     if (const auto given = run->info.find(option);

@@ -1,11 +1,15 @@
 // nearmiss scene: what the pairs of a moving mesh need, and what becomes of them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <set>
 
 #include "ccd/error.hpp"
+#include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/precision.hpp"
@@ -44,7 +48,7 @@ Scene open_scene(const std::vector<std::string>& arguments) {
   return scene_of_folder(arguments[0]);
 }
 
-/// The largest bound B of all pairs whose boxes meet (§5), over all steps.
+/// The largest bound B of all pairs whose boxes meet (§5), over all steps, rounded up to four digits.
 double scene_bound(const Scene& scene) {
   double largest = 0;
   for (std::size_t step = 0; step < scene.steps(); ++step) {
@@ -53,7 +57,9 @@ double scene_bound(const Scene& scene) {
       largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
     });
   }
-  return largest;
+  const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
+  const double rounded = std::ceil(largest / unit) * unit;
+  return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
 }
 
 /// Whether a subject takes notice of a bound that is given.
@@ -63,25 +69,36 @@ bool uses_bound(const std::string& name) {
   return make_any_subject(name)->distance_bound(query) != make_any_subject(name, 1e3)->distance_bound(query);
 }
 
-/// The names of the subjects with each bound: NAME for each pair's own, NAME@B for all others.
-std::vector<std::string> names_with_bounds(const Options& options, const Scene& scene) {
-  std::vector<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+/// The subjects with each bound: NAME for each pair's own, NAME@scene, NAME@B for all others.
+struct Contestants {
+  Subjects subjects;
+  std::optional<double> bound;  ///< of the scene, where one is asked for
+};
+
+Contestants contestants(const Options& options, const Scene& scene) {
+  Contestants all;
+  std::set<std::string> names;
+  const auto add = [&](const std::string& name, std::optional<double> bound) {
+    if (names.insert(name).second)
+      all.subjects.push_back(std::move(make_subjects({name}, options.trial.limits, bound).front()));
   };
   for (const std::string& bound : options.bounds) {
-    std::string suffix;
-    if (bound == "scene") suffix = fmt::format("@{}", scene_bound(scene));
-    if (bound != "pair" && bound != "scene") suffix = fmt::format("@{}", *parse_bound(bound));
+    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
+    const std::string suffix = bound == "pair"    ? ""
+                               : bound == "scene" ? std::string(of_scene)
+                                                  : fmt::format("@{}", *parse_bound(bound));
     for (const std::string& name : options.trial.subjects)
-      add(suffix.empty() || name.find('/') != std::string::npos || !uses_bound(name) ? name : name + suffix);
+      if (suffix.empty() || is_plugin_path(name) || !uses_bound(name))
+        add(name, std::nullopt);
+      else
+        add(name + suffix, all.bound);
   }
-  return names;
+  return all;
 }
 
-/// The cheapest subject whose false positives stay within the contact's thickness; prints what each promises and
-/// costs. Throws Error where there is none.
-std::string subject_for_thickness(const Options& options, const Scene& scene, const Subjects& subjects) {
+/// Leaves the cheapest subject whose false positives stay within the contact's thickness; prints what each
+/// promises and costs. Throws Error where there is none.
+void keep_cheapest_within(const Options& options, const Scene& scene, Subjects& subjects) {
   const double thickness = parse_number(options.thickness, "--thickness");
   const auto all =
       precisions(scene, leave_outs.at(options.leave_out), subjects, [] { return interrupted().load(); });
@@ -96,7 +113,7 @@ std::string subject_for_thickness(const Options& options, const Scene& scene, co
   if (best == nullptr)
     throw Error(fmt::format("--thickness: found {}, expected at least what one of the subjects claims",
                             options.thickness));
-  return best->subject;
+  std::erase_if(subjects, [&](const auto& each) { return each->name() != best->subject; });
 }
 
 /// Files for nearmiss replay: FILE.vt and FILE.ee, a query a line.
@@ -140,22 +157,28 @@ int run(const Options& given) {
   options.trial.make_subjects();  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
-  options.trial.subjects = names_with_bounds(options, scene);
-  if (!options.thickness.empty())
-    options.trial.subjects = {subject_for_thickness(options, scene, options.trial.make_subjects())};
-  const Subjects subjects = options.trial.make_subjects();
+  Contestants all = contestants(options, scene);
+  Subjects& subjects = all.subjects;
+  const RunInfo plugin_paths = options.trial.plugin_paths(subjects);
+  if (!options.thickness.empty()) keep_cheapest_within(options, scene, subjects);
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
 
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);
   RunInfo info = options.trial.run_info(command);
   info["left out"] = options.leave_out;
-  info["again"] += " --leave-out " + options.leave_out;
+  info["again"] +=
+      fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
+  if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
+  if (!options.thickness.empty()) {
+    info["thickness"] = options.thickness;
+    info["again"] += " --thickness " + options.thickness;
+  }
   if (options.weld) {
     info["welded"] = "yes";
     info["again"] += " --weld";
   }
-  Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
+  Record record(options.record, std::move(info), {.environment = plugin_paths});
   Export exported(options.export_to);
   Verification verification;
   std::chrono::duration<double> asking{};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -24,6 +25,18 @@ std::uint32_t mark_of(const std::map<Figure, std::uint32_t>& marks, const Figure
 
 std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// A text of numbers with blanks between them.
+class Numbers {
+ public:
+  void add(std::int64_t number) {
+    fmt::format_to(std::back_inserter(text_), "{}{}", text_.empty() ? "" : " ", number);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 /// Numbers the points that are shown, and gives their coordinates as integers.
 class Points {
  public:
@@ -38,12 +51,11 @@ class Points {
   }
 
   /// Adds a figure to a list: the numbers of its points, and its mark.
-  template <class Vertices>
-  void show(nlohmann::json& list, const Vertices& vertices, std::uint32_t mark) {
-    for (const int vertex : vertices) list.push_back(number(vertex));
-    list.push_back(mark);
+  void show(Numbers& list, const std::vector<int>& vertices, std::uint32_t mark) {
+    for (const int vertex : vertices) list.add(number(vertex));
+    list.add(mark);
   }
-  nlohmann::json coordinates() && { return std::move(coordinates_); }
+  [[nodiscard]] const Numbers& coordinates() const { return coordinates_; }
 
  private:
   int number(int vertex) {
@@ -53,7 +65,7 @@ class Points {
       for (const auto* points : {&mesh_.start, &mesh_.end})
         for (int k = 0; k < 3; ++k) {
           const double part = ((*points)[static_cast<std::size_t>(vertex)][k] / 2 - lo_[k] / 2) / scale_;
-          coordinates_.push_back(scale_ > 0 ? std::lround(9999 * part) : 0);
+          coordinates_.add(scale_ > 0 ? std::lround(9999 * part) : 0);
         }
     }
     return number;
@@ -65,7 +77,7 @@ class Points {
   double scale_ = 0;
   std::vector<int> numbers_;
   int count_ = 0;
-  nlohmann::json coordinates_ = nlohmann::json::array();
+  Numbers coordinates_;
 };
 
 /// Evenly, at most so many of the things of a list.
@@ -141,13 +153,14 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
-  constexpr std::array lists{"dots", "lines", "triangles"};
-  for (const char* list : lists) json[list] = nlohmann::json::array();
+  std::array<Numbers, 3> lists;  // by the number of points
   Points points(mesh);
   for (const std::vector<Marked>& some : {thinned(others, most_figures), thinned(marked, most_figures)})
-    for (const Marked& each : some)
-      points.show(json[lists[each.vertices.size() - 1]], each.vertices, each.mark);
-  json["points"] = std::move(points).coordinates();
+    for (const Marked& each : some) points.show(lists[each.vertices.size() - 1], each.vertices, each.mark);
+  json["points"] = points.coordinates().text();
+  json["dots"] = lists[0].text();
+  json["lines"] = lists[1].text();
+  json["triangles"] = lists[2].text();
   return {step, json.dump()};
 }
 

@@ -103,20 +103,6 @@ function drawCounts() {
   fillTable(element("counts"), columns, rows, true);
 }
 
-function drawScenes() {
-  const rows = Object.entries(report.scenes ?? {}).flatMap(([step, ofKind]) =>
-    Object.entries(ofKind).map(([kind, funnel]) => ({ step: step.replace(/^scene:/, ""), kind, ...funnel, ...funnel.times })));
-  if (rows.length === 0) return;
-  show("scenes-section");
-  const share = (title, field) => ({ title, number: (r) => r[field], text: (r) => `${integer(r[field])} (${percent(r.all ? r[field] / r.all : 0)})` });
-  fillTable(element("scenes"), [
-    text("step", "step"), text("kind", "kind"), count("all pairs", "all"), share("boxes apart", "boxes_apart"),
-    share("share a vertex", "share_vertex"), share("at rest", "at_rest"), share("in translation", "in_translation"),
-    share("asked", "asked"), count("not asked, but collide", "touching"),
-    { title: "found in", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
-  ], rows, true);
-}
-
 function drawSlowest() {
   const rows = countRows(false).flatMap((r) => (r.times.slowest ?? []).slice(0, 2).map((slow) => ({ subject: r.subject, kind: r.kind, ...slow })));
   if (rows.length === 0) return;
@@ -247,6 +233,8 @@ drawBaseline();
 drawCounts();
 element("by-family").addEventListener("change", drawCounts);
 drawScenes();
+element("by-step").addEventListener("change", drawScenes);
+drawScenePictures();
 drawSlowest();
 drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
@@ -261,6 +249,8 @@ const charts = [
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
   ["stages-section", drawStages, countRows(false).some((row) => row.false_positives > 0 || row.collisions > row.false_negatives)],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
+  ["scene-steps", drawSceneSteps, funnelRows().some((row) => row.step > 0)],
+  ["scene-error-time", drawSceneErrorTime, new Set(askedRows().map((row) => row.scene)).size > 1],
 ].filter(([, , there]) => there);
 for (const [id] of charts) show(id);
 drawNavigation();

@@ -1,0 +1,138 @@
+// A picture of a scene's step: its mesh, with what collides and what is said of it; turned by mouse and keys.
+"use strict";
+
+/** What is drawn in a colour of its own, the first that holds: bits of a mark, and the name of a colour. */
+function markColours(meanings, subject) {
+  const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
+  return [
+    { bits: bit(`missed by ${subject}`), name: `missed by ${subject}`, colour: "--bad" },
+    { bits: bit(`falsely reported by ${subject}`), name: `falsely reported by ${subject}`, colour: "--false" },
+    { bits: bit("collides"), name: "collides", colour: "--second" },
+  ];
+}
+
+const numbersOf = (text) => (text === "" ? [] : text.split(" ").map(Number));
+
+/** The figures of a picture by kind: [{points: [indices], mark}]. */
+function figuresOf(picture) {
+  const cut = (text, size) => {
+    const list = numbersOf(text);
+    return Array.from({ length: list.length / (size + 1) }, (_, i) =>
+      ({ points: list.slice(i * (size + 1), i * (size + 1) + size), mark: list[i * (size + 1) + size] }));
+  };
+  return [...cut(picture.triangles, 3), ...cut(picture.lines, 2), ...cut(picture.dots, 1)];
+}
+
+/** @param picture an entry of report.pictures, whose format reports/scene_picture.hpp says */
+function drawMesh(picture) {
+  const figures = figuresOf(picture);
+  const marked = figures.filter((figure) => figure.mark !== 0);
+  const subjects = [...new Set(picture.meanings.filter((m) => m.startsWith("missed by ")).map((m) => m.slice("missed by ".length)))];
+  const points = numbersOf(picture.points);
+  const count = points.length / 6;
+  const middle = [0, 1, 2].map((k) => {
+    let [lo, hi] = [Infinity, -Infinity];
+    for (let i = 0; i < count; ++i)
+      for (const at of [k, 3 + k]) {
+        lo = Math.min(lo, points[6 * i + at]);
+        hi = Math.max(hi, points[6 * i + at]);
+      }
+    return (lo + hi) / 2;
+  });
+  const view = { yaw: -0.6, pitch: 0.45, zoom: 1, time: 1, subject: subjects[0] };
+
+  const canvas = made("canvas", [], { class: "mesh", tabindex: "0", role: "img", "aria-label":
+    `The mesh of ${picture.step.replace(/^scene:/, "")}: ${integer(marked.length)} of ${integer(figures.length)} figures are marked; ` +
+    "arrow keys turn the picture, + and - change its size" });
+  const legend = made("div", [], { class: "mesh-legend" });
+
+  /** Where all points are seen at this time: across, up, and away from the eye. */
+  function seen(size) {
+    const at = new Float64Array(3 * count);
+    const scale = (view.zoom * size) / 13000;
+    const [sy, cy, sp, cp] = [Math.sin(view.yaw), Math.cos(view.yaw), Math.sin(view.pitch), Math.cos(view.pitch)];
+    for (let i = 0; i < count; ++i) {
+      const [x, y, z] = [0, 1, 2].map((k) =>
+        (1 - view.time) * points[6 * i + k] + view.time * points[6 * i + 3 + k] - middle[k]);
+      const depth = cy * y - sy * x;
+      at[3 * i] = size / 2 + scale * (cy * x + sy * y);
+      at[3 * i + 1] = size / 2 - scale * (cp * z + sp * depth);
+      at[3 * i + 2] = scale * (cp * depth - sp * z);
+    }
+    return at;
+  }
+
+  function draw() {
+    const colours = markColours(picture.meanings, view.subject).map((each) => ({ ...each, paint: color(each.colour) }));
+    const size = 480;
+    const dense = 2; // sharp on paper and on fine screens
+    canvas.width = canvas.height = dense * size;
+    const paint = canvas.getContext("2d");
+    paint.scale(dense, dense);
+    paint.lineJoin = "round";
+    const at = seen(size);
+    const depth = (figure) => figure.points.reduce((sum, p) => sum + at[3 * p + 2], 0) / figure.points.length;
+    const inOrder = figures.map((figure) => ({ figure, depth: depth(figure), hit: colours.find((each) => figure.mark & each.bits) }))
+      .sort((a, b) => b.depth - a.depth);
+    for (const { figure, hit } of inOrder) {
+      const [first, ...others] = figure.points;
+      paint.beginPath();
+      if (others.length === 0) {
+        paint.arc(at[3 * first], at[3 * first + 1], hit ? 2.2 : 1.2, 0, 7);
+        paint.fillStyle = hit ? hit.paint : color("--soft");
+        paint.fill();
+        continue;
+      }
+      paint.moveTo(at[3 * first], at[3 * first + 1]);
+      for (const p of others) paint.lineTo(at[3 * p], at[3 * p + 1]);
+      paint.closePath();
+      paint.strokeStyle = hit ? hit.paint : color("--soft");
+      paint.lineWidth = hit ? 1 : 0.3;
+      if (others.length === 2) {
+        paint.fillStyle = hit ? hit.paint : color("--face");
+        paint.fill();
+      }
+      paint.stroke();
+    }
+    legend.replaceChildren(...colours.flatMap(({ bits, name, paint: fill }) => {
+      const number = figures.filter((figure) => figure.mark & bits).length;
+      const swatch = made("span", [], { class: "swatch" });
+      swatch.style.background = fill;
+      return number === 0 ? [] : [made("span", [swatch, ` ${name} (${integer(number)}) `])];
+    }));
+  }
+
+  function change(next) {
+    Object.assign(view, next);
+    draw();
+  }
+  const turn = (yaw, pitch) => change({ yaw: view.yaw + yaw, pitch: Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.pitch + pitch)) });
+  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+  canvas.addEventListener("pointermove", (event) => {
+    if (event.buttons) turn(event.movementX / 120, event.movementY / 120);
+  });
+  const keys = { ArrowLeft: () => turn(-0.2, 0), ArrowRight: () => turn(0.2, 0), ArrowUp: () => turn(0, -0.2), ArrowDown: () => turn(0, 0.2),
+    "+": () => change({ zoom: view.zoom * 1.3 }), "-": () => change({ zoom: view.zoom / 1.3 }) };
+  canvas.addEventListener("keydown", (event) => {
+    if (!keys[event.key]) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+  const button = (label, key) => {
+    const node = made("button", key, { type: "button", "aria-label": label });
+    node.addEventListener("click", keys[key]);
+    return node;
+  };
+  const time = made("input", [], { type: "range", min: "0", max: "1", step: "0.01", value: "1" });
+  time.addEventListener("input", () => change({ time: Number(time.value) }));
+  const which = made("select", subjects.map((name) => made("option", name, { value: name })));
+  which.addEventListener("change", () => change({ subject: which.value }));
+  draw();
+  return made("figure", [
+    made("figcaption", [made("strong", picture.step.replace(/^scene:/, "")),
+      figures.length < picture.figures ? `: ${integer(figures.length)} of ${integer(picture.figures)} figures are shown` : ""]),
+    canvas, legend,
+    made("div", [made("label", ["t ", time]), ...(subjects.length > 1 ? [made("label", [" said by ", which])] : []), " ",
+      button("larger", "+"), button("smaller", "-")], { class: "mesh-controls" }),
+  ], { class: "scene-picture" });
+}
