@@ -11,6 +11,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/scenes/built_in.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/scene.hpp"
@@ -35,7 +36,7 @@ struct Options {
   TrialOptions trial{.subjects = {"basic", "wang"}};
   std::vector<std::string> bounds{"pair"};
   std::string leave_out = "all", thickness;
-  bool weld = false, plan_only = false, verify_plan = false;
+  bool list = false, weld = false, plan_only = false, verify_plan = false;
   fs::path export_to;
   RecordOptions record;
 };
@@ -45,7 +46,19 @@ const std::map<std::string, LeaveOut> leave_outs{
 
 Scene open_scene(const std::vector<std::string>& arguments) {
   if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
+  if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
+  if (std::error_code error; !fs::exists(arguments[0], error))
+    throw Error(fmt::format("{}: found neither a folder nor a scene of that name (see nearmiss scene --list)",
+                            arguments[0]));
   return scene_of_folder(arguments[0]);
+}
+
+/// A line for each built-in scene.
+void list_scenes() {
+  fmt::print("{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
+  for (const BuiltIn& scene : built_in_scenes())
+    fmt::print("{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest, scene.largest,
+               scene.description);
 }
 
 /// The largest bound B of all pairs whose boxes meet (§5), over all steps, rounded up to four digits.
@@ -214,7 +227,7 @@ int run(const Options& given) {
              counted(mesh.start.size(), "vertex", "vertices"),
              counted(mesh.triangles.size(), "triangle", "triangles"),
              counted(mesh.edges.size(), "edge", "edges"),
-             counted(bodies(scene.mesh).count, "body", "bodies"));
+             counted(static_cast<std::uint64_t>(bodies(scene.mesh).count), "body", "bodies"));
   const int code = record.finish(stop, !stop);
   if (!options.verify_plan || stop) return code;
   fmt::print(
@@ -233,10 +246,11 @@ void add_scene(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "SCENE", options->scene,
-          "The mesh at t = 0 and the same mesh at t = 1 (START END), or a folder of frames: *.obj, *.off, "
-          "*.ply or *.stl")
-      ->required()
+          "The mesh at t = 0 and the same mesh at t = 1 (START END); a folder of frames: *.obj, *.off, "
+          "*.ply or *.stl; or a built-in scene, NAME or NAME@SIZE, of about so many triangles, lines of hair "
+          "or points (a folder of that name is ./NAME)")
       ->expected(1, 2);
+  command->add_flag("--list", options->list, "List the built-in scenes, and their sizes");
   options->trial.add_to(*command);
   command
       ->add_option("--bound", options->bounds,
@@ -269,7 +283,11 @@ void add_scene(CLI::App& app, int& exit_code) {
                    "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
       ->type_name("FILE");
   options->record.add_to(*command);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] {
+    if (options->list) return list_scenes();
+    if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace nearmiss::tools

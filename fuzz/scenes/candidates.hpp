@@ -31,6 +31,7 @@ using Stop = std::function<bool()>;
 class CandidateFinder {
  public:
   CandidateFinder(const MovingMesh& mesh, Kind kind);
+  CandidateFinder(MovingMesh&& mesh, Kind kind) = delete;
   CandidateFinder(CandidateFinder&&) noexcept;
   ~CandidateFinder();
 

@@ -44,6 +44,7 @@ class Plan {
  public:
   /// The mesh must outlive this.
   Plan(const MovingMesh& mesh, LeaveOut leave_out);
+  Plan(MovingMesh&& mesh, LeaveOut leave_out) = delete;
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 

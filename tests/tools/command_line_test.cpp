@@ -188,6 +188,26 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   EXPECT_EQ(funnel["touching"], 3);
 }
 
+TEST_F(CommandLine, ScenesAreBuiltInToo) {
+  const Answer list = run("scene --list");
+  EXPECT_EQ(list.code, 0) << list.error;
+  EXPECT_THAT(list.out, HasSubstr("\nknot "));
+  const Answer answer = run("scene flying@300 --subject wang --json new.json");
+  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_THAT(answer.out, HasSubstr("flying@300: 21 frames, "));
+  const json scenes = read_json("new.json")["scenes"];
+  EXPECT_EQ(scenes.size(), 20);
+  EXPECT_TRUE(scenes.contains("scene:flying@300#19"));
+  std::filesystem::remove(file("new.json"));
+  expect_refused("scene flying@9", {"flying@9: found size 9, expected 100 to 4000000"});
+  expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
+  expect_refused("scene", {"SCENE is required"});
+  // A folder of that name is another one.
+  write("flying/1.obj", falling_triangle);
+  write("flying/2.obj", fallen_triangle);
+  EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));
+}
+
 TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
   EXPECT_EQ(run("fuzz --cases 104 --family uniform --search --subject defect:vv --json new.json").code, 1);
   int misses = 0;

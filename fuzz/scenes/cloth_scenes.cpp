@@ -1,0 +1,146 @@
+// Scenes of cloth: over spikes, sheets on each other, and points that fall through a surface.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/random.hpp"
+#include "fuzz/scenes/built_in_themes.hpp"
+#include "fuzz/scenes/formulas.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The streams of random numbers.
+enum : std::uint64_t { spikes_gaps = 101, spikes_waves, sheets_waves, points_places, points_waves };
+
+// --- spikes -----------------------------------------------------------------------------------------------
+
+constexpr int spike_sides = 12, spike_rings = 4;
+constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
+constexpr double pitch = 10;  // from spike to spike: 200 triangles of cloth for each one
+constexpr double tip = 5;     // the height of a spike
+
+/// The height of a spike, or of the cloth that lies on it, at a distance from its axis: a cone, round at its
+/// tip.
+double spike_height(double distance) { return tip - 1.5 * (std::sqrt(distance * distance + 1) - 1); }
+
+void add_spike(Mesh& mesh, int first) {
+  for (int i = 0; i < spike_sides; ++i)
+    mesh.triangles.push_back({first, first + 1 + i, first + 1 + (i + 1) % spike_sides});
+  add_surface(mesh, first + 1, spike_rings, spike_sides, true);
+}
+
+void add_spike_points(Points& points, double x, double y) {
+  points.emplace_back(x, y, spike_height(0));
+  for (int ring = 1; ring <= spike_rings; ++ring)
+    for (int i = 0; i < spike_sides; ++i) {
+      const Direction around = direction(static_cast<double>(i) / spike_sides);
+      points.emplace_back(x + ring * around.cos, y + ring * around.sin, spike_height(ring));
+    }
+}
+
+/// A square of spikes, and the cloth that falls on them: by 0.2 in a step, from above the tips to half their
+/// height; it is held up where a spike is, by as much above it as is drawn for each, too little for some.
+/// Spikes are no larger or farther apart where the scene is, there are more of them; so a figure has as many
+/// others near it in all sizes.
+Scene spikes(int size) {
+  const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
+  const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));
+  const int squares = nearest(std::sqrt((size - row * row * spike_triangles) / 2.0));
+  const double middle = (row - 1) / 2.0;
+  std::vector<double> gaps;
+  for (int i = 0; i < row * row; ++i)
+    gaps.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
+  const auto cloth = [=, waves = Waves(spikes_waves, 0, 0.02)](double x, double y, double frame) {
+    const auto nearest_spike = [&](double at) {
+      return std::clamp(nearest(at / pitch + middle), 0, row - 1);
+    };
+    const int i = nearest_spike(x);
+    const int j = nearest_spike(y);
+    const double dx = x - (i - middle) * pitch;
+    const double dy = y - (j - middle) * pitch;
+    const double held =
+        spike_height(std::sqrt(dx * dx + dy * dy)) + gaps[static_cast<std::size_t>(j * row + i)];
+    const double falling = tip + 0.6 - 0.2 * frame;
+    return Vector3<double>(x, y, smooth_max(falling, held, 0.5) + waves.at(x, y, frame));
+  };
+
+  Mesh figures;
+  add_surface(figures, 0, squares + 1, squares + 1);
+  const int in_cloth = (squares + 1) * (squares + 1);
+  for (int i = 0; i < row * row; ++i) add_spike(figures, in_cloth + i * (1 + spike_rings * spike_sides));
+  return scene_of_formula(21, std::move(figures), [=](double frame) {
+    // So that the cloth's edges are not along the rows of spikes.
+    const Rotation turned({0, 0, 1}, 0.02);
+    Points points = sheet_points(squares, [&](double x, double y) {
+      const Vector3<double> p = turned({x, y, 0});
+      return cloth(p[0] + 0.06 * frame, p[1] + 0.03 * frame, frame);
+    });
+    for (int j = 0; j < row; ++j)
+      for (int i = 0; i < row; ++i) add_spike_points(points, (i - middle) * pitch, (j - middle) * pitch);
+    return points;
+  });
+}
+
+// --- sheets -----------------------------------------------------------------------------------------------
+
+/// Five sheets, 0.5 above each other, wave in their own ways, by up to 0.36, and slide in all directions.
+Scene sheets(int size) {
+  constexpr int count = 5;
+  const int squares = nearest(std::sqrt(size / (2.0 * count)));
+  const int in_sheet = (squares + 1) * (squares + 1);
+  Mesh figures;
+  for (int i = 0; i < count; ++i) add_surface(figures, i * in_sheet, squares + 1, squares + 1);
+  return scene_of_formula(25, std::move(figures), [=](double frame) {
+    Points points;
+    points.reserve(static_cast<std::size_t>(count * in_sheet));
+    for (int i = 0; i < count; ++i) {
+      const Waves waves(sheets_waves, static_cast<std::uint64_t>(i), 0.12);
+      const Rotation turned({0, 0, 1}, 0.03 * i);
+      const Direction slide = direction(0.4 * i);
+      const auto place = [&](double x, double y) {
+        Vector3<double> p = turned({x, y, 0});
+        p[0] += 0.15 * slide.cos * frame;
+        p[1] += 0.15 * slide.sin * frame;
+        p[2] = 0.5 * i + waves.at(p[0], p[1], frame);
+        return p;
+      };
+      const Points sheet = sheet_points(squares, place);
+      points.insert(points.end(), sheet.begin(), sheet.end());
+    }
+    return points;
+  });
+}
+
+// --- points -----------------------------------------------------------------------------------------------
+
+/// Points fall, each at its own speed, through a surface that waves, of about as many triangles.
+Scene points(int size) {
+  const int squares = nearest(std::sqrt(size / 2.0));
+  Mesh figures;
+  add_surface(figures, 0, squares + 1, squares + 1);
+  return scene_of_formula(21, std::move(figures), [=](double frame) {
+    const Waves waves(points_waves, 0, 0.4);
+    Points all = sheet_points(
+        squares, [&](double x, double y) { return Vector3<double>(x, y, waves.at(x, y, frame)); });
+    for (int i = 0; i < size; ++i) {
+      Random random(0, points_places, static_cast<std::uint64_t>(i));
+      const double x = squares * (random.uniform() - 0.5);
+      const double y = squares * (random.uniform() - 0.5);
+      const double z = random.uniform(0, 8);
+      all.emplace_back(x, y, z - random.uniform(0.3, 0.5) * frame);
+    }
+    return all;
+  });
+}
+
+}  // namespace
+
+std::vector<BuiltIn> cloth_scenes() {
+  constexpr int largest = 4'000'000;
+  return {{"spikes", "a cloth falls on a square of spikes", 4000, 100, largest, spikes},
+          {"sheets", "five wrinkled sheets slide over each other", 5000, 100, largest, sheets},
+          {"points", "points fall through a surface that waves", 5000, 100, largest, points}};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,295 @@
+// Scenes made by formula, and what they are made of.
+#include "fuzz/scenes/built_in.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "ccd/error.hpp"
+#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/plan.hpp"
+#include "fuzz/scenes/shapes.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+/// How a parameter is printed in a test's name.
+void PrintTo(const BuiltIn& scene, std::ostream* out) { *out << scene.name; }
+
+namespace {
+
+using ::testing::ThrowsMessage;
+
+class EveryScene : public ::testing::TestWithParam<BuiltIn> {
+ protected:
+  static Scene of_size(int size) {
+    return built_in_scene(GetParam().name + "@" + std::to_string(std::max(size, GetParam().smallest)));
+  }
+};
+INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
+                         [](const auto& each) { return each.param.name; });
+
+/// Of the first, a middle and the last frame, and of the figures.
+std::uint64_t fingerprint(const Scene& scene) {
+  std::uint64_t hash = 0;
+  const auto add = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x100000001b3, 29); };
+  for (const std::size_t frame : {std::size_t{0}, scene.frames / 2, scene.frames - 1})
+    for (const auto& p : scene.points(frame))
+      for (const double c : p) add(std::bit_cast<std::uint64_t>(c));
+  for (const auto& triangle : scene.mesh.triangles)
+    for (const int vertex : triangle) add(static_cast<std::uint64_t>(vertex));
+  for (const auto& line : scene.mesh.lines)
+    for (const int vertex : line) add(static_cast<std::uint64_t>(vertex));
+  return hash;
+}
+
+// On every machine, by every compiler.
+TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
+  const std::map<std::string, std::uint64_t> recorded{
+      {"spikes", 0x8d7e972405206fac},   {"sheets", 0x4fd2649ab8e8d0bd}, {"points", 0x0b33ff0c26f7bae3},
+      {"knot", 0xffc4c940fe2a2193},     {"mat", 0x035a0d88885f858d},    {"hair", 0xfff1fcfb5b918fa5},
+      {"tumbling", 0x8434b269ceb34d86}, {"flying", 0xa1748525191a9c9f}, {"resting", 0x849b90a9bda081b4}};
+  EXPECT_EQ(fingerprint(of_size(600)), recorded.at(GetParam().name)) << std::hex << fingerprint(of_size(600));
+}
+
+TEST_P(EveryScene, FramesAreMadeInAnyOrder) {
+  const Scene scene = of_size(300);
+  EXPECT_GE(scene.frames, 10);
+  EXPECT_LE(scene.frames, 40);
+  const Points last = scene.points(scene.frames - 1);
+  EXPECT_EQ(scene.points(0), scene.mesh.points);
+  EXPECT_EQ(scene.points(scene.frames - 1), last);
+  EXPECT_NE(scene.points(1), scene.mesh.points);
+}
+
+TEST_P(EveryScene, IsAboutAsLargeAsAsked) {
+  for (const int size : {0, 250, 460, 640, 1000, 10000, 33333}) {
+    const Scene scene = of_size(size);
+    const double asked = std::max(size, GetParam().smallest);
+    const double triangles = static_cast<double>(scene.mesh.triangles.size());
+    if (GetParam().name == "points") {
+      EXPECT_EQ(bodies(scene.mesh).count, asked + 1);
+      EXPECT_NEAR(triangles, asked, 0.25 * asked);
+    } else if (GetParam().name == "hair") {
+      EXPECT_EQ(triangles, 0);
+      EXPECT_NEAR(static_cast<double>(scene.mesh.lines.size()), asked, 0.25 * asked);
+    } else {
+      EXPECT_NEAR(triangles, asked, 0.25 * asked);
+    }
+  }
+}
+
+TEST_P(EveryScene, IsFiniteAndFiguresJoinItsPoints) {
+  for (const int size : {0, 3000}) {
+    const Scene scene = of_size(size);
+    const auto count = static_cast<int>(scene.mesh.points.size());
+    for (std::size_t frame = 0; frame < scene.frames; ++frame) {
+      const Points points = scene.points(frame);
+      ASSERT_EQ(points.size(), scene.mesh.points.size());
+      ASSERT_TRUE(std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }));
+    }
+    for (const auto& [a, b, c] : scene.mesh.triangles) {
+      ASSERT_TRUE(std::min({a, b, c}) >= 0 && std::max({a, b, c}) < count);
+      ASSERT_TRUE(a != b && b != c && c != a);
+    }
+    for (const auto& [a, b] : scene.mesh.lines)
+      ASSERT_TRUE(std::min(a, b) >= 0 && std::max(a, b) < count && a != b);
+  }
+}
+
+TEST_P(EveryScene, HasCollisionsButMostCandidatesHaveNone) {
+  const Scene scene = of_size(1000);
+  std::map<Kind, int> candidates;
+  std::map<Kind, int> collisions;
+  for (std::size_t step = 0; step < scene.steps(); ++step) {
+    const MovingMesh mesh = moving_mesh(scene, step);
+    find_candidates(mesh, [&](const Candidate& candidate) {
+      ++candidates[candidate.kind];
+      collisions[candidate.kind] += collides(make_query(mesh, candidate)) ? 1 : 0;
+    });
+  }
+  for (const Kind kind : kinds) {
+    const bool without = GetParam().name == (kind == Kind::vertex_triangle ? "hair" : "points");
+    EXPECT_EQ(collisions[kind] > 0, !without) << short_name(kind);
+    EXPECT_LE(collisions[kind], 0.1 * candidates[kind]) << short_name(kind);
+  }
+}
+
+// Edges are about 1 long.
+TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
+  for (const int size : {300, 5000, 60000}) {
+    const Scene scene = of_size(size);
+    for (const std::size_t step : {std::size_t{0}, scene.steps() / 2, scene.steps() - 1}) {
+      const MovingMesh mesh = moving_mesh(scene, step);
+      double farthest = 0;
+      for (std::size_t i = 0; i < mesh.start.size(); ++i)
+        farthest = std::max(farthest, (mesh.end[i] - mesh.start[i]).norm());
+      EXPECT_GT(farthest, 0.1) << size << ", step " << step;
+      EXPECT_LT(farthest, 1.6) << size << ", step " << step;
+      double sum = 0;
+      for (const auto& [a, b] : mesh.edges)
+        sum += (mesh.start[static_cast<std::size_t>(a)] - mesh.start[static_cast<std::size_t>(b)]).norm();
+      EXPECT_NEAR(sum / static_cast<double>(mesh.edges.size()), 1.2, 0.4) << size << ", step " << step;
+    }
+  }
+}
+
+/// Candidates of a step in the middle, for each triangle.
+double candidates_per_triangle(const Scene& scene) {
+  double count = 0;
+  const MovingMesh mesh = moving_mesh(scene, scene.steps() / 2);
+  find_candidates(mesh, [&](const Candidate&) { ++count; });
+  return count / static_cast<double>(mesh.triangles.size());
+}
+
+TEST(Spikes, CandidatesGrowAsTrianglesDo) {
+  const double few = candidates_per_triangle(built_in_scene("spikes@4000"));
+  EXPECT_NEAR(candidates_per_triangle(built_in_scene("spikes@64000")), few, 0.15 * few);
+}
+
+/// What becomes of the pairs of all steps.
+std::map<PairFate, std::uint64_t> fates(const Scene& scene) {
+  std::map<PairFate, std::uint64_t> found;
+  for (std::size_t step = 0; step < scene.steps(); ++step) {
+    const MovingMesh mesh = moving_mesh(scene, step);
+    for (const auto& [kind, funnel] : follow_plan(
+             Plan(mesh, LeaveOut::all), [](const Pairs&) {}, {}, [] { return false; }))
+      for (const PairFate fate : {PairFate::at_rest, PairFate::in_translation, PairFate::asked})
+        found[fate] += funnel[fate];
+  }
+  return found;
+}
+
+TEST(Flying, PairsAreInRelativeRestOrTranslation) {
+  auto found = fates(built_in_scene("flying@1000"));
+  EXPECT_GT(found[PairFate::at_rest], 1000);
+  EXPECT_GT(found[PairFate::in_translation], 1000);
+  EXPECT_EQ(found[PairFate::asked], 0);
+}
+
+TEST(Resting, MostPairsAreAtRest) {
+  auto found = fates(built_in_scene("resting@1000"));
+  EXPECT_GT(found[PairFate::asked], 100);
+  EXPECT_GT(found[PairFate::at_rest], 5 * (found[PairFate::asked] + found[PairFate::in_translation]));
+}
+
+TEST(Tumbling, BodiesAreRigid) {
+  const Scene scene = built_in_scene("tumbling@1000");
+  const MovingMesh mesh = moving_mesh(scene, 7);
+  for (const auto& [a, b] : mesh.edges) {
+    const auto length_in = [a = a, b = b](const Points& points) {
+      return (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(b)]).norm();
+    };
+    EXPECT_NEAR(length_in(mesh.start), length_in(mesh.end), 1e-13);
+  }
+}
+
+TEST(BuiltInScenes, AreNamedAsTheyAreAskedFor) {
+  EXPECT_TRUE(is_built_in_scene("knot"));
+  EXPECT_TRUE(is_built_in_scene("knot@4000"));
+  EXPECT_TRUE(is_built_in_scene("knot@x"));
+  for (const char* other : {"", "@", "knots", "kno", "./knot", "knot/", "Knot"})
+    EXPECT_FALSE(is_built_in_scene(other)) << other;
+  EXPECT_EQ(built_in_scene("knot@4000").name, "knot@4000");
+  EXPECT_EQ(built_in_scene("knot").name, "knot");
+  EXPECT_EQ(fingerprint(built_in_scene("knot")), fingerprint(built_in_scene("knot@5000")));
+  EXPECT_THAT([] { built_in_scene("knots"); },
+              ThrowsMessage<Error>("knots: found no built-in scene of that name"));
+}
+
+TEST(BuiltInScenes, RefuseBadSizes) {
+  const auto expect_refused = [](const std::string& text, const std::string& found) {
+    EXPECT_THAT([&] { built_in_scene(text); },
+                ThrowsMessage<Error>(text + ": found size " + found + ", expected 100 to 4000000"));
+  };
+  for (const char* number : {"-3", "0", "99", "4000001"})
+    expect_refused(std::string("spikes@") + number, number);
+  for (const char* word :
+       {"", "x", "1e3", "1000.5", "1000 ", " 1000", "+1000", "1000@1000", "99999999999999999999"})
+    expect_refused(std::string("spikes@") + word, std::string("'") + word + "'");
+}
+
+TEST(Formulas, DirectionsAreThoseOfTheLibraryNearly) {
+  for (int i = -4000; i <= 4000; ++i) {
+    const double turns = i / 997.0;
+    const Direction found = direction(turns);
+    const auto angle = 2 * std::numbers::pi_v<long double> * static_cast<long double>(turns);
+    ASSERT_NEAR(found.cos, static_cast<double>(std::cos(angle)), 4e-16) << turns;
+    ASSERT_NEAR(found.sin, static_cast<double>(std::sin(angle)), 4e-16) << turns;
+  }
+  for (const double turns : {-1.0, 0.0, 5.0}) {
+    EXPECT_EQ(direction(turns).cos, 1);
+    EXPECT_EQ(direction(turns + 0.25).sin, 1);
+    EXPECT_EQ(direction(turns + 0.5).cos, -1);
+    EXPECT_EQ(direction(turns + 0.75).sin, -1);
+    EXPECT_EQ(direction(turns).sin, 0);
+  }
+}
+
+TEST(Formulas, ARotationTurnsAboutItsAxis) {
+  const Vector3<double> p(0.1, 0.2, 0.3);
+  EXPECT_EQ(Rotation({0, 0, 1}, 0)(p), p);
+  EXPECT_EQ(Rotation({0, 0, 1}, 0.25)(p), Vector3<double>(-0.2, 0.1, 0.3));
+  EXPECT_EQ(Rotation({1, 0, 0}, 0.25)(p), Vector3<double>(0.1, -0.3, 0.2));
+  const Vector3<double> axis(2 / 3.0, -2 / 3.0, 1 / 3.0);
+  EXPECT_LT((Rotation(axis, 0.3)(axis) - axis).norm(), 1e-15);
+  EXPECT_LT((Rotation(axis, 1 / 3.0)(Rotation(axis, 2 / 3.0)(p)) - p).norm(), 1e-15);
+}
+
+TEST(Formulas, TheSmoothMaximumHasNoKink) {
+  EXPECT_EQ(smooth_max(1, 2, 0.5), 2);
+  EXPECT_EQ(smooth_max(2, 1, 0.5), 2);
+  EXPECT_EQ(smooth_max(1, 1, 0.5), 1.125);
+  EXPECT_NEAR(smooth_max(1, 1 + 1e-6, 0.5) - smooth_max(1, 1, 0.5), 0.5e-6, 1e-11);
+}
+
+/// Whether a surface is closed, and all its triangles have the same side outside: each edge is there once in
+/// each direction.
+bool is_closed(const Mesh& mesh) {
+  std::map<std::array<int, 2>, int> edges;
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (const std::array<int, 2> edge : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
+      ++edges[edge];
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& each) {
+    return each.second == 1 && edges.contains({each.first[1], each.first[0]});
+  });
+}
+
+/// Of what a closed surface has inside.
+double volume(const Mesh& mesh) {
+  const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
+  return std::accumulate(mesh.triangles.begin(), mesh.triangles.end(), 0.0, [&](double sum, const auto& t) {
+    return sum + at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6;
+  });
+}
+
+TEST(Shapes, BoxesAndBallsAreClosed) {
+  const Mesh a_box = box({4, 2, 3});
+  EXPECT_EQ(a_box.triangles.size(), 4 * (8 + 6 + 12));
+  EXPECT_TRUE(is_closed(a_box));
+  EXPECT_NEAR(volume(a_box), 24, 1e-12);
+  const Mesh a_ball = ball(6);
+  EXPECT_EQ(a_ball.triangles.size(), 12 * 36);
+  EXPECT_TRUE(is_closed(a_ball));
+  EXPECT_NEAR(volume(a_ball), 4 / 3.0 * std::numbers::pi * std::pow(6 * 0.64, 3), 10);
+}
+
+TEST(Shapes, SurfacesHaveTwoTrianglesASquare) {
+  Mesh open;
+  add_surface(open, 0, 3, 4);
+  EXPECT_EQ(open.triangles.size(), 12);
+  Mesh closed;
+  add_surface(closed, 7, 3, 4, true);
+  EXPECT_EQ(closed.triangles.size(), 16);
+  for (const auto& triangle : closed.triangles)
+    for (const int vertex : triangle) EXPECT_TRUE(vertex >= 7 && vertex < 19);
+}
+
+}  // namespace
+}  // namespace nearmiss
