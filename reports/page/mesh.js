@@ -39,7 +39,9 @@ function drawMesh(picture) {
       }
     return (lo + hi) / 2;
   });
-  const view = { yaw: -0.6, pitch: 0.45, zoom: 1, time: 1, subject: subjects[0] };
+  const said = (subject) => markColours(picture.meanings, subject).slice(0, 2).reduce((bits, each) => bits | each.bits, 0);
+  const wrong = subjects.find((subject) => figures.some((figure) => figure.mark & said(subject)));
+  const view = { yaw: -0.6, pitch: 0.45, zoom: 1, time: 1, subject: wrong ?? subjects[0] };
 
   const canvas = made("canvas", [], { class: "mesh", tabindex: "0", role: "img", "aria-label":
     `The mesh of ${picture.step.replace(/^scene:/, "")}: ${integer(marked.length)} of ${integer(figures.length)} figures are marked; ` +
@@ -126,6 +128,7 @@ function drawMesh(picture) {
   const time = made("input", [], { type: "range", min: "0", max: "1", step: "0.01", value: "1" });
   time.addEventListener("input", () => change({ time: Number(time.value) }));
   const which = made("select", subjects.map((name) => made("option", name, { value: name })));
+  which.value = view.subject;
   which.addEventListener("change", () => change({ subject: which.value }));
   draw();
   return made("figure", [
