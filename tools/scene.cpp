@@ -2,18 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fstream>
-#include <set>
 
 #include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in.hpp"
 #include "fuzz/scenes/plan.hpp"
-#include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
@@ -22,6 +17,7 @@
 #include "reports/summary.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
+#include "tools/scene_subjects.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
 
@@ -61,74 +57,6 @@ void list_scenes() {
                scene.description);
 }
 
-/// The largest bound B of all pairs whose boxes meet (§5), over all steps, rounded up to four digits.
-double scene_bound(const Scene& scene) {
-  double largest = 0;
-  for (std::size_t step = 0; step < scene.steps(); ++step) {
-    const MovingMesh mesh = moving_mesh(scene, step);
-    find_candidates(mesh, [&](const Candidate& candidate) {
-      largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
-    });
-  }
-  const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
-  const double rounded = std::ceil(largest / unit) * unit;
-  return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
-}
-
-/// Whether a subject takes notice of a bound that is given.
-bool uses_bound(const std::string& name) {
-  Query query{.kind = Kind::edge_edge};
-  query.x[0] = 1;
-  return make_any_subject(name)->distance_bound(query) != make_any_subject(name, 1e3)->distance_bound(query);
-}
-
-/// The subjects with each bound: NAME for each pair's own, NAME@scene, NAME@B for all others.
-struct Contestants {
-  Subjects subjects;
-  std::optional<double> bound;  ///< of the scene, where one is asked for
-};
-
-Contestants contestants(const Options& options, const Scene& scene) {
-  Contestants all;
-  std::set<std::string> names;
-  const auto add = [&](const std::string& name, std::optional<double> bound) {
-    if (names.insert(name).second)
-      all.subjects.push_back(std::move(make_subjects({name}, options.trial.limits, bound).front()));
-  };
-  for (const std::string& bound : options.bounds) {
-    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
-    const std::string suffix = bound == "pair"    ? ""
-                               : bound == "scene" ? std::string(of_scene)
-                                                  : fmt::format("@{}", *parse_bound(bound));
-    for (const std::string& name : options.trial.subjects)
-      if (suffix.empty() || is_plugin_path(name) || !uses_bound(name))
-        add(name, std::nullopt);
-      else
-        add(name + suffix, all.bound);
-  }
-  return all;
-}
-
-/// Leaves the cheapest subject whose false positives stay within the contact's thickness; prints what each
-/// promises and costs. Throws Error where there is none.
-void keep_cheapest_within(const Options& options, const Scene& scene, Subjects& subjects) {
-  const double thickness = parse_number(options.thickness, "--thickness");
-  const auto all =
-      precisions(scene, leave_outs.at(options.leave_out), subjects, [] { return interrupted().load(); });
-  const Precision* const best = cheapest_within(all, thickness);
-  std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
-  for (const Precision& each : all)
-    rows.push_back({each.subject, fmt::format("{:.3g}", each.claimed),
-                    fmt::format("{:.0f}", each.ns_per_query),
-                    &each == best ? "the cheapest within the thickness"
-                                  : (each.claimed <= thickness ? "" : "more than the thickness")});
-  fmt::print("contact thickness {:g}\n{}\n", thickness, columns(rows, 1));
-  if (best == nullptr)
-    throw Error(fmt::format("--thickness: found {}, expected at least what one of the subjects claims",
-                            options.thickness));
-  std::erase_if(subjects, [&](const auto& each) { return each->name() != best->subject; });
-}
-
 /// Files for nearmiss replay: FILE.vt and FILE.ee, a query a line.
 class Export {
  public:
@@ -162,79 +90,120 @@ class Export {
   std::map<Kind, std::pair<std::string, std::ofstream>> files_;
 };
 
-int run(const Options& given) {
+/// What a run's results depend on, and how it is run again.
+RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
+  std::string command = "scene";
+  for (const std::string& each : options.scene) command += " " + shell_quoted(each);
+  RunInfo info = options.trial.run_info(command);
+  std::string& again = info["again"];
+  again += fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
+  info["left out"] = options.leave_out;
+  if (scene_bound) info["scene's bound"] = fmt::format("{}", *scene_bound);
+  if (!options.thickness.empty()) {
+    info["thickness"] = options.thickness;
+    again += " --thickness " + options.thickness;
+  }
+  if (options.weld) {
+    info["welded"] = "yes";
+    again += " --weld";
+  }
+  return info;
+}
+
+/// How far a scene is: each step is asked about, and verified where that is wanted, which takes most of the time.
+class SceneProgress {
+ public:
+  SceneProgress(const Options& options, std::size_t steps, const Record& record)
+      : progress_(options.record.quiet),
+        asking_(options.verify_plan ? 0.03 : 1),
+        steps_(steps),
+        record_(record) {}
+
+  void asking(std::size_t step, double part) { show("asking", step, asking_ * part); }
+  void verifying(std::size_t step, double part) { show("verifying", step, asking_ + (1 - asking_) * part); }
+
+ private:
+  void show(const std::string& what, std::size_t step, double part) {
+    if (!progress_.due()) return;
+    const double done = (static_cast<double>(step) + part) / static_cast<double>(steps_);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    progress_.show(fmt::format("{} step {} of {}, {} false negatives, {} left", what, step + 1, steps_,
+                               with_separators(record_.statistics().false_negatives()),
+                               show_duration(elapsed * ((1 - done) / done))),
+                   done);
+  }
+
+  Progress progress_;
+  double asking_;
+  std::size_t steps_;
+  const Record& record_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Verified {
+  Verification verification;
+  std::chrono::duration<double> asking{};  ///< the time that it took to follow the plan
+};
+
+/// Goes through all steps of a scene.
+Verified hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record) {
   const auto& stop = interrupted();
-  Options options = given;
+  const LeaveOut leave_out = leave_outs.at(options.leave_out);
+  Export exported(options.export_to);
+  Verified verified;
+  SceneProgress progress(options, scene.steps(), record);
+  SceneTrial trial(subjects, options.trial.comparison, options.trial.jobs, stop,
+                   [&](TrialResult&& result) { record.add(std::move(result)); });
+  for (std::size_t step = 0; step < scene.steps() && !stop; ++step) {
+    const MovingMesh mesh = moving_mesh(scene, step);
+    exported.add_all(mesh, leave_out, stop);
+    const auto start = std::chrono::steady_clock::now();
+    trial.hold(step_name(scene, step), mesh, leave_out, [&](double part) { progress.asking(step, part); });
+    verified.asking += std::chrono::steady_clock::now() - start;
+    if (options.verify_plan && !stop)
+      verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
+        progress.verifying(step, part);
+        return !stop;
+      }));
+  }
+  exported.finish();
+  if (trial.picture()) record.add(*trial.picture());
+  return verified;
+}
+
+/// What the scene has, at its first frame.
+std::string describe(const Scene& scene) {
+  const MovingMesh mesh = moving_mesh(scene, 0);
+  return fmt::format("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
+                     counted(mesh.start.size(), "vertex", "vertices"),
+                     counted(mesh.triangles.size(), "triangle", "triangles"),
+                     counted(mesh.edges.size(), "edge", "edges"),
+                     counted(static_cast<std::size_t>(bodies(scene.mesh).count), "body", "bodies"));
+}
+
+int run(Options options) {
   if (options.plan_only) options.trial.subjects = {"wang"};
   options.record.summary = !options.plan_only;
   options.trial.make_subjects();  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
-  Contestants all = contestants(options, scene);
-  Subjects& subjects = all.subjects;
-  const RunInfo plugin_paths = options.trial.plugin_paths(subjects);
-  if (!options.thickness.empty()) keep_cheapest_within(options, scene, subjects);
-  const LeaveOut leave_out = leave_outs.at(options.leave_out);
+  SceneSubjects all = scene_subjects(options.trial, options.bounds, scene);
+  const RunInfo plugin_paths = options.trial.plugin_paths(all.subjects);
+  if (!options.thickness.empty())
+    keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects);
 
-  std::string command = "scene";
-  for (const std::string& each : options.scene) command += " " + shell_quoted(each);
-  RunInfo info = options.trial.run_info(command);
-  info["left out"] = options.leave_out;
-  info["again"] +=
-      fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
-  if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
-  if (!options.thickness.empty()) {
-    info["thickness"] = options.thickness;
-    info["again"] += " --thickness " + options.thickness;
-  }
-  if (options.weld) {
-    info["welded"] = "yes";
-    info["again"] += " --weld";
-  }
-  Record record(options.record, std::move(info), {.environment = plugin_paths});
-  Export exported(options.export_to);
-  Verification verification;
-  std::chrono::duration<double> asking{};
-  {
-    Progress progress(options.record.quiet);
-    SceneTrial trial(subjects, options.trial.comparison, options.trial.jobs, stop,
-                     [&](TrialResult&& result) { record.add(std::move(result)); });
-    for (std::size_t step = 0; step < scene.steps() && !stop; ++step) {
-      const MovingMesh mesh = moving_mesh(scene, step);
-      const auto show = [&](const std::string& what, double part) {
-        if (progress.due())
-          progress.show(
-              fmt::format("{}{}: {} false negatives", what,
-                          scene.steps() == 1 ? "" : fmt::format(" step {} of {}", step + 1, scene.steps()),
-                          with_separators(record.statistics().false_negatives())),
-              (static_cast<double>(step) + part) / static_cast<double>(scene.steps()));
-      };
-      exported.add_all(mesh, leave_out, stop);
-      const auto start = std::chrono::steady_clock::now();
-      trial.hold(step_name(scene, step), mesh, leave_out, [&](double part) { show("asking", part); });
-      asking += std::chrono::steady_clock::now() - start;
-      if (options.verify_plan)
-        verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
-          show("verifying", part);
-          return !stop;
-        }));
-    }
-    if (trial.picture()) record.add(*trial.picture());
-  }
-  exported.finish();
-  const MovingMesh mesh = moving_mesh(scene, 0);
-  fmt::print("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
-             counted(mesh.start.size(), "vertex", "vertices"),
-             counted(mesh.triangles.size(), "triangle", "triangles"),
-             counted(mesh.edges.size(), "edge", "edges"),
-             counted(static_cast<std::uint64_t>(bodies(scene.mesh).count), "body", "bodies"));
-  const int code = record.finish(stop, !stop);
-  if (!options.verify_plan || stop) return code;
+  Record record(options.record, run_info(options, all.bound), {.environment = plugin_paths});
+  const Verified verified = hold_trials(options, scene, all.subjects, record);
+  fmt::print("{}", describe(scene));
+  const int code = record.finish(interrupted(), !interrupted());
+  if (!options.verify_plan || interrupted()) return code;
+  const double asking = verified.asking.count();
+  const double verifying = verified.verification.seconds;
   fmt::print(
       "\n{}following the plan took {:.3g} s; asking about all that it leaves out {:.3g} s, {:.3g} times as "
       "long\n",
-      describe(verification), asking.count(), verification.seconds, verification.seconds / asking.count());
-  return verification.fine() ? code : exit_found;
+      describe(verified.verification), asking, verifying, verifying / asking);
+  return verified.verification.fine() ? code : exit_found;
 }
 
 }  // namespace
@@ -269,8 +238,8 @@ void add_scene(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--thickness", options->thickness,
-          "The thickness of contact: of the subjects ask only the cheapest whose claimed distance of false "
-          "positives stays below it")
+          "The thickness of contact: of the subjects (all, where none is named) ask only the cheapest whose "
+          "claimed distance of false positives stays below it")
       ->type_name("H");
   command->add_flag("--weld", options->weld, "Make points that are in one place at the first frame one");
   command->add_flag("--plan-only", options->plan_only,
@@ -283,9 +252,13 @@ void add_scene(CLI::App& app, int& exit_code) {
                    "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
       ->type_name("FILE");
   options->record.add_to(*command);
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     if (options->list) return list_scenes();
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    if (!options->thickness.empty() && command->count("--subject") == 0) {
+      options->trial.subjects.clear();  // then all are there to choose from
+      for (const SubjectInfo& info : all_subjects()) options->trial.subjects.emplace_back(info.name);
+    }
     exit_code = run(*options);
   });
 }

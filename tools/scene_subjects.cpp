@@ -1,0 +1,82 @@
+#include "tools/scene_subjects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ccd/error.hpp"
+#include "ccd/plugin.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/scenes/precision.hpp"
+#include "fuzz/subjects.hpp"
+#include "reports/summary.hpp"
+#include "tools/terminal.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+/// The largest bound B of all pairs whose boxes meet (§5), over all steps, rounded up to four digits.
+double scene_bound(const Scene& scene) {
+  double largest = 0;
+  for (std::size_t step = 0; step < scene.steps(); ++step) {
+    const MovingMesh mesh = moving_mesh(scene, step);
+    find_candidates(mesh, [&](const Candidate& candidate) {
+      largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
+    });
+  }
+  const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
+  const double rounded = std::ceil(largest / unit) * unit;
+  return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
+}
+
+/// Whether a subject takes notice of a bound that is given.
+bool uses_bound(const std::string& name) {
+  Query query{.kind = Kind::edge_edge};
+  query.x[0] = 1;
+  return make_any_subject(name)->distance_bound(query) != make_any_subject(name, 1e3)->distance_bound(query);
+}
+
+}  // namespace
+
+SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
+                             const Scene& scene) {
+  SceneSubjects all;
+  std::set<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (names.insert(name).second)
+      all.subjects.push_back(std::move(
+          make_subjects({name}, trial.limits, name.ends_with(of_scene) ? all.bound : std::nullopt).front()));
+  };
+  for (const std::string& bound : bounds) {
+    if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
+    const std::string suffix = bound == "pair"    ? ""
+                               : bound == "scene" ? std::string(of_scene)
+                                                  : fmt::format("@{}", *parse_bound(bound));
+    for (const std::string& name : trial.subjects)
+      add(is_plugin_path(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
+  }
+  return all;
+}
+
+void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
+                          Subjects& subjects) {
+  const double limit = parse_number(thickness, "--thickness");
+  const auto all = precisions(scene, leave_out, subjects, [] { return interrupted().load(); });
+  const Precision* const best = cheapest_within(all, limit);
+  std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
+  for (const Precision& each : all)
+    rows.push_back({each.subject, fmt::format("{:.3g}", each.claimed),
+                    fmt::format("{:.0f}", each.ns_per_query),
+                    &each == best ? "the cheapest within the thickness"
+                                  : (each.claimed <= limit ? "" : "more than the thickness")});
+  fmt::print("contact thickness {:g}\n{}\n", limit, columns(rows, 1));
+  if (best == nullptr)
+    throw Error(
+        fmt::format("--thickness: found {}, expected at least what one of the subjects claims", thickness));
+  std::erase_if(subjects, [&](const auto& each) { return each->name() != best->subject; });
+}
+
+}  // namespace nearmiss::tools
