@@ -26,12 +26,13 @@ struct ErrorBound {
 };
 
 /// A double together with the exact value that it stands for and its error bound, as a scalar of ccd/'s
-/// templates: they compute as they do in double, and decide by the computed values. `Exact` is any exact field
-/// with a constructor from double.
+/// templates: they compute as they do in double, and decide by the computed values. `Exact` is any exact
+/// field with a constructor from double.
 ///
-/// Rules: a constant is exact. Sums and differences B_l + B_r, max(k_l, k_r) + 1; products B_l B_r, k_l + k_r +
-/// 1 (Theorem 4.1), without the 1 for an exact power of two. A quotient by a constant is a product; any other has no rule, and an infinite bound. A maximum is one of its operands, and has
-/// its bound; those of ccd/ are over numbers with equal bounds, or else over all of them in turn.
+/// Rules: a constant is exact. Sums and differences B_l + B_r, max(k_l, k_r) + 1; products B_l B_r, k_l + k_r
+/// + 1 (Theorem 4.1), without the 1 for an exact power of two. A quotient by a constant is a product; any
+/// other has no rule, and an infinite bound. A maximum is one of its operands, and has its bound; those of
+/// ccd/ are over numbers with equal bounds, or else over all of them in turn.
 template <class Exact>
 class Audited {
  public:
@@ -112,9 +113,6 @@ Vector3<Audited<Exact>> interpolated(const X& x, const Audited<Exact>& t, const 
   }
   return sum;
 }
-
-template <class Exact>
-inline const Audited<Exact> epsilon<Audited<Exact>>{std::numeric_limits<double>::epsilon()};
 
 /// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
 template <class Exact>

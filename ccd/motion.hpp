@@ -162,7 +162,7 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order
 template <class T>
 bool in_range(T B) {
   constexpr int range = std::numeric_limits<T>::max_exponent >= 1024 ? 50 : 3;
-  constexpr T root = static_cast<T>(1ULL << range);
+  const T root = static_cast<T>(1ULL << range);
   return B <= root * root && B >= 1 / (root * root);
 }
 
