@@ -6,7 +6,12 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 
+#include "ccd/constraints.hpp"
+#include "ccd/cubic.hpp"
+#include "ccd/proximity.hpp"
+#include "ccd/vertex_edge.hpp"
 #include "fuzz/audit/samples.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
@@ -146,8 +151,8 @@ TEST(Audit, DerivesTheseErrors) {
   for (const auto& [name, value] : expected) EXPECT_NEAR(derived[name], value, 1e-9) << name;
 }
 
-// Too small in the paper: what takes relative positions of edges for bounded by B, and, by 1 to 2 %, what leaves
-// out the rounding of relative vectors.
+// Too small in the paper: what takes relative positions of edges for bounded by B, and, by 1 to 2 %, what
+// leaves out the rounding of relative vectors.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   std::vector<std::string> findings;
   for (const AuditRow& row : rows())
@@ -164,8 +169,61 @@ TEST(Audit, FindsWhatThePaperHasTooSmall) {
   }
 }
 
-// §4.1: "B is also an upper bound on the relative positions at any time", and x20 is the closest pair. Here the
-// end points x1, x2 are the closest at t = 0, at 1.5, and 5 apart at t = 1; B is 1 + 3.5.
+/// A moving vector with a bound of its ends, and the roundings in its position and its velocity.
+Moving<Number> leaves(double reach, int position, int velocity) {
+  Moving<Number> vector;
+  for (int i = 0; i < 6; ++i)
+    vector.xv[i] = {0.1 * i, 0.1 * i, {i < 3 ? reach : 1, 1, i < 3 ? position : velocity}};
+  return vector;
+}
+
+// constraints.hpp: in units of u, and B = 1.
+TEST(FullErrors, AreThoseOfTheRules) {
+  const double eps = 0x1p-60;
+  const auto errors = full_errors(eps, 1.0);
+  const auto roundings = [&](double error) { return error / (eps / 2); };
+  std::vector<std::pair<Number, Number>> kept;
+  const ComparisonLog<audit_parts::Rational> log(kept);
+  const auto taken = [&](std::size_t i) {
+    return kept.at(i).first.bound().error() + kept.at(i).second.bound().error();
+  };
+  Tolerances<Number> tol{};
+  tol.eta = tol.S = audit_parts::threshold(1, 1);
+
+  Pair<Kind::vertex_triangle, Number> vt;
+  vt.p = vt.q = vt.r = leaves(1, 1, 3);
+  const Figure triangle(vt, exact_time(0.5));
+  std::ignore = triangle.well_shaped(tol, log);
+  EXPECT_NEAR(roundings(errors.area), taken(0), 1e-9);
+  std::ignore = triangle.inside(log);
+  EXPECT_NEAR(roundings(errors.weight_vt), taken(7), 1e-9);
+
+  kept.clear();
+  Pair<Kind::edge_edge, Number> ee;
+  ee.p = leaves(2, 1, 4);
+  ee.q = ee.r = leaves(1, 1, 3);
+  const Figure quadrilateral(ee, exact_time(0.5));
+  std::ignore = quadrilateral.well_shaped(tol, log);
+  EXPECT_NEAR(roundings(errors.height_ee), taken(1), 1e-9);
+  std::ignore = quadrilateral.inside(log);
+  EXPECT_NEAR(roundings(errors.weight_ee), std::max(taken(3), taken(5)), 1e-9);
+
+  kept.clear();
+  const VertexEdge<Number> ve{leaves(2, 1, 5), leaves(1, 1, 3), leaves(2, 1, 5)};
+  detail::near_edge(ve, exact_time(0.5), tol, log);
+  EXPECT_NEAR(roundings(errors.length2), taken(0), 1e-9);
+  EXPECT_NEAR(roundings(errors.weight_ve), taken(2), 1e-9);
+  EXPECT_NEAR(roundings(errors.F), taken(3), 1e-9);
+
+  ee.p = leaves(1, 1, 4);
+  const auto F = coplanarity(ee);
+  double coefficients = 0;
+  for (const Number* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
+  EXPECT_NEAR(roundings(errors.residual), cubic_error(coefficients, 288, 6, 18), 1e-9);
+}
+
+// §4.1: "B is also an upper bound on the relative positions at any time", and x20 is the closest pair. Here
+// the end points x1, x2 are the closest at t = 0, at 1.5, and 5 apart at t = 1; B is 1 + 3.5.
 TEST(Audit, EdgesMayMoveOutOfTheBoundOfTheirClosestPair) {
   const auto x = [](double a) { return Vector3<double>(a, 0, 0); };
   const Query query =
