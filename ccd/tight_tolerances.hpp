@@ -31,8 +31,11 @@ constexpr double power_of_two(int exponent) {
 
 constexpr double square_root(double x) {  // Newton, from above
   double root = x > 1 ? x : 1;
-  for (double next = root; (next = (root + x / root) / 2) < root;) root = next;
-  return root;
+  for (;;) {
+    const double next = (root + x / root) / 2;
+    if (!(next < root)) return root;
+    root = next;
+  }
 }
 
 /// Where a function that falls and then rises is smallest on [lo, hi] (golden section).
@@ -117,9 +120,10 @@ constexpr TightConstants solve_tight(int eps_exponent) {
 template <class T>
 inline constexpr TightConstants tight_constants = solve_tight(epsilon_exponent<T>);
 
-/// Failure-proof for every scalar of 11 to 256 bits, where `paper_tolerances` are not for ε above 2^-37, and
-/// the distance bound is the smallest that the paper's constraints give: 37.3 B e for double and finer, 48.6
-/// B e for float.
+/// Failure-proof for every scalar of 11 to 256 bits, where `paper_tolerances` are not for ε above 2^-37, as
+/// far as the paper's μ >= 33492 B³ε and ψ = 725 B²ε^½ are (fuzz/audit/ derives less for both), and for
+/// queries whose coordinates the scalar has: a narrower one rounds them first. The distance bound is the
+/// smallest that the constraints give: 37.3 B e for double and finer, 48.3 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(T B) {
   constexpr const TightConstants& c = tight_constants<T>;

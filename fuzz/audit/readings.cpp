@@ -166,7 +166,8 @@ Readings missed_minimum(const Sample& s) {
   };
   constexpr int places = 64;
   for (int i = 0; i <= places; ++i) try_time(static_cast<double>(i) / places);
-  for (double step = 1.0 / places; step > 1e-12; step /= 2) {
+  for (int halvings = 0; halvings < 34; ++halvings) {
+    const double step = std::ldexp(1.0 / places, -halvings);
     const double middle = at;
     try_time(middle - step);
     try_time(middle + step);
