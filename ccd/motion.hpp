@@ -20,6 +20,12 @@ auto max_component(const Vector& a) {
   return std::max(std::max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
 }
 
+/// x + t v; a scalar that knows more than its value may have its own (audited.hpp).
+template <class X, class T, class V>
+Vector3<T> interpolated(const X& x, const T& t, const V& v) {
+  return x + t * v;
+}
+
 /// A vector that moves linearly: x + t v for t in [0, 1].
 template <class T>
 struct Moving {
@@ -27,7 +33,7 @@ struct Moving {
 
   [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
   [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
-  [[nodiscard]] Vector3<T> at(T t) const { return x() + t * v(); }
+  [[nodiscard]] Vector3<T> at(T t) const { return interpolated(x(), t, v()); }
 };
 
 /// The power-of-two frame in which a pair is computed: differences of coordinates times 2^exponent, with
@@ -156,7 +162,7 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order
 template <class T>
 bool in_range(T B) {
   constexpr int range = std::numeric_limits<T>::max_exponent >= 1024 ? 50 : 3;
-  constexpr T root = static_cast<T>(1ULL << range);
+  const T root = static_cast<T>(1ULL << range);
   return B <= root * root && B >= 1 / (root * root);
 }
 

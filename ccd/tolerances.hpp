@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 namespace nearmiss {
 
 /// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
 template <class T>
-inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
+inline const T epsilon = std::numeric_limits<T>::epsilon();
+template <std::floating_point T>
+inline constexpr T epsilon<T> = std::numeric_limits<T>::epsilon();
 
 /// ε^¼, the paper's measure of how far false positives may be (2^-13 for double).
 template <class T>

@@ -1,0 +1,55 @@
+#include "fuzz/audit/tolerance_table.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::array<std::pair<int, std::string_view>, 14> known{{{-10, "11 bits (half)"},
+                                                                  {-16, "17 bits"},
+                                                                  {-20, "21 bits"},
+                                                                  {-23, "float"},
+                                                                  {-28, "29 bits"},
+                                                                  {-32, "33 bits"},
+                                                                  {-36, "37 bits"},
+                                                                  {-37, "38 bits"},
+                                                                  {-40, "41 bits"},
+                                                                  {-52, "double"},
+                                                                  {-63, "extended"},
+                                                                  {-104, "double-double"},
+                                                                  {-112, "quadruple"},
+                                                                  {-255, "256 bits"}}};
+
+std::string_view first_broken(const Tolerances<double>& tol, double eps, double E_vt, double E_ee,
+                              const RoundingErrors<double>& errors) {
+  for (const auto& each : constraints(tol, eps, E_vt, E_ee, errors))
+    if (!(each.more >= each.less)) return each.about;
+  return "";
+}
+
+}  // namespace
+
+std::vector<ToleranceRow> tolerance_table() {
+  std::vector<ToleranceRow> rows;
+  for (const auto& [exponent, scalars] : known) {
+    const double eps = std::ldexp(1.0, exponent);
+    const double e = std::sqrt(std::sqrt(eps));
+    const TightConstants closed{64 / e, 64, 4, 6, 2080, 34 * 34 + 522};
+    const auto paper = tolerances_of(closed, eps);
+    const auto tight = tolerances_of(solve_tight(exponent), eps);
+    const double E = 4 * e * e;
+    rows.push_back({.exponent = exponent,
+                    .scalars = scalars,
+                    .tight = solve_tight(exponent),
+                    .paper_bound = paper.distance_bound() / e,
+                    .tight_bound = tight.distance_bound() / e,
+                    .relative_bound = tight.distance_bound(),
+                    .paper_breaks = first_broken(paper, eps, 21 * E / 16, E, full_errors(eps, paper.S)),
+                    .printed_breaks = first_broken(paper, eps, 21 * E / 16, E, printed_errors(eps))});
+  }
+  return rows;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,55 @@
+// What the tolerances promise for each machine epsilon.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "ccd/constraints.hpp"
+#include "ccd/tight_tolerances.hpp"
+
+namespace nearmiss {
+
+/// Closed forms of the paper, and the solved ones, for ε = 2^exponent. Lengths in units of B ε^¼.
+struct ToleranceRow {
+  int exponent = 0;
+  std::string_view scalars;
+  TightConstants tight{};
+  double paper_bound = 0;
+  double tight_bound = 0;
+  double relative_bound = 0;  ///< the tight one in units of B
+  std::string_view
+      paper_breaks;  ///< the constraint that the closed forms do not satisfy; none where it is empty
+  std::string_view printed_breaks;  ///< the same with the errors as the paper prints them
+};
+
+std::vector<ToleranceRow> tolerance_table();
+
+/// The coefficients with their powers of e and ε, for B = 1.
+template <class Number>
+Tolerances<Number> tolerances_of(const TightConstants& c, const Number& eps) {
+  using std::sqrt;
+  const Number e2 = sqrt(eps);
+  const Number e = sqrt(e2);
+  Tolerances<Number> tol;
+  tol.delta = eps * 311;
+  tol.D2 = e2 * c.D2;
+  tol.rho = e2 * 3;
+  tol.psi = e2 * 725;
+  tol.lambda2 = e2 * c.lambda2;
+  tol.R = e * c.R;
+  tol.S = tol.R * 3;
+  tol.mu = eps * c.mu;
+  tol.tau = e2 * c.tau;
+  tol.eta = e * c.eta;
+  return tol;
+}
+
+/// The E that allows most: squared, four times R² - r².
+template <class Number>
+Number longest_short_edge(const Tolerances<Number>& tol, const RoundingErrors<Number>& errors) {
+  using std::sqrt;
+  const Number r = (tol.mu + errors.residual) / (tol.tau - errors.area);
+  return sqrt(tol.R * tol.R - r * r) * 2 * (1 - 0x1p-40);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,186 @@
+// The tolerances that solve the paper's constraints.
+#include "ccd/tight_tolerances.hpp"
+
+#include <CGAL/Interval_nt.h>
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <nlopt.hpp>
+#include <vector>
+
+#include "ccd/wang.hpp"
+#include "fuzz/audit/tolerance_table.hpp"
+#include "fuzz/families/families.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+namespace mp = boost::multiprecision;
+using Interval = CGAL::Interval_nt<>;
+
+template <unsigned bits>
+using Bits = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
+
+/// What a number surely lies in.
+template <class T>
+Interval enclosure(const T& x) {
+  const auto near = static_cast<double>(x);
+  return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
+}
+
+/// The values as they are computed, divided by the powers of B.
+template <class T>
+Tolerances<Interval> enclosed(const T& B) {
+  const Tolerances<T> tol = tight_tolerances(B);
+  const Interval b = enclosure(B);
+  Tolerances<Interval> all;
+  all.delta = enclosure(tol.delta) / b / b;
+  all.D2 = enclosure(tol.D2) / b / b;
+  all.rho = enclosure(tol.rho) / b / b;
+  all.psi = enclosure(tol.psi) / b / b;
+  all.lambda2 = enclosure(tol.lambda2) / b / b;
+  all.R = enclosure(tol.R) / b;
+  all.S = enclosure(tol.S) / b;
+  all.mu = enclosure(tol.mu) / b / b / b;
+  all.tau = enclosure(tol.tau) / b / b;
+  all.eta = enclosure(tol.eta) / b;
+  return all;
+}
+
+void expect_constraints(const Tolerances<Interval>& tol, const Interval& eps, int exponent) {
+  const auto errors = full_errors(eps, tol.S);
+  // Any E will do: the lower end of what allows most.
+  const Interval E = longest_short_edge(tol, errors).inf();
+  for (const auto& each : constraints(tol, eps, E, E, errors))
+    EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
+}
+
+template <class T>
+void expect_constraints_as_computed() {
+  const int exponent = epsilon_exponent<T>;
+  ASSERT_EQ(static_cast<double>(epsilon<T>), std::ldexp(1.0, exponent));
+  for (const double B : {1.0, 1.3, 1.9, 0.7})
+    expect_constraints(enclosed(T(B)), Interval(std::ldexp(1.0, exponent)), exponent);
+}
+
+// To the last rounding of each, in interval arithmetic.
+TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
+  expect_constraints_as_computed<Bits<11>>();
+  expect_constraints_as_computed<Bits<12>>();
+  expect_constraints_as_computed<Bits<16>>();
+  expect_constraints_as_computed<float>();
+  expect_constraints_as_computed<Bits<32>>();
+  expect_constraints_as_computed<double>();
+  expect_constraints_as_computed<long double>();
+  expect_constraints_as_computed<Bits<105>>();
+  expect_constraints_as_computed<Bits<113>>();
+  expect_constraints_as_computed<Bits<256>>();
+}
+
+TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
+  for (int exponent = -10; exponent >= -255; --exponent) {
+    const Interval eps(std::ldexp(1.0, exponent));
+    expect_constraints(tolerances_of(solve_tight(exponent), eps), eps, exponent);
+  }
+}
+
+/// The constraints as functions of the logarithms of τ, η, R, λ², D² and both E, in units of powers of e.
+struct Problem {
+  double eps;
+  double mu;
+
+  static constexpr unsigned variables = 7;
+
+  /// How much each is violated, in the logarithm.
+  void violations(const double* x, double* missing) const {
+    const TightConstants c{
+        mu, std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
+    const auto tol = tolerances_of(c, eps);
+    const double e = std::sqrt(std::sqrt(eps));
+    for (const auto& each :
+         constraints(tol, eps, e * std::exp(x[5]), e * std::exp(x[6]), full_errors(eps, tol.S)))
+      *missing++ = std::log(each.less / each.more);
+  }
+};
+
+/// The smallest D² that NLopt finds from a point that satisfies the constraints, but is far from ours.
+double lowest_D2(int exponent) {
+  const TightConstants c = solve_tight(exponent);
+  Problem problem{std::ldexp(1.0, exponent), c.mu};
+  std::vector<double> x{std::log(c.tau),      std::log(c.eta), std::log(2 * c.R), std::log(0.5 * c.lambda2),
+                        std::log(2.5 * c.D2), std::log(c.R),   std::log(c.R)};
+  double log_D2 = 0;
+  for (int again = 0; again < 4; ++again) {
+    nlopt::opt optimiser(nlopt::LN_COBYLA, Problem::variables);
+    optimiser.set_min_objective(
+        [](unsigned /*count*/, const double* at, double* /*gradient*/, void* /*data*/) { return at[4]; },
+        nullptr);
+    optimiser.add_inequality_mconstraint(
+        [](unsigned /*count*/, double* missing, unsigned /*variables*/, const double* at,
+           double* /*gradient*/, void* data) { static_cast<const Problem*>(data)->violations(at, missing); },
+        &problem, std::vector<double>(constraint_count, 1e-9));
+    optimiser.set_initial_step(0.1);
+    optimiser.set_xtol_rel(1e-10);
+    optimiser.set_maxeval(20000);
+    optimiser.optimize(x, log_D2);
+  }
+  std::vector<double> missing(constraint_count);
+  problem.violations(x.data(), missing.data());
+  for (const double each : missing) EXPECT_LE(each, 1e-6);
+  return std::exp(log_D2);
+}
+
+TEST(TightTolerances, AreTheSmallestThatAnotherOptimiserFinds) {
+  for (const int exponent : {-10, -16, -23, -36, -52, -104}) {
+    const double ratio = lowest_D2(exponent) / solve_tight(exponent).D2;
+    const double rounding = 64 * std::ldexp(1.0, exponent);  // what ours have room for
+    EXPECT_LT(ratio, 1 + 1e-5) << exponent;
+    EXPECT_GT(ratio, 1 - 1e-5 - rounding) << exponent;
+  }
+}
+
+TEST(ToleranceTable, HasTheseBounds) {
+  for (const ToleranceRow& row : tolerance_table()) {
+    EXPECT_NEAR(row.paper_bound, 40.96, row.exponent > -20 ? 1 : 0.1);
+    if (row.exponent == -23) {
+      EXPECT_NEAR(row.tight_bound, 48.27, 0.01);
+      EXPECT_NEAR(row.relative_bound, 0.897, 0.001);
+    }
+    if (row.exponent <= -52) {
+      EXPECT_NEAR(row.tight_bound, 37.30, 0.01);
+    }
+  }
+}
+
+// NOTES 9: 64 ε^¾ >= 33492 ε, and nothing else, is what the closed forms break first.
+TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirtyEightBitsOn) {
+  for (const ToleranceRow& row : tolerance_table()) {
+    EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;
+    EXPECT_EQ(row.paper_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;
+  }
+}
+
+/// Collisions of all planted families, with coordinates that T has too, that the tight tolerances miss.
+template <class T>
+int misses(std::uint64_t queries) {
+  int count = 0;
+  for (const Family& family : families()) {
+    for (std::uint64_t i = 0; i < queries; ++i) {
+      Query query = make_query(family, 5, i);
+      for (double& c : query.x) c = static_cast<double>(static_cast<T>(c));
+      if (!is_finite(query) || !collides(query)) continue;
+      const bool hit = query.kind == Kind::vertex_triangle
+                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightSteps>(query).hit
+                           : wang<Kind::edge_edge, T, WangOptions{}, TightSteps>(query).hit;
+      if (!hit) ++count;
+    }
+  }
+  return count;
+}
+
+TEST(TightTolerances, MissNothingInDouble) { EXPECT_EQ(misses<double>(2000), 0); }
+TEST(TightTolerances, MissNothingInFloat) { EXPECT_EQ(misses<float>(500), 0); }
+
+}  // namespace
+}  // namespace nearmiss
