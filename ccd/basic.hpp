@@ -16,7 +16,7 @@ Verdict basic(const Query& query) {
   Pair<kind, T> pair;  // without a bound B, and so without normalisation
   form_vectors(query, pair);
   const auto roots = solve_cubic(coplanarity(pair), T(0));
-  for (const T t : roots)
+  for (const T& t : roots)
     if (Figure<kind, T>(pair, t).inside()) return Verdict::accepted(Stage::proximity, static_cast<double>(t));
   return Verdict::rejected(roots.count == 0 ? Miss::no_root : Miss::tests);
 }

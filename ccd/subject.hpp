@@ -108,6 +108,12 @@ class Subject {
   /// (same unit of length as the query); infinity where it claims nothing, NaN where it fails to say.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
+  /// Whether it looks at fewer digits than a double has.
+  [[nodiscard]] virtual bool rounds() const { return false; }
+
+  /// The query that is decided, and must be judged: of a subject that rounds one with rounded coordinates.
+  [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
+
   /// How far the query is from the border between hit and miss: the factor s by which the lengths of all
   /// tolerances that accept (D, ψ^½, S, μ^⅓) must be multiplied for the subject to just report it; at most 1
   /// for a hit, more for a miss. A guide for those who hunt, of a few bits; NaN where the subject does not
@@ -138,6 +144,13 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
 
 /// The same, but nothing for a name that is not known.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
+
+/// A name without its bound, "@B" or "@scene", and what bound that is; the one that is given where there is none.
+struct SplitName {
+  std::string_view name;
+  std::optional<double> bound;
+};
+SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
 /// Throws Error that lists the known names.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);

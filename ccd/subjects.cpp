@@ -8,6 +8,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/subject.hpp"
+#include "ccd/tight_tolerances.hpp"
 #include "ccd/wang.hpp"
 
 namespace nearmiss {
@@ -70,21 +71,21 @@ struct Basic {
   }
 };
 
-template <WangOptions options>
+template <WangOptions options, class Steps = AllSteps>
 struct Wang {
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& given) {
-    return wang<kind, double, options>(query, given);
+    return wang<kind, double, options, Steps>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
     // The bound is proportional to B, so it is taken at B = 1, where nothing overflows; rounded up, so that a
     // tiny pair's does not vanish.
-    const double bound = paper_tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
+    const double bound = Steps::tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
     return std::nextafter(bound, std::numeric_limits<double>::infinity());
   }
   static double needed_tolerance(const Query& query, const std::optional<double>& given) {
     return least_loosening([&](double s) {
-      const Loosened<AllSteps> steps{{}, s};
+      const Loosened<Steps> steps{{}, s};
       return query.kind == Kind::vertex_triangle
                  ? wang<Kind::vertex_triangle, double, options>(query, given, steps).hit
                  : wang<Kind::edge_edge, double, options>(query, given, steps).hit;
@@ -113,6 +114,8 @@ constexpr std::array registry{
     entry<Wang<WangOptions{true, VeCulling::fixed}>>(
         "wang-eps", "the same with the paper's fixed interval, the root of epsilon"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}, TightSteps>>(
+        "wang-tight", "wang with the smallest tolerances that its proof allows"),
 };
 
 }  // namespace
@@ -136,27 +139,22 @@ void Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> ve
   }
 }
 
-namespace {
-
-/// The B of a name "NAME@B", or of "NAME@scene" the one that is given; nothing where there is none.
-std::optional<double> bound_in(std::string_view name, std::optional<double> given) {
+SplitName split_bound(std::string_view name, std::optional<double> given_bound) {
   const auto at = name.rfind('@');
-  if (at == std::string_view::npos) return std::nullopt;
-  if (name.substr(at) == of_scene) return given;
+  if (at == std::string_view::npos) return {name, given_bound};
+  if (name.substr(at) == of_scene && given_bound) return {name.substr(0, at), given_bound};
   double bound = 0;
   const char* const end = name.data() + name.size();
   const auto [rest, error] = std::from_chars(name.data() + at + 1, end, bound);
-  if (error != std::errc() || rest != end || !(bound > 0) || !std::isfinite(bound)) return std::nullopt;
-  return bound;
+  if (error != std::errc() || rest != end || !(bound > 0) || !std::isfinite(bound))
+    return {name, given_bound};
+  return {name.substr(0, at), bound};
 }
 
-}  // namespace
-
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
-  const auto bound = bound_in(name_or_path, given_bound);
-  const std::string_view name = bound ? name_or_path.substr(0, name_or_path.rfind('@')) : name_or_path;
+  const auto [name, bound] = split_bound(name_or_path, given_bound);
   for (const Entry& each : registry)
-    if (each.info.name == name) return each.make(name_or_path, bound ? bound : given_bound);
+    if (each.info.name == name) return each.make(name_or_path, bound);
   if (is_plugin_path(name_or_path)) return std::make_unique<Plugin>(std::string(name_or_path));
   return nullptr;
 }

@@ -75,8 +75,8 @@ Times<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
 template <class T>
 Times<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
   Times<T, 24> times;
-  for (const T sy : {T(1), T(-1)}) {
-    for (const T sz : {T(1), T(-1)}) {
+  for (const T& sy : {T(1), T(-1)}) {
+    for (const T& sz : {T(1), T(-1)}) {
       const T a = g.a.x() + sy * g.a.y() + sz * g.a.z();
       const T b = g.b.x() + sy * g.b.y() + sz * g.b.z();
       for (int k = 0; k < 3; ++k) {
@@ -101,12 +101,12 @@ Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Ste
 
   if (accept(Step::ve_start, T(0))) return found(Stage::ve_end, T(0));
   if (accept(Step::ve_end, T(1))) return found(Stage::ve_end, T(1));
-  for (const T t : detail::equal_components(ve.xji))
+  for (const T& t : detail::equal_components(ve.xji))
     if (accept(Step::ve_equal, t)) return found(Stage::ve_equal, t);
   const detail::CrossProduct<T> g(ve.x0i, ve.xji, tol.rho);
-  for (const T t : detail::zero_components(g, steps))
+  for (const T& t : detail::zero_components(g, steps))
     if (accept(Step::ve_zero, t)) return found(Stage::ve_zero, t);
-  for (const T t : detail::piece_minima(g, ve.xji, tol.S))
+  for (const T& t : detail::piece_minima(g, ve.xji, tol.S))
     if (accept(Step::ve_minimum, t)) return found(Stage::ve_minimum, t);
   if (!steps.does(Step::vv)) return {};
   for (const Moving<T>* end : {&ve.x0i, &ve.x0j})

@@ -103,7 +103,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
     return false;
   };
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
-  for (const T t : roots)
+  for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
   // T ∪ {0, 1} of the algorithms: a candidate only where its residual is a root's. Then t = 0 is the left
   // node of the first interval, hence among the roots; t = 1 need not be.

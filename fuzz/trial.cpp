@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "ccd/error.hpp"
@@ -22,6 +23,7 @@ class Truth {
  public:
   Truth(const Query& query, const Decision& decision) : query_(query), decision_(decision) {}
 
+  [[nodiscard]] const Query& query() const { return query_; }
   [[nodiscard]] bool collision() const { return decision_.collision; }
 
   void count(OracleCounts& counts) const {
@@ -63,6 +65,27 @@ class Truth {
   const Query& query_;
   Decision decision_;
   std::string contact_;
+};
+
+/// The queries that a subject is judged by, where these are not the given ones.
+class Rounded {
+ public:
+  Rounded(const Subject& subject, const std::vector<Query>& queries) {
+    if (!subject.rounds()) return;
+    for (const Query& query : queries) queries_.push_back(subject.rounded(query));
+    decisions_.resize(queries_.size());
+    decide(queries_, decisions_);
+  }
+
+  /// Nothing where it is the given query's.
+  [[nodiscard]] std::optional<Truth> truth(std::size_t i) const {
+    if (queries_.empty()) return std::nullopt;
+    return Truth(queries_[i], decisions_[i]);
+  }
+
+ private:
+  std::vector<Query> queries_;
+  std::vector<Decision> decisions_;
 };
 
 /// Which queries are decided near the filter's bounds.
@@ -134,12 +157,13 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
   decide(batch.queries, decisions);
   const std::vector<bool> near =
       comparison.near_bounds ? near_bounds(batch, decisions) : std::vector<bool>(batch.queries.size());
+  std::vector<Rounded> rounded;
+  for (const auto& subject : subjects) rounded.emplace_back(*subject, batch.queries);
   const auto wang = make_subject("wang");  // the measure for subjects that claim no bound
   for (std::size_t i = 0; i < batch.queries.size(); ++i) {
-    const Query& query = batch.queries[i];
-    Truth truth(query, decisions[i]);
+    Truth truth(batch.queries[i], decisions[i]);
     const auto find = [&](Finding::What what, const std::string& subject, std::string signature,
-                          double ratio = 0) {
+                          const Query& query, double ratio = 0) {
       result.findings.push_back(
           {what, subject, batch.family, query, batch.provenance(i), ratio, std::move(signature), query});
       ++result.statistics.seen[signature_of(result.findings.back())];
@@ -148,36 +172,39 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
     truth.count(oracle);
     oracle.near_bounds += near[i] ? 1 : 0;
     const bool undecided = decisions[i].stage == FilterStage::undecided;
-    const bool asks_all =
-        near[i] || is_sampled(query, undecided ? comparison.one_in_undecided() : comparison.one_in);
+    const bool asks_all = near[i] || is_sampled(batch.queries[i], undecided ? comparison.one_in_undecided()
+                                                                            : comparison.one_in);
     if (asks_all)
       if (std::string signature = truth.compare(oracle); !signature.empty()) {
         ++result.statistics.oracle_disagreements;
-        find(Finding::What::oracle_disagreement, "", std::move(signature));
+        find(Finding::What::oracle_disagreement, "", std::move(signature), batch.queries[i]);
       }
     if (!batch.truths.empty() && batch.truths[i].value_or(truth.collision()) != truth.collision()) {
       ++result.statistics.mismatches_with_recorded_truth;
-      find(Finding::What::truth_mismatch, "", truth.contact());
+      find(Finding::What::truth_mismatch, "", truth.contact(), batch.queries[i]);
     }
     for (std::size_t s = 0; s < subjects.size(); ++s) {
-      Outcome outcome{.verdict = answers[s].verdicts[i], .collision = truth.collision()};
+      std::optional<Truth> own = rounded[s].truth(i);
+      Truth& judge = own ? *own : truth;
+      const Query& query = judge.query();
+      Outcome outcome{.verdict = answers[s].verdicts[i], .collision = judge.collision()};
       if (outcome.verdict.hit && !outcome.collision) {
         const double claimed = subjects[s]->distance_bound(query);
         if (std::isnan(claimed)) outcome.verdict.fault = Fault::error;
         const bool claims = std::isfinite(claimed);
-        const auto distance = truth.distance(claims ? claimed : wang->distance_bound(query));
+        const auto distance = judge.distance(claims ? claimed : wang->distance_bound(query));
         outcome.ratio = distance.ratio;
         outcome.bound_refuted = claims && distance.exceeds;
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
       if (batch.observe) batch.observe(i, s, outcome);
       if (outcome.verdict.fault != Fault::none)
-        find(Finding::What::fault, subjects[s]->name(), fault_signature(batch.kind, outcome.verdict));
+        find(Finding::What::fault, subjects[s]->name(), fault_signature(batch.kind, outcome.verdict), query);
       else if (outcome.collision && !outcome.verdict.hit)
-        find(Finding::What::false_negative, subjects[s]->name(), truth.contact());
+        find(Finding::What::false_negative, subjects[s]->name(), judge.contact(), query);
       if (outcome.bound_refuted)
         find(Finding::What::refuted_bound, subjects[s]->name(),
-             report_signature(batch.kind, outcome.verdict.stage), outcome.ratio);
+             report_signature(batch.kind, outcome.verdict.stage), query, outcome.ratio);
     }
   }
   return result;

@@ -1,0 +1,122 @@
+// The subjects of ccd/ over any scalar. Included where a scalar is made into subjects, and nowhere else: its templates
+// are slow to compile.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "ccd/basic.hpp"
+#include "ccd/error.hpp"
+#include "ccd/tight_tolerances.hpp"
+#include "ccd/wang.hpp"
+#include "fuzz/ladder/scalars.hpp"
+
+namespace nearmiss::ladder {
+
+/// The paper's tolerances, or the smallest.
+struct EitherTolerances : AllSteps {
+  bool tight = false;
+
+  template <class T>
+  [[nodiscard]] Tolerances<T> tolerances(const T& B) const {
+    return tight ? tight_tolerances(B) : paper_tolerances(B);
+  }
+};
+
+/// basic, wang or wang-tight with all arithmetic in T. Coordinates of more digits than T has are rounded to T
+/// first; that query is what is decided.
+template <class T>
+class Scaled final : public Subject {
+ public:
+  Scaled(std::string_view name, Algorithm algorithm, std::optional<double> given)
+      : name_(name), algorithm_(algorithm), given_(given) {
+    steps_.tight = algorithm == Algorithm::wang_tight;
+  }
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (!is_finite(query))
+      throw Error(name_ + ": found a coordinate that is not finite, expected 24 finite numbers");
+    return decide(query, steps_);
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::infinity();
+    // Rounded up, and with the slack of B in a scalar of few digits: B <= B* (1 + 40ε).
+    const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
+    const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent<T>);
+    const double B = given_.value_or(pair_bound(rounded(query)));
+    return std::nextafter(bound * slack * B, std::numeric_limits<double>::infinity());
+  }
+
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();
+    return least_loosening([&](double s) {
+      const Loosened<EitherTolerances> steps{steps_, s};
+      return decide(query, steps).hit;
+    });
+  }
+
+  [[nodiscard]] bool rounds() const override { return narrow; }
+
+  [[nodiscard]] Query rounded(const Query& query) const override {
+    auto [seen, exponent] = as_seen(query);
+    for (double& c : seen.x) c = std::ldexp(c, -exponent);
+    return seen;
+  }
+
+ private:
+  static constexpr WangOptions options{true, VeCulling::per_root};
+  static constexpr bool narrow = std::numeric_limits<T>::digits < std::numeric_limits<double>::digits;
+
+  template <class Steps>
+  [[nodiscard]] Verdict decide(const Query& query, const Steps& steps) const {
+    const auto [seen, exponent] = as_seen(query);
+    std::optional<double> given = given_;
+    if (given) given = std::ldexp(*given, exponent);
+    const auto of_kind = [&]<Kind kind>(std::integral_constant<Kind, kind>) {
+      return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen)
+                                            : wang<kind, T, options>(seen, given, steps);
+    };
+    return query.kind == Kind::vertex_triangle
+               ? of_kind(std::integral_constant<Kind, Kind::vertex_triangle>())
+               : of_kind(std::integral_constant<Kind, Kind::edge_edge>());
+  }
+
+  /// A query with coordinates that T has, times a power of two that brings it into the range of float where T is
+  /// that; the exponent. All other scalars have at least the range of double.
+  static std::pair<Query, int> as_seen(const Query& query) {
+    if constexpr (!narrow) return {query, 0};
+    int exponent = 0;
+    if constexpr (std::is_same_v<T, float>) {
+      double largest = 0;
+      for (const double c : query.x) largest = std::max(largest, std::abs(c));
+      if (largest > 0) exponent = -std::ilogb(largest);
+    }
+    Query seen = query;
+    for (double& c : seen.x) c = static_cast<double>(static_cast<T>(std::ldexp(c, exponent)));
+    return {seen, exponent};
+  }
+
+  std::string name_;
+  Algorithm algorithm_;
+  std::optional<double> given_;
+  EitherTolerances steps_;
+};
+
+template <class T>
+std::unique_ptr<Subject> make_scaled(std::string_view name, Algorithm algorithm,
+                                     std::optional<double> given) {
+  return std::make_unique<Scaled<T>>(name, algorithm, given);
+}
+
+}  // namespace nearmiss::ladder
