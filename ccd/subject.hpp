@@ -25,14 +25,17 @@ enum class Stage : std::uint8_t {
   ve_equal,     ///< VE, KKT case 3: two edge components of the same magnitude
   ve_zero,      ///< VE, KKT case 4: a component of the cross product vanishes
   vv,           ///< VV (KKT case 5)
+  filter,       ///< certified arithmetic in double
+  exact,        ///< exact arithmetic
   unspecified,  ///< a subject that does not tell, such as a plug-in
 };
 
-inline constexpr std::size_t stage_count = 8;
+inline constexpr std::size_t stage_count = 10;
 
 /// Names of the stages, in order, as they stand in files and reports.
 inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "none", "proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"};
+    "none",    "proximity", "ve-end", "ve-minimum", "ve-equal",
+    "ve-zero", "vv",        "filter", "exact",      "unspecified"};
 
 /// What told that a pair does not collide.
 enum class Miss : std::uint8_t {
@@ -42,13 +45,16 @@ enum class Miss : std::uint8_t {
   no_root,  ///< the cubic has no root in [0, 1]
   culled,   ///< VE culling (§5): VE tests were not needed
   tests,    ///< all tests of the algorithm
+  filter,   ///< certified arithmetic in double
+  finer,    ///< the algorithm with a finer scalar
+  exact,    ///< exact arithmetic
 };
 
-inline constexpr std::size_t miss_count = 6;
+inline constexpr std::size_t miss_count = 9;
 
 /// Names of these, in order, as they stand in files and reports.
-inline constexpr std::array<std::string_view, miss_count> miss_names{"untold",  "planes", "apart",
-                                                                     "no-root", "culled", "tests"};
+inline constexpr std::array<std::string_view, miss_count> miss_names{
+    "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {

@@ -29,7 +29,9 @@ class Exact : public Subject {
     if (stage == FilterStage::undecided && !is_finite(query))
       throw Error("exact: found a coordinate that is not finite, expected 24 finite numbers");
     const bool hit = settle(query, stage);
-    return {.hit = hit, .stage = hit ? Stage::unspecified : Stage::none};
+    const bool filtered = stage != FilterStage::undecided;
+    if (!hit) return Verdict::rejected(filtered ? Miss::filter : Miss::exact);
+    return {.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
   }
 
  private:

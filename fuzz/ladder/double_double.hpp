@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, as long as nothing underflows,
+/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, as long as nothing comes near the ends of double's range,
 ///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error bounds
 ///   product          5u²          for basic building blocks of double-word arithmetic", ACM TOMS 44, 2017;
 ///                                 Algorithm 10 there)
@@ -26,14 +26,14 @@ class DoubleDouble {
 
   friend DoubleDouble operator-(const DoubleDouble& a) { return DoubleDouble(-a.value_); }
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
-    return DoubleDouble(dd_real::ieee_add(a.value_, b.value_));
+    return or_double(dd_real::ieee_add(a.value_, b.value_), a.value_.x[0] + b.value_.x[0]);
   }
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
-    return DoubleDouble(a.value_ * b.value_);
+    return or_double(a.value_ * b.value_, a.value_.x[0] * b.value_.x[0]);
   }
   friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
-    return DoubleDouble(dd_real::accurate_div(a.value_, b.value_));
+    return or_double(dd_real::accurate_div(a.value_, b.value_), a.value_.x[0] / b.value_.x[0]);
   }
   DoubleDouble& operator+=(const DoubleDouble& b) { return *this = *this + b; }
   DoubleDouble& operator-=(const DoubleDouble& b) { return *this = *this - b; }
@@ -57,6 +57,12 @@ class DoubleDouble {
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
+  /// Beyond about 2^996 libqd's steps overflow where the result does not: then that of double counts.
+  static DoubleDouble or_double(const dd_real& result, double in_double) {
+    return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
+                                                                    : DoubleDouble(in_double);
+  }
+
   dd_real value_;
 };
 

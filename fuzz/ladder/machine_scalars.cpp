@@ -15,9 +15,11 @@ constexpr Scalar scalar(std::string_view name) {
   return {name, epsilon_exponent<T>, &make_scaled<T>};
 }
 
-constexpr std::array all {
-  scalar<float>("float"), scalar<double>("double"), scalar<long double>("longdouble"),
-      scalar<DoubleDouble>("dd"),
+constexpr std::array all{
+    scalar<float>("float"),
+    scalar<double>("double"),
+    scalar<long double>("longdouble"),
+    scalar<DoubleDouble>("dd"),
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ function draw(id, description, spec) {
 }
 
 // Okabe and Ito's colours, which the colour-blind can tell apart.
-const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47"];
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47", "#5e3c99", "#1b1b1b"];
 const subjectNames = Object.keys(report.subjects);
 const subjectColor = {
   field: "subject", type: "nominal", title: "subject",
@@ -170,7 +170,7 @@ function drawStages() {
   for (const row of countRows(false))
     for (const [truth, field] of [["true positives", "true_positives_by_stage"], ["false positives", "false_positives_by_stage"]])
       for (const [stage, n] of Object.entries(row[field])) values.push({ subject: `${row.subject} ${row.kind}`, truth, stage, count: n });
-  const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "unspecified"];
+  const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "filter", "exact", "unspecified"];
   return draw("stages", "For each subject and kind the share of the true and of the false positives that each test accepted.", {
     data: { values },
     facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },

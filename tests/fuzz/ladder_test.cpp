@@ -1,0 +1,216 @@
+// Subjects over other scalars than double.
+#include "fuzz/ladder/scalars.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/gmp.hpp>
+#include <set>
+
+#include "ccd/error.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/ladder/adaptive.hpp"
+#include "fuzz/ladder/double_double.hpp"
+#include "fuzz/random.hpp"
+#include "fuzz/subjects.hpp"
+#include "fuzz/trial.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using Rational = boost::multiprecision::mpq_rational;
+
+Rational exactly(const DoubleDouble& a) { return Rational(a.value().x[0]) + Rational(a.value().x[1]); }
+
+/// |computed - exact| / |exact|, in ε.
+double error(const DoubleDouble& computed, const Rational& exact) {
+  if (exact == 0) return exactly(computed) == 0 ? 0 : std::numeric_limits<double>::infinity();
+  const Rational relative = abs((exactly(computed) - exact) / exact);
+  return static_cast<double>(relative) * 0x1p102;
+}
+
+/// Two double-doubles, often so near each other that their difference cancels.
+std::pair<DoubleDouble, DoubleDouble> operands(Random& random) {
+  const auto draw = [&] {
+    const double high = random.uniform(-1, 1);
+    const double low = random.uniform(-1, 1) * 0x1p-54;
+    return DoubleDouble(high) + DoubleDouble(high * low);
+  };
+  const DoubleDouble a = draw();
+  DoubleDouble b = draw();
+  if (random.one_in(2)) b = -a * DoubleDouble(1 + random.uniform(-1, 1) * 0x1p-60);
+  if (random.one_in(3)) b = ldexp(b, random.integer(-60, 60));
+  return {a, b};
+}
+
+TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
+  Random random(1, 0, 0);
+  double sum = 0;
+  double product = 0;
+  double quotient = 0;
+  double root = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const auto [a, b] = operands(random);
+    sum = std::max(sum, error(a + b, exactly(a) + exactly(b)));
+    sum = std::max(sum, error(a - b, exactly(a) - exactly(b)));
+    product = std::max(product, error(a * b, exactly(a) * exactly(b)));
+    quotient = std::max(quotient, error(a / b, exactly(a) / exactly(b)));
+    const DoubleDouble r = sqrt(abs(a));  // its error is half of its square's
+    root = std::max(root, error(r * r, abs(exactly(a))) / 2);
+  }
+  EXPECT_LE(sum, 3.0 / 16 + 1e-9);
+  EXPECT_LE(product, 5.0 / 16);
+  EXPECT_LE(quotient, 1);
+  EXPECT_LE(root, 1);
+  EXPECT_GT(sum, 1.0 / 16);
+}
+
+// Why its sum is not the one that Debian's libqd calls +.
+TEST(DoubleDouble, LibqdsOwnSumHasNoRelativeBound) {
+  // High parts that differ in the last bit, and low parts that almost make it up.
+  const DoubleDouble a(dd_real(1, 0x1.fffffffffffffp-54));
+  const DoubleDouble b(dd_real(-0x1.0000000000001p+0, 0x1.ffffffffffffep-54));
+  EXPECT_GT(error(DoubleDouble(a.value() + b.value()), exactly(a) + exactly(b)), 1000);
+  EXPECT_LE(error(a + b, exactly(a) + exactly(b)), 3.0 / 16);
+}
+
+TEST(DoubleDouble, NearTheEndsOfItsRangeItIsADouble) {
+  const DoubleDouble most = std::numeric_limits<double>::max();
+  EXPECT_EQ(most / 16, DoubleDouble(std::numeric_limits<double>::max() / 16));
+  EXPECT_EQ(most + most, DoubleDouble(std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(most * 1.0, most);
+}
+
+TEST(Scalars, AreKnownByName) {
+  std::set<std::string_view> names;
+  int before = 0;
+  for (const auto& scalar : scalars()) {
+    EXPECT_TRUE(names.insert(scalar.name).second) << scalar.name;
+    EXPECT_LE(scalar.epsilon_exponent, before);
+    before = scalar.epsilon_exponent;
+    const std::string name = "wang:" + std::string(scalar.name);
+    EXPECT_EQ(make_any_subject(name)->name(), name);
+  }
+  EXPECT_GE(names.size(), 28);
+  EXPECT_THAT([] { make_any_subject("wang:p17"); }, ThrowsMessage<Error>(HasSubstr("p16, ")));
+  EXPECT_THAT([] { make_any_subject("exact:float"); },
+              ThrowsMessage<Error>(HasSubstr("expected basic, wang")));
+  const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+  const auto bound = [&](const char* name) { return make_any_subject(name)->distance_bound(query); };
+  EXPECT_NEAR(bound("wang:p53@7"), bound("wang@7"), 1e-9);
+  EXPECT_NEAR(bound("wang-tight:dd@7"), 37.3 * 7 * std::pow(2, -25.5), 1e-6);
+}
+
+/// A batch of each family, both kinds.
+std::vector<Batch> batches(std::uint64_t seed, int queries) {
+  std::vector<Batch> all;
+  for (const Family& family : families())
+    for (const Kind kind : kinds) {
+      Batch batch{.kind = kind, .family = family.name, .provenance = [](std::size_t) { return "test"; }};
+      for (int i = 0; i < 2 * queries; ++i)
+        if (const Query query = make_query(family, seed, static_cast<std::uint64_t>(i)); query.kind == kind)
+          batch.queries.push_back(query);
+      all.push_back(std::move(batch));
+    }
+  return all;
+}
+
+class EveryScalar : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Ladder, EveryScalar, ::testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const auto& scalar : scalars()) names.emplace_back(scalar.name);
+                           return names;
+                         }()),
+                         [](const auto& scalar) { return scalar.param; });
+
+TEST_P(EveryScalar, MissesNothingAndReportsNothingBeyondItsBound) {
+  Subjects subjects;
+  subjects.push_back(make_any_subject("wang-tight:" + GetParam()));
+  TrialResult sum;
+  for (const Batch& batch : batches(7, 30)) sum.merge(hold_trial(subjects, batch));
+  std::uint64_t collisions = 0;
+  for (const auto& [key, counts] : sum.statistics.counts) collisions += counts.collisions;
+  EXPECT_GT(collisions, 500);
+  EXPECT_EQ(sum.statistics.false_negatives(), 0);
+  EXPECT_EQ(sum.statistics.refuted_bounds(), 0);
+  EXPECT_EQ(sum.statistics.faults(), 0);
+}
+
+TEST(Ladder, The53BitsOfDoubleAnswerAsDoubleDoes) {
+  const auto in_double = make_any_subject("wang");
+  const auto by_template = make_any_subject("wang:double");
+  const auto by_bits = make_any_subject("wang:p53");
+  for (const Batch& batch : batches(3, 50))
+    for (const Query& query : batch.queries) {
+      const bool hit = in_double->decide(query).hit;
+      ASSERT_EQ(by_template->decide(query).hit, hit) << batch.family;
+      if (batch.family == "uniform" || batch.family == "sliver" || batch.family == "parallel") {
+        ASSERT_EQ(by_bits->decide(query).hit, hit) << batch.family;
+      }
+    }
+}
+
+TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
+  // Above the triangle by less than float can tell.
+  const Query query = testing::falling_vertex(0.25, 0.25, 1, 0x1p-40);
+  Query moved = query;
+  for (int i = 0; i < 4; ++i)
+    for (const int at : {3 * i + 2, 12 + 3 * i + 2}) moved.x[static_cast<std::size_t>(at)] += 1;
+  ASSERT_FALSE(collides(moved));
+  const auto subject = make_any_subject("basic:float");
+  EXPECT_TRUE(subject->rounds());
+  const Query rounded = subject->rounded(moved);
+  EXPECT_TRUE(collides(rounded));
+  EXPECT_EQ(subject->rounded(rounded).x, rounded.x);
+  EXPECT_FALSE(make_any_subject("basic:dd")->rounds());
+
+  Subjects subjects;
+  for (const char* name : {"wang:float", "wang"}) subjects.push_back(make_any_subject(name));
+  const TrialResult result = hold_trial(
+      subjects,
+      {.kind = query.kind, .family = "f", .queries = {moved}, .provenance = [](std::size_t) { return ""; }});
+  const auto& counts = result.statistics.counts;
+  EXPECT_EQ(counts.at({"wang:float", query.kind, "f"}).collisions, 1);
+  EXPECT_EQ(counts.at({"wang", query.kind, "f"}).collisions, 0);
+  const auto& oracle = result.statistics.oracle.at({query.kind, "f"});
+  EXPECT_EQ(oracle.queries, 1);
+  EXPECT_EQ(oracle.collisions, 0);
+}
+
+TEST(Ladder, FloatTakesQueriesOfAnySize) {
+  const auto subject = make_any_subject("wang-tight:float");
+  for (const double size : {1e-300, 1e-40, 1.0, 1e40, 1e300}) {
+    const Query query = testing::scaled(testing::falling_vertex(0.25, 0.25, 1, -1), size);
+    EXPECT_TRUE(subject->decide(query).hit) << size;
+    EXPECT_TRUE(collides(subject->rounded(query))) << size;
+  }
+}
+
+TEST(Adaptive, SaysWhatExactSaysAndEachOfItsStagesIsNeeded) {
+  const auto adaptive = try_make_adaptive("adaptive");
+  std::set<Stage> accepted;
+  std::set<Miss> rejected;
+  for (const Batch& batch : batches(5, 200)) {
+    std::vector<Verdict> verdicts(batch.queries.size());
+    adaptive->decide(batch.queries, verdicts);
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      ASSERT_EQ(verdicts[i].hit, collides(batch.queries[i])) << batch.family << ' ' << i;
+      ASSERT_EQ(adaptive->decide(batch.queries[i]).hit, verdicts[i].hit);
+      if (verdicts[i].hit)
+        accepted.insert(verdicts[i].stage);
+      else
+        rejected.insert(verdicts[i].miss);
+    }
+  }
+  EXPECT_EQ(accepted, (std::set{Stage::filter, Stage::exact}));
+  for (const Miss miss :
+       {Miss::planes, Miss::no_root, Miss::culled, Miss::tests, Miss::filter, Miss::finer, Miss::exact})
+    EXPECT_TRUE(rejected.contains(miss)) << miss_names[static_cast<std::size_t>(miss)];
+}
+
+}  // namespace
+}  // namespace nearmiss
