@@ -12,6 +12,7 @@
 #include "reports/csv.hpp"
 #include "reports/headline.hpp"
 #include "reports/json.hpp"
+#include "reports/ladder.hpp"
 #include "reports/page.hpp"
 #include "reports/shown.hpp"
 #include "reports/summary.hpp"
@@ -112,6 +113,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(campaign.statistics))
     json["farthest"].push_back(farthest_json(each));
+  if (const auto ladder = ladder_json(campaign.statistics)) json["ladder"] = *ladder;
   for (const Run& run : campaign.runs)
     for (const ScenePicture& picture : run.pictures) {
       json["pictures"].push_back({{"step", picture.step}});

@@ -4,6 +4,7 @@
 
 #include "fuzz/campaign.hpp"
 #include "fuzz/families/mesh_family.hpp"
+#include "fuzz/ladder/scalars.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search.hpp"
 #include "reports/shell.hpp"
@@ -143,6 +144,41 @@ int run(const Options& options) {
   return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
 }
 
+/// How long, which part of it, and where the results go.
+void add_common(CLI::App& command, Options& options) {
+  auto* limit = command.add_option_group("limit", "How long");
+  limit->add_option("--cases", options.cases, "As many queries in all, shared out among the families")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
+      ->type_name("N");
+  limit
+      ->add_option(
+          "--time", options.time,
+          "As many as there is time for: 30s, 2m, 8h; what goes on with a campaign has what is left of it, "
+          "and with --cases all of it anew")
+      ->type_name("T");
+  limit->require_option(1, 2);
+  command.add_option("--seed", options.seed, "Queries are a pure function of family, seed and number")
+      ->capture_default_str()
+      ->type_name("S");
+  command.add_option("--shard", options.shard, "Do part I of N of the campaign, 0 <= I < N")
+      ->capture_default_str()
+      ->type_name("I/N");
+  options.record.add_to(command);
+  command
+      .add_flag("--resume", options.record.resume,
+                "Go on with the campaign in the store, of the same options, where that was stopped; begin it "
+                "where there is no such file")
+      ->needs("--db");
+}
+
+/// All scalars from float's precision to 128 bits.
+std::vector<std::string> default_scalars() {
+  std::vector<std::string> names;
+  for (const ladder::Scalar& scalar : scalars())
+    if (scalar.epsilon_exponent <= -23 && scalar.epsilon_exponent >= -127) names.emplace_back(scalar.name);
+  return names;
+}
+
 }  // namespace
 
 void add_fuzz(CLI::App& app, int& exit_code) {
@@ -180,35 +216,42 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   command->add_flag("--search", options->search,
                     "Add directed search: for each subject, collisions that it nearly misses and far false "
                     "positives");
-  auto* limit = command->add_option_group("limit", "How long");
-  limit->add_option("--cases", options->cases, "As many queries in all, shared out among the families")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
-      ->type_name("N");
-  limit
-      ->add_option(
-          "--time", options->time,
-          "As many as there is time for: 30s, 2m, 8h; what goes on with a campaign has what is left of it, "
-          "and with --cases all of it anew")
-      ->type_name("T");
-  limit->require_option(1, 2);
-  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
-      ->capture_default_str()
-      ->type_name("S");
-  command->add_option("--shard", options->shard, "Do part I of N of the campaign, 0 <= I < N")
-      ->capture_default_str()
-      ->type_name("I/N");
-  options->record.add_to(*command);
-  command
-      ->add_flag(
-          "--resume", options->record.resume,
-          "Go on with the campaign in the store, of the same options, where that was stopped; begin it "
-          "where there is no such file")
-      ->needs("--db");
+  add_common(*command, *options);
   command->footer(
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
       "\n\nExample: nearmiss fuzz --subject basic,wang --time 30s --db night.db && nearmiss report "
       "night.db -o report");
   command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+void add_ladder(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto names = std::make_shared<std::vector<std::string>>(default_scalars());
+  options->families = {"uniform", "sliver", "parallel"};
+  options->search = true;
+  auto* command = app.add_subcommand(
+      "ladder", "Measure false positives over a ladder of precisions, with directed search for the farthest");
+  command
+      ->add_option("--scalar", *names,
+                   "Scalars, separated by commas, with the paper's and the smallest tolerances")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command->add_option("--family", options->families, "Families of queries, separated by commas, or all")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("all|A,B,...");
+  add_comparison_options(*command, options->trial.comparison);
+  add_jobs_option(*command, options->trial.jobs);
+  add_common(*command, *options);
+  command->footer(
+      "\nExample: nearmiss ladder --time 10m --db ladder.db && nearmiss report ladder.db -o report");
+  command->callback([options, names, &exit_code] {
+    options->trial.subjects.clear();
+    for (const std::string& scalar : *names)
+      for (const char* algorithm : {"wang:", "wang-tight:"})
+        options->trial.subjects.push_back(algorithm + scalar);
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace nearmiss::tools

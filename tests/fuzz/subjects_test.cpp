@@ -12,8 +12,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-TEST(AllSubjects, AreThoseOfTheCcdAndTheExactOnes) {
-  EXPECT_EQ(all_subjects().size(), subjects().size() + 2);
+TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndAdaptive) {
+  EXPECT_EQ(all_subjects().size(), subjects().size() + 3);
   for (const SubjectInfo& info : all_subjects()) EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_THAT([] { make_any_subject("wong"); }, ThrowsMessage<Error>(HasSubstr("exact")));
 }

@@ -1,0 +1,37 @@
+// Names of scalars, as in "wang:p40".
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace nearmiss {
+
+/// The algorithm and the scalar of a subject's name, without its bound; the scalar is "" where none is named, and
+/// then it is double.
+struct ScaledName {
+  std::string_view algorithm, scalar;
+};
+constexpr ScaledName split_scalar(std::string_view name) {
+  name = name.substr(0, name.rfind('@'));
+  const auto colon = name.find(':');
+  if (colon == std::string_view::npos) return {name, ""};
+  return {name.substr(0, colon), name.substr(colon + 1)};
+}
+
+/// The exponent of ε = 2^exponent of a scalar by its name; nothing for what is no scalar.
+inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
+  if (scalar.empty() || scalar == "double") return -52;
+  if (scalar == "float") return -23;
+  if (scalar == "longdouble") return -63;
+  if (scalar == "dd") return -102;
+  if (scalar == "quad") return -112;
+  int bits = 0;
+  const char* const end = scalar.data() + scalar.size();
+  if (scalar.front() != 'p') return std::nullopt;
+  const auto [rest, error] = std::from_chars(scalar.data() + 1, end, bits);
+  if (error != std::errc() || rest != end || bits < 2) return std::nullopt;
+  return 1 - bits;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,135 @@
+#include "reports/ladder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "ccd/scalar_name.hpp"
+#include "ccd/tight_tolerances.hpp"
+#include "reports/json.hpp"
+#include "reports/summary.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::array algorithms{"wang", "wang-tight"};
+constexpr int finest = -127;
+constexpr int coarsest = -23;
+
+/// The distance bound in units of B for ε = 2^exponent: √(D² + 2δ).
+double claimed_distance(const std::string& algorithm, int exponent) {
+  const double D2 = algorithm == "wang" ? paper_tolerances(1.0).D2 * 0x1p26 : solve_tight(exponent).D2;
+  return std::sqrt(D2 * std::exp2(exponent / 2.0) + 2 * 311 * std::exp2(exponent));
+}
+
+bool is_ladder(const std::vector<Rung>& all) {
+  std::map<std::string, std::set<int>> exponents;
+  for (const Rung& rung : all) exponents[rung.algorithm].insert(rung.epsilon_exponent);
+  return std::any_of(exponents.begin(), exponents.end(),
+                     [](const auto& each) { return each.second.size() > 1; });
+}
+
+}  // namespace
+
+std::vector<Rung> rungs(const Statistics& statistics) {
+  std::map<std::string, Rung> by_subject;
+  for (const auto& [key, counts] : statistics.counts) {
+    const auto [algorithm, scalar] = split_scalar(key.subject);
+    const auto exponent = epsilon_exponent_of(scalar);
+    if (!exponent || std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) continue;
+    if (key.subject.find('@') != std::string::npos) continue;  // B is not the pair's own
+    Rung& rung = by_subject[key.subject];
+    rung.subject = key.subject;
+    rung.algorithm = algorithm;
+    rung.scalar = scalar.empty() ? "double" : scalar;
+    rung.epsilon_exponent = *exponent;
+    rung.counts.merge(counts);
+  }
+  std::vector<Rung> all;
+  for (auto& [subject, rung] : by_subject) {
+    rung.claimed = claimed_distance(rung.algorithm, rung.epsilon_exponent);
+    rung.farthest = rung.counts.max_ratio() * rung.claimed;
+    all.push_back(std::move(rung));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Rung& a, const Rung& b) { return a.epsilon_exponent > b.epsilon_exponent; });
+  return all;
+}
+
+std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
+  std::vector<std::pair<double, double>> points;
+  for (const Rung& rung : rungs)
+    if (rung.algorithm == algorithm && rung.farthest > 0 && rung.epsilon_exponent <= coarsest &&
+        rung.epsilon_exponent >= finest)
+      points.emplace_back(rung.epsilon_exponent, std::log2(rung.farthest));
+  const auto n = static_cast<double>(points.size());
+  double x_mean = 0;
+  double y_mean = 0;
+  for (const auto& [x, y] : points) {
+    x_mean += x / n;
+    y_mean += y / n;
+  }
+  double xx = 0;
+  double xy = 0;
+  for (const auto& [x, y] : points) {
+    xx += (x - x_mean) * (x - x_mean);
+    xy += (x - x_mean) * (y - y_mean);
+  }
+  if (points.size() < 3 || xx == 0) return std::nullopt;
+  const double slope = xy / xx;
+  double residual = 0;
+  for (const auto& [x, y] : points) residual += std::pow(y - y_mean - slope * (x - x_mean), 2);
+  return Fit{slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(points.size())};
+}
+
+std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) {
+  const std::vector<Rung> all = rungs(statistics);
+  if (!is_ladder(all)) return std::nullopt;
+  nlohmann::ordered_json json;
+  json["rungs"] = nlohmann::ordered_json::array();
+  for (const Rung& rung : all) {
+    json["rungs"].push_back({{"subject", rung.subject},
+                             {"algorithm", rung.algorithm},
+                             {"scalar", rung.scalar},
+                             {"epsilon", std::exp2(rung.epsilon_exponent)},
+                             {"claimed", rung.claimed},
+                             {"farthest", rung.farthest}});
+    json["rungs"].back().update(rates_json(rung.counts));
+  }
+  json["fits"] = nlohmann::ordered_json::array();
+  for (const std::string algorithm : algorithms)
+    if (const auto line = fit(all, algorithm))
+      json["fits"].push_back({{"algorithm", algorithm},
+                              {"exponent", line->exponent},
+                              {"standard_error", line->standard_error},
+                              {"points", line->points}});
+  return json;
+}
+
+std::string ladder_table(const Statistics& statistics) {
+  const std::vector<Rung> all = rungs(statistics);
+  if (!is_ladder(all)) return "";
+  std::vector<std::vector<std::string>> rows{
+      {"subject", "epsilon", "queries", "missed", "false pos.", "farthest / B", "claimed / B", "ns/query"}};
+  for (const Rung& rung : all)
+    rows.push_back({rung.subject, fmt::format("2^{}", rung.epsilon_exponent),
+                    with_separators(rung.counts.queries), with_separators(rung.counts.false_negatives),
+                    with_separators(rung.counts.false_positives), fmt::format("{:.3g}", rung.farthest),
+                    fmt::format("{:.3g}", rung.claimed), fmt::format("{:.0f}", rung.counts.ns_per_query())});
+  std::string text = "\n" + columns(rows, 1);
+  for (const std::string algorithm : algorithms)
+    if (const auto line = fit(all, algorithm))
+      text +=
+          fmt::format("{}: the farthest distance goes as epsilon^({:.4f} +- {:.4f}), from {} precisions\n",
+                      algorithm, line->exponent, line->standard_error, line->points);
+  return text;
+}
+
+}  // namespace nearmiss

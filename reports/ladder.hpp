@@ -1,0 +1,41 @@
+// The ladder of precisions: how far false positives are for each machine epsilon.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/statistics.hpp"
+
+namespace nearmiss {
+
+/// A subject of the ladder; distances in units of B.
+struct Rung {
+  std::string subject, algorithm, scalar;
+  int epsilon_exponent = 0;
+  double claimed = 0;   ///< the distance bound
+  double farthest = 0;  ///< of its false positives; 0 where there is none
+  Counts counts;        ///< over all families and kinds
+};
+
+/// wang and wang-tight over the scalars that statistics have, by ascending precision.
+std::vector<Rung> rungs(const Statistics& statistics);
+
+/// The power of ε by which the farthest distance falls, fitted by least squares to its logarithm.
+struct Fit {
+  double exponent = 0, standard_error = 0;
+  int points = 0;
+};
+
+/// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer than
+/// three.
+std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
+
+/// "rungs" and "fits"; nothing where fewer than two precisions of an algorithm are there.
+std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics);
+
+/// A row for each rung, and the fits; "" likewise.
+std::string ladder_table(const Statistics& statistics);
+
+}  // namespace nearmiss
