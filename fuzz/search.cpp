@@ -118,8 +118,9 @@ class Climb {
   using Objective = std::function<double(const Meeting&)>;  ///< more is better; infinity ends the search
   using Draw = std::function<Meeting()>;
 
-  Climb(Random& random, bool touching, Objective objective)
-      : random_(random), touching_(touching), objective_(std::move(objective)) {}
+  /// The size of a step is drawn between the finest one and half.
+  Climb(Random& random, bool touching, double finest_step, Objective objective)
+      : random_(random), touching_(touching), finest_step_(finest_step), objective_(std::move(objective)) {}
 
   Meeting run(const Draw& draw_start) {
     constexpr int starts = 50;
@@ -147,7 +148,7 @@ class Climb {
   void optimise(bool beside) {
     constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
     constexpr int evaluations = 300;
-    const double step = random_.log_uniform(1e-5, 0.5);
+    const double step = random_.log_uniform(finest_step_, 0.5);
     Meeting start = best_;
     if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
     std::vector<double> point;
@@ -195,6 +196,7 @@ class Climb {
 
   Random& random_;
   bool touching_;
+  double finest_step_;
   Objective objective_;
   nlopt::opt* optimiser_ = nullptr;
   int shown_ = 0;
@@ -222,7 +224,7 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
     return sum;
   };
-  return query_of(kind, placed(Climb(random, true, objective).run([&] { return draw(random); })));
+  return query_of(kind, placed(Climb(random, true, 1e-5, objective).run([&] { return draw(random); })));
 }
 
 Query search_far(const Subject& subject, Random& random, Kind kind) {
@@ -240,9 +242,15 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
     const double ratio = closest_ratio(query, claimed);
     return ratio >= 1 && distance_exceeds(query, claimed) ? HUGE_VAL : std::min(ratio, 1.0);
   };
-  return query_of(kind, Climb(random, false, objective).run([&] {
+  // The reach of what is drawn is about 3; that of a subject may be much less, and so are gaps and steps then.
+  const auto reach_of = [&](const Meeting& m) {
+    const double claimed = subject.distance_bound(query_of(kind, m));
+    return std::isfinite(claimed) && claimed > 0 ? claimed : wang->distance_bound(query_of(kind, m));
+  };
+  const double finest_step = std::min(1e-5, 1e-3 * reach_of(draw(random)));
+  return query_of(kind, Climb(random, false, finest_step, objective).run([&] {
     Meeting m = draw(random);
-    m.gap = random.vector(random.log_uniform(1e-6, 3e-2));
+    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach_of(m));
     return m;
   }));
 }
