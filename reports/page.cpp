@@ -22,6 +22,7 @@ NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
 NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
+NEARMISS_ASSET(nearmiss_page_ladder, NEARMISS_PAGE "/ladder.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
 NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
 NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
@@ -75,6 +76,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
+                                      between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
                                       between(nearmiss_page_js_begin, nearmiss_page_js_end)})
     scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);
   std::string page(between(nearmiss_page_html_begin, nearmiss_page_html_end));

@@ -119,6 +119,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
       json["pictures"].push_back({{"step", picture.step}});
       json["pictures"].back().update(ordered_json::parse(picture.json));
     }
+  if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
   if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
   if (since) {
     json["baseline"] = changes_json(*since);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "reports/campaign.hpp"
@@ -15,6 +16,7 @@ namespace nearmiss {
 struct ReportContext {
   std::optional<Campaign> baseline = {};
   std::vector<Hunt> hunts = {};  ///< for known defects
+  std::string audit = {};        ///< of rounding constants (audit_table.hpp)
 };
 
 /// Everything that the page shows: summary_json with a headline, a verdict for each subject, error against run

@@ -20,6 +20,7 @@ void add_shrink(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_audit(CLI::App& app, int& exit_code);
 void add_ladder(CLI::App& app, int& exit_code);
 void add_power(CLI::App& app, int& exit_code);
 void add_tightness(CLI::App& app, int& exit_code);

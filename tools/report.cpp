@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/audit_table.hpp"
 #include "reports/baseline.hpp"
 #include "reports/store.hpp"
 #include "reports/summary.hpp"
@@ -13,7 +14,7 @@ namespace nearmiss::tools {
 void add_report(CLI::App& app, int& exit_code) {
   struct Options {
     std::vector<std::filesystem::path> stores;
-    std::filesystem::path folder, baseline, power;
+    std::filesystem::path folder, baseline, power, audit;
   };
   auto options = std::make_shared<Options>();
   auto* command =
@@ -32,11 +33,16 @@ void add_report(CLI::App& app, int& exit_code) {
       ->add_option("--power", options->power,
                    "Show the power of detection, as nearmiss power --json keeps it")
       ->type_name("FILE");
+  command
+      ->add_option("--audit", options->audit,
+                   "Show the audit of rounding constants, as nearmiss audit --json keeps it")
+      ->type_name("FILE");
   command->callback([options, &exit_code] {
     const Campaign campaign = load_campaigns(options->stores);
     ReportContext context;
     if (!options->baseline.empty()) context.baseline = load_campaign(options->baseline);
     if (!options->power.empty()) context.hunts = load_hunts(options->power);
+    if (!options->audit.empty()) context.audit = load_audit(options->audit);
     write_report(campaign, context, options->folder);
     fmt::print("{}\n", summary_table(campaign.statistics));
     if (context.baseline) {

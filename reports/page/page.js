@@ -238,6 +238,7 @@ drawScenePictures();
 drawSlowest();
 drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
+drawAudit();
 drawPower();
 drawTightness();
 drawFindings();
@@ -248,6 +249,7 @@ const charts = [
   ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
   ["stages-section", drawStages, countRows(false).some((row) => row.false_positives > 0 || row.collisions > row.false_negatives)],
+  ["ladder-section", drawLadder, report.ladder !== undefined],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
   ["scene-steps", drawSceneSteps, funnelRows().some((row) => row.step > 0)],
   ["scene-error-time", drawSceneErrorTime, new Set(askedRows().map((row) => row.scene)).size > 1],

@@ -1,0 +1,57 @@
+// The ladder of precisions, and the audit of the constants that it stands on.
+"use strict";
+
+const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
+
+function drawLadder() {
+  const { rungs, fits } = report.ladder;
+  element("ladder-fits").textContent = fits.map((fit) =>
+    `${fit.algorithm}: the farthest distance goes as ε^${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}, over ${fit.points} precisions.`).join(" ") +
+    " The paper predicts ¼.";
+  fillTable(element("ladder"), [
+    text("subject", "subject"), { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) }, count("queries", "queries"),
+    count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),
+    figure("farthest / B", "farthest"), figure("claimed / B", "claimed"), count("beyond", "refuted_bounds", true), figure("ns / query", "ns_per_query"),
+  ], rungs, true);
+  const algorithms = [...new Set(rungs.map((r) => r.algorithm))];
+  const hue = { field: "algorithm", type: "nominal", title: "tolerances", scale: { domain: algorithms, range: palette } };
+  const x = { field: "epsilon", type: "quantitative", title: "machine epsilon ε", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } };
+  const tooltip = [{ field: "subject" }, { field: "epsilon", format: ".3e" }, { field: "farthest", title: "farthest / B", format: ".4~g" },
+    { field: "claimed", title: "claimed / B", format: ".4~g" }, { field: "false_positives", title: "false positives" },
+    { field: "false_negatives", title: "missed" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
+  const distance = (field) => ({ field, type: "quantitative", title: "distance / B", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } });
+  const reached = rungs.filter((r) => r.farthest > 0);
+  return draw("ladder-chart", "For each machine epsilon the farthest false positive and the distance bound; beside it the run time.", {
+    hconcat: [
+      { width: 440, height: 320, title: "how far false positives are: lines the bound, points the farthest found", layer: [
+        { data: { values: rungs }, mark: { type: "line", strokeWidth: 1.5, strokeDash: [5, 4] }, encoding: { x, y: distance("claimed"), color: hue } },
+        { data: { values: reached }, mark: { type: "point", filled: true, size: 50 }, encoding: { x, y: distance("farthest"), color: hue, tooltip } },
+      ] },
+      { width: 380, height: 320, title: "against run time", data: { values: reached }, layer: [
+        { mark: { type: "point", filled: true, size: 50 }, encoding: {
+          x: { field: "ns_per_query", type: "quantitative", title: "ns a query", scale: { type: "log", nice: false, padding: 20 }, axis: { format: "~s" } },
+          y: distance("farthest"), color: hue, tooltip } },
+        { mark: { type: "text", align: "left", dx: 6, fontSize: 9, color: color("--soft") }, transform: [{ filter: "!test(/^p/, datum.scalar)" }],
+          encoding: { x: { field: "ns_per_query", type: "quantitative" }, y: distance("farthest"), text: { field: "scalar" } } },
+      ] },
+    ],
+  });
+}
+
+function drawAudit() {
+  if (!report.audit) return;
+  show("audit-section");
+  const value = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
+  fillTable(element("audit"), [
+    text("constant", "name"), text("section", "section"), text("unit", "unit"),
+    { ...value("quoted", "quoted"), bad: (r) => r.too_small }, value("derived", "derived"), value("largest seen", "seen"),
+    value("slack", "slack"), { title: "", text: (r) => (r.too_small ? `too small${r.note ? `: ${r.note}` : ""}` : r.note), bad: (r) => r.too_small },
+  ], report.audit.constants);
+  fillTable(element("tolerances"), [
+    text("scalar", "scalars"), { title: "ε", number: (r) => r.epsilon, text: (r) => `2^${r.epsilon_exponent}` },
+    value("the paper's bound, B ε^¼", "paper_bound"),
+    { title: "failure-proof", text: (r) => (r.paper_breaks ? `no: ${r.paper_breaks}` : "yes"), bad: (r) => r.paper_breaks !== "" },
+    value("smallest bound, B ε^¼", "tight_bound"), value("in B", "tight_bound_over_B"), value("μ / B³ε", "mu"), value("τ / B²ε^½", "tau"),
+    value("η / Bε^¼", "eta"), value("R / Bε^¼", "R"), value("λ² / B²ε^½", "lambda2"), value("D² / B²ε^½", "D2"),
+  ], report.audit.tolerances);
+}

@@ -1,0 +1,114 @@
+// nearmiss audit: the paper's rounding constants against what its rules give for our code and what is seen.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corpus/file.hpp"
+#include "fuzz/audit/audit.hpp"
+#include "fuzz/audit/tolerance_table.hpp"
+#include "reports/summary.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string number(double value, const char* format) {
+  return std::isnan(value) ? "" : fmt::format(fmt::runtime(format), value);
+}
+
+ordered_json or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
+
+ordered_json json_of(const std::vector<AuditRow>& constants, const std::vector<ToleranceRow>& tolerances) {
+  ordered_json json{{"constants", ordered_json::array()}, {"tolerances", ordered_json::array()}};
+  for (const AuditRow& row : constants)
+    json["constants"].push_back({{"name", row.name},
+                                 {"section", row.section},
+                                 {"unit", row.unit},
+                                 {"quoted", or_null(row.quoted)},
+                                 {"derived", or_null(row.derived)},
+                                 {"seen", or_null(row.seen)},
+                                 {"slack", or_null(row.slack())},
+                                 {"too_small", row.is_finding()},
+                                 {"note", row.note}});
+  for (const ToleranceRow& row : tolerances)
+    json["tolerances"].push_back({{"epsilon", std::exp2(row.exponent)},
+                                  {"epsilon_exponent", row.exponent},
+                                  {"scalars", row.scalars},
+                                  {"paper_bound", row.paper_bound},
+                                  {"paper_breaks", row.paper_breaks},
+                                  {"tight_bound", row.tight_bound},
+                                  {"tight_bound_over_B", row.relative_bound},
+                                  {"mu", row.tight.mu},
+                                  {"tau", row.tight.tau},
+                                  {"eta", row.tight.eta},
+                                  {"R", row.tight.R},
+                                  {"lambda2", row.tight.lambda2},
+                                  {"D2", row.tight.D2}});
+  return json;
+}
+
+std::string table_of(const std::vector<AuditRow>& constants) {
+  std::vector<std::vector<std::string>> rows{
+      {"constant", "section", "unit", "quoted", "derived", "seen", "slack", ""}};
+  for (const AuditRow& row : constants) {
+    std::string says = row.is_finding() ? "TOO SMALL" : "";
+    if (!row.note.empty()) says += (says.empty() ? "" : ": ") + std::string(row.note);
+    rows.push_back({std::string(row.name), std::string(row.section), std::string(row.unit),
+                    number(row.quoted, "{:.5g}"), number(row.derived, "{:.5g}"), number(row.seen, "{:.3g}"),
+                    number(row.slack(), "{:.3g}"), says});
+  }
+  return columns(rows, 3);
+}
+
+std::string table_of(const std::vector<ToleranceRow>& tolerances) {
+  std::vector<std::vector<std::string>> rows{{"scalar", "epsilon", "paper, B e", "closed forms",
+                                              "smallest, B e", "in B", "mu/eps", "tau", "eta", "R",
+                                              "lambda^2", "D^2"}};
+  for (const ToleranceRow& row : tolerances)
+    rows.push_back({std::string(row.scalars), fmt::format("2^{}", row.exponent),
+                    fmt::format("{:.2f}", row.paper_bound),
+                    row.paper_breaks.empty() ? "hold" : fmt::format("break {}", row.paper_breaks),
+                    fmt::format("{:.2f}", row.tight_bound), fmt::format("{:.3g}", row.relative_bound),
+                    fmt::format("{:.0f}", row.tight.mu), fmt::format("{:.2f}", row.tight.tau),
+                    fmt::format("{:.3f}", row.tight.eta), fmt::format("{:.3f}", row.tight.R),
+                    fmt::format("{:.0f}", row.tight.lambda2), fmt::format("{:.0f}", row.tight.D2)});
+  return columns(rows, 1);
+}
+
+}  // namespace
+
+void add_audit(CLI::App& app, int& exit_code) {
+  struct Options {
+    AuditPlan plan;
+    std::filesystem::path json;
+  };
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "audit", "Derive the paper's rounding constants anew from our code, and see how large errors are");
+  command->add_option("--queries", options->plan.queries, "Of each family")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--steps", options->plan.steps, "Of the hill climb for each constant")
+      ->check(CLI::Range(0, 100000000))
+      ->capture_default_str();
+  command->add_option("--seed", options->plan.seed, "Of all queries and steps")
+      ->capture_default_str()
+      ->type_name("S");
+  command->add_option("--json", options->json, "Write the tables as JSON, for nearmiss report --audit")
+      ->type_name("FILE");
+  command->footer("\nExit code 1: more was seen than the rules allow, which would be an error of ours.");
+  command->callback([options, &exit_code] {
+    const std::vector<AuditRow> constants = audit(options->plan);
+    const std::vector<ToleranceRow> tolerances = tolerance_table();
+    if (!options->json.empty()) replace_file(options->json, json_of(constants, tolerances).dump(1) + "\n");
+    fmt::print("{}\n{}", table_of(constants), table_of(tolerances));
+    for (const AuditRow& row : constants)
+      if (row.violations != 0) exit_code = exit_found;
+  });
+}
+
+}  // namespace nearmiss::tools
