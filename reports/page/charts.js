@@ -5,7 +5,7 @@ const style = getComputedStyle(document.documentElement);
 const color = (name) => style.getPropertyValue(name).trim();
 const words = { labelColor: color("--ink"), titleColor: color("--ink") };
 const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
-  legend: { orient: "bottom", columns: 8, ...words }, title: { color: color("--ink") }, header: words,
+  legend: { orient: "bottom", columns: 8, symbolLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
   axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
 const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
 

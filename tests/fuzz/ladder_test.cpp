@@ -8,6 +8,7 @@
 #include <set>
 
 #include "ccd/error.hpp"
+#include "ccd/scalar_name.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/ladder/adaptive.hpp"
 #include "fuzz/ladder/double_double.hpp"
@@ -92,6 +93,7 @@ TEST(Scalars, AreKnownByName) {
     EXPECT_TRUE(names.insert(scalar.name).second) << scalar.name;
     EXPECT_LE(scalar.epsilon_exponent, before);
     before = scalar.epsilon_exponent;
+    EXPECT_EQ(epsilon_exponent_of(scalar.name), scalar.epsilon_exponent);
     const std::string name = "wang:" + std::string(scalar.name);
     EXPECT_EQ(make_any_subject(name)->name(), name);
   }

@@ -227,6 +227,20 @@ async function showsSceneStepsAndMeshes(browser) {
   await page.close();
 }
 
+async function showsTheLadderAndTheAudit(browser) {
+  run("ladder", "--scalar", "float,p40,p64", "--cases", "48", "--db", "ladder.db");
+  run("audit", "--queries", "2", "--steps", "0", "--json", "audit.json");
+  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json");
+  const page = await open(browser, pathToFileURL(join(folder, "ladder", "index.html")).href);
+  assert.equal(await count(page, "#ladder tbody tr"), 6);
+  assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
+  assert.match(await page.textContent("#ladder-fits"), /wang-tight: the farthest distance goes as ε\^0\.\d+ ± /);
+  assert.ok((await count(page, "#audit tbody tr")) > 50);
+  assert.ok((await count(page, "#audit td.bad")) >= 2);
+  assert.ok((await count(page, "#tolerances tbody tr")) >= 10);
+  await page.close();
+}
+
 async function showsThePowerOfDetection(browser) {
   run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
@@ -261,6 +275,7 @@ try {
   await showsSweepsOfWhatIsNeverWrong(browser);
   await showsScenes(browser);
   await showsSceneStepsAndMeshes(browser);
+  await showsTheLadderAndTheAudit(browser);
   await showsThePowerOfDetection(browser);
   await fitsEveryMedium(browser);
 } finally {

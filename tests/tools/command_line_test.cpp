@@ -398,6 +398,26 @@ TEST_F(CommandLine, BadMeshes) {
   expect_refused("fuzz --cases 10 --mesh good.obj good.obj --db new.db", {"no ee pair in the mesh"});
 }
 
+TEST_F(CommandLine, TheLadderIsACampaign) {
+  const std::string ladder = "ladder --scalar float,p60 --family uniform --cases 80 --db ladder.db";
+  EXPECT_EQ(run(ladder).code, 0);
+  EXPECT_THAT(run(ladder + " --resume").out, HasSubstr("wang-tight:p60"));
+  EXPECT_THAT(run("report ladder.db -o ladder").out, HasSubstr("wang:float"));
+  EXPECT_THAT(run("ladder --scalar p17 --cases 1").error, HasSubstr("expected one of these scalars"));
+}
+
+TEST_F(CommandLine, TheAuditNamesWhatIsTooSmall) {
+  const Answer answer = run("audit --queries 2 --steps 0 --json audit.json");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_THAT(answer.out, HasSubstr("TOO SMALL"));
+  EXPECT_THAT(answer.out, HasSubstr("33492"));
+  EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
+  EXPECT_EQ(run("report a.db -o report --audit audit.json").code, 0);
+  write("other.json", "{\"constants\": []}");
+  EXPECT_THAT(run("report a.db -o report --audit other.json").error,
+              HasSubstr("expected what nearmiss audit --json keeps"));
+}
+
 TEST_F(CommandLine, BadStores) {
   write("text.db", "no database, but long enough to look like one if nobody looks at it closely");
   write("taken.db", "precious");

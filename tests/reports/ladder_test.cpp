@@ -1,0 +1,74 @@
+// The ladder of precisions.
+#include "reports/ladder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ccd/scalar_name.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Statistics in which the farthest false positive of each subject is at a part of its bound.
+Statistics farthest_at(const std::map<std::string, double>& parts) {
+  Statistics statistics;
+  for (const auto& [subject, part] : parts) {
+    const Outcome outcome{.verdict = Verdict::accepted(Stage::vv, 0), .collision = false, .ratio = part};
+    statistics.counts[{subject, Kind::edge_edge, "uniform"}].add(outcome, {}, [] { return "uniform:1:1"; });
+  }
+  return statistics;
+}
+
+TEST(ScalarName, TellsEpsilon) {
+  EXPECT_EQ(epsilon_exponent_of("float"), -23);
+  EXPECT_EQ(epsilon_exponent_of(""), -52);
+  EXPECT_EQ(epsilon_exponent_of("p40"), -39);
+  for (const char* other : {"p", "p1", "p40x", "half", "-3"})
+    EXPECT_EQ(epsilon_exponent_of(other), std::nullopt);
+  EXPECT_EQ(split_scalar("wang-tight:p40@0.5").algorithm, "wang-tight");
+  EXPECT_EQ(split_scalar("wang-tight:p40@0.5").scalar, "p40");
+}
+
+TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
+  const auto all = rungs(farthest_at(
+      {{"wang", 0.5}, {"wang:float", 1}, {"wang-tight:p53", 1}, {"basic", 1}, {"wang:p40@7", 1}}));
+  ASSERT_EQ(all.size(), 3);
+  EXPECT_EQ(all[0].subject, "wang:float");
+  EXPECT_NEAR(all[0].claimed, 41 * std::exp2(-23 / 4.0), 5e-3);
+  EXPECT_EQ(all[1].scalar, "double");
+  EXPECT_NEAR(all[1].claimed, 40.963 * 0x1p-13, 1e-7);
+  EXPECT_EQ(all[1].farthest, all[1].claimed / 2);
+  EXPECT_NEAR(all[2].claimed, 37.3 * 0x1p-13, 1e-6);
+}
+
+TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
+  const auto exactly =
+      rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}}));
+  const auto line = fit(exactly, "wang");
+  ASSERT_TRUE(line.has_value());
+  EXPECT_EQ(line->points, 4);
+  EXPECT_NEAR(line->exponent, 0.25, 1e-6);
+  EXPECT_NEAR(line->standard_error, 0, 1e-6);
+  // Half as far for each halving of ε on top of that: one more power.
+  const auto steeper =
+      fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
+  EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
+  EXPECT_FALSE(
+      fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {"wang:p200", 1}})), "wang").has_value());
+}
+
+TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
+  EXPECT_FALSE(ladder_json(farthest_at({{"wang", 1}, {"wang-tight", 1}, {"basic:float", 1}})).has_value());
+  EXPECT_EQ(ladder_table(farthest_at({{"wang", 1}})), "");
+  const auto json = ladder_json(farthest_at({{"wang:p24", 1}, {"wang", 0.5}, {"wang:p64", 1}}));
+  ASSERT_TRUE(json.has_value());
+  EXPECT_EQ((*json)["rungs"].size(), 3);
+  EXPECT_EQ((*json)["fits"].size(), 1);
+  EXPECT_NE(ladder_table(farthest_at({{"wang:p24", 1}, {"wang", 1}, {"wang:p64", 1}})).find("epsilon^(0.25"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace nearmiss
