@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/campaign.hpp"
+#include "reports/environment_table.hpp"
 #include "reports/power_table.hpp"
 
 namespace nearmiss {
@@ -15,6 +16,7 @@ namespace nearmiss {
 struct ReportContext {
   std::optional<Campaign> baseline = {};
   std::vector<Hunt> hunts = {};  ///< for known defects
+  std::vector<Environment> environments = {};
 };
 
 /// Everything that the page shows: summary_json with a headline, a verdict for each subject, error against run
