@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 
 namespace nearmiss {
@@ -9,6 +10,7 @@ namespace nearmiss {
 void Plugin::Unload::operator()(void* handle) const { dlclose(handle); }
 
 Plugin::Plugin(const std::string& path) : library_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  make_arithmetic_plain();  // a library linked by g++ -ffast-math flushes subnormals from then on
   if (!library_) throw Error(path + ": cannot load the plug-in: " + dlerror());
   using GetSubject = decltype(&nearmiss_get_subject);
   const auto get = reinterpret_cast<GetSubject>(dlsym(library_.get(), "nearmiss_get_subject"));
@@ -26,7 +28,9 @@ Plugin::Plugin(const std::string& path) : library_(dlopen(path.c_str(), RTLD_NOW
 
 int Plugin::ask(const Query& query, double& time) const {
   const auto test = query.kind == Kind::vertex_triangle ? subject_->vertex_triangle : subject_->edge_edge;
-  return test(query.x.data(), &time);
+  const int answer = test(query.x.data(), &time);
+  make_arithmetic_plain();
+  return answer;
 }
 
 Verdict Plugin::decide(const Query& query) const {
@@ -38,6 +42,7 @@ Verdict Plugin::decide(const Query& query) const {
 double Plugin::distance_bound(const Query& query) const {
   if (subject_->distance_bound == nullptr) return std::numeric_limits<double>::infinity();
   const double bound = subject_->distance_bound(query.x.data(), query.kind == Kind::edge_edge ? 1 : 0);
+  make_arithmetic_plain();
   return bound >= 0 ? bound : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -13,7 +13,8 @@ namespace nearmiss {
 /// Whether a subject's name is the path of a plug-in: it has a '/'.
 inline bool is_plugin_path(std::string_view name) { return name.find('/') != std::string_view::npos; }
 
-/// The subject that a shared object exports, in this process.
+/// The subject that a shared object exports, in this process. Whatever it does to the rounding mode, to
+/// subnormals or to traps, arithmetic is plain again when it has answered.
 class Plugin final : public Subject {
  public:
   /// Throws Error where the file cannot be loaded, has no nearmiss_get_subject, has another abi, or lacks a

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "ccd/arithmetic.hpp"
+
 namespace nearmiss {
 
 /// What moves against what.

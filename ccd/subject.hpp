@@ -84,7 +84,8 @@ struct Verdict {
   static Verdict rejected(Miss miss) { return {.miss = miss}; }
 };
 
-/// A CCD on trial: a pure function of the query.
+/// A CCD on trial: a pure function of the query. Our own decide in plain arithmetic (arithmetic.hpp),
+/// whatever the caller's is.
 class Subject {
  public:
   Subject() = default;

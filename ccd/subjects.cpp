@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
@@ -35,24 +36,32 @@ class BuiltIn final : public Subject {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
   [[nodiscard]] Verdict decide(const Query& query) const override {
+    const PlainArithmetic guard;
+    return decide_plainly(query);
+  }
+
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    const PlainArithmetic guard;
+    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide_plainly(queries[i]);
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    const PlainArithmetic guard;
+    return Policy::distance_bound(query, given_);
+  }
+
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    const PlainArithmetic guard;
+    return Policy::needed_tolerance(query, given_);
+  }
+
+ private:
+  [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse(name_);
     return query.kind == Kind::vertex_triangle ? Policy::template decide<Kind::vertex_triangle>(query, given_)
                                                : Policy::template decide<Kind::edge_edge>(query, given_);
   }
 
-  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = BuiltIn::decide(queries[i]);
-  }
-
-  [[nodiscard]] double distance_bound(const Query& query) const override {
-    return Policy::distance_bound(query, given_);
-  }
-
-  [[nodiscard]] double needed_tolerance(const Query& query) const override {
-    return Policy::needed_tolerance(query, given_);
-  }
-
- private:
   std::string name_;
   std::optional<double> given_;
 };

@@ -53,7 +53,16 @@ class Truth {
     double ratio;
     bool exceeds;  ///< certainly above 1; otherwise certainly not
   };
-  [[nodiscard]] Distance distance(double bound) const {
+  Distance distance(double bound) {
+    const auto same = [&](const auto& each) { return each.first == bound; };
+    const auto known = std::find_if(distances_.begin(), distances_.end(), same);
+    if (known != distances_.end()) return known->second;
+    distances_.emplace_back(bound, measured_distance(bound));
+    return distances_.back().second;
+  }
+
+ private:
+  [[nodiscard]] Distance measured_distance(double bound) const {
     const double ratio = closest_ratio(query_, bound);
     if (ratio < 1) return {ratio, false};
     if (distance_exceeds(query_, bound))  // a bound of 0 is refuted by any distance
@@ -61,10 +70,10 @@ class Truth {
     return {std::min(minimum_distance(query_).hi / bound, 1.0), false};
   }
 
- private:
   const Query& query_;
   Decision decision_;
   std::string contact_;
+  std::vector<std::pair<double, Distance>> distances_;  // by the bound
 };
 
 /// The queries that a subject is judged by, where these are not the given ones.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/filter.hpp"
 
 namespace nearmiss {
@@ -23,6 +24,7 @@ FilterBatch* filter_with(Instructions instructions) {
 
 void filter_all(std::span<const Query> queries, double caution, std::span<FilterStage> stages,
                 Instructions instructions) {
+  const PlainArithmetic guard;
   FilterBatch* const filter_batch = filter_with(instructions);
   for (std::size_t first = 0; first < queries.size(); first += batch_size) {
     const std::size_t count = std::min(batch_size, queries.size() - first);

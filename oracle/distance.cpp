@@ -9,6 +9,7 @@
 #include <queue>
 #include <vector>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/closest.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/proximity.hpp"
@@ -217,6 +218,7 @@ Enclosure scale(const Enclosure& value, int exponent) {
 }  // namespace
 
 Enclosure closest_approach(const Query& query, double relative_width) {
+  const PlainArithmetic guard;
   const Interval::Protector protector;
   const Differences differences(query);
   const auto enough = [&](double lo, double hi) { return hi - lo <= relative_width * hi; };
@@ -224,6 +226,7 @@ Enclosure closest_approach(const Query& query, double relative_width) {
 }
 
 double closest_ratio(const Query& query, double bound) {
+  const PlainArithmetic guard;
   const Interval::Protector protector;
   const Differences differences(query);
   const double unit = scale({bound, bound}, -differences.exponent()).lo;  // in it nothing overflows
@@ -237,11 +240,13 @@ double closest_ratio(const Query& query, double bound) {
 }
 
 double closest_time(const Query& query) {
+  const PlainArithmetic guard;
   const Interval::Protector protector;
   return refine(Differences(query), [](double lo, double hi) { return hi - lo <= 1e-3 * hi; }).time;
 }
 
 Enclosure minimum_distance(const Query& query, double relative_width) {
+  const PlainArithmetic guard;
   if (collides(query)) return {0, 0};
   Enclosure distance = closest_approach(query, relative_width);
   // What intervals leave is halved exactly, in proportion: the geometric mean, lo = 0 taken for the smallest
@@ -257,6 +262,7 @@ Enclosure minimum_distance(const Query& query, double relative_width) {
 }
 
 bool distance_exceeds(const Query& query, double bound) {
+  const PlainArithmetic guard;
   if (std::isinf(bound)) return false;
   {
     const Interval::Protector protector;

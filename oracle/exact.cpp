@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/box.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/first_contact.hpp"
@@ -142,7 +143,10 @@ std::optional<FirstContact> first_contact(Predicates& predicates) {
 
 }  // namespace exact
 
-bool collides_exactly(const Query& query) { return exact::any_collision(query); }
+bool collides_exactly(const Query& query) {
+  const PlainArithmetic guard;
+  return exact::any_collision(query);
+}
 
 bool settle(const Query& query, FilterStage stage) {
   return stage == FilterStage::undecided ? collides_exactly(query) : is_collision(stage);
@@ -166,6 +170,7 @@ void decide(std::span<const Query> queries, std::span<Decision> decisions) {
 bool collides(const Query& query) { return decide(query).collision; }
 
 std::optional<ContactTime> earliest_time(const Query& query, double width) {
+  const PlainArithmetic guard;
   if (!boxes_meet(query)) return std::nullopt;
   if (const FilterStage stage = filter(query); stage != FilterStage::undecided && !is_collision(stage))
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/first_contact.hpp"
 
 namespace nearmiss {
@@ -23,6 +24,7 @@ Time time_class(const exact::Root& t) { return t.is(0) ? Time::start : t.is(1) ?
 }  // namespace
 
 std::optional<ContactFeatures> contact_features(const Query& query) {
+  const PlainArithmetic guard;
   exact::Predicates predicates(query);
   auto contact = exact::first_contact(predicates);
   if (!contact) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/plane_culling.hpp"
 #include "oracle/end_contact.hpp"
 #include "oracle/search.hpp"
@@ -37,6 +38,7 @@ FilterStage search_in_double_words(const Query& query) {
 
 FilterStage filter(const Query& query) {
   using namespace certified;
+  const PlainArithmetic guard;
   if (!is_finite(query)) return FilterStage::undecided;
   const bool separated = query.kind == Kind::vertex_triangle
                              ? separated_by_plane<Kind::vertex_triangle>(query)

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "ccd/arithmetic.hpp"
+
 namespace nearmiss {
 
 namespace parity {
@@ -248,6 +250,7 @@ std::vector<Patch> boundary(const Query& query) {
 
 RootParity root_parity(const Query& query) {
   using namespace parity;
+  const PlainArithmetic guard;
   const std::vector<Patch> faces = boundary(query);
   std::vector<Position> positions;
   for (const Patch& face : faces) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/integer_polynomial.hpp"
 
 namespace nearmiss {
@@ -139,6 +140,7 @@ bool collides_in_plane(const Figures& figures) {
 
 RootCount count_roots(const Query& query) {
   using namespace sturm;
+  const PlainArithmetic guard;
   const Figures figures(query);
   RootCount count;
   if (figures.F.is_zero()) {

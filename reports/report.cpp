@@ -121,6 +121,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
     }
   if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
   if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
+  if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
   if (since) {
     json["baseline"] = changes_json(*since);
     json["baseline"]["runs"] = runs_json(context.baseline->runs);

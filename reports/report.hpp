@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/campaign.hpp"
+#include "reports/environment_table.hpp"
 #include "reports/power_table.hpp"
 
 namespace nearmiss {
@@ -17,6 +18,7 @@ struct ReportContext {
   std::optional<Campaign> baseline = {};
   std::vector<Hunt> hunts = {};  ///< for known defects
   std::string audit = {};        ///< of rounding constants (audit_table.hpp)
+  std::vector<Environment> environments = {};
 };
 
 /// Everything that the page shows: summary_json with a headline, a verdict for each subject, error against run

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "tools/commands.hpp"
 
@@ -46,6 +47,13 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Before any thread begins: each takes its arithmetic from the one that made it.
+  if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty()) {
+    nearmiss::make_arithmetic_plain();
+    std::fprintf(stderr,
+                 "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals: set so\n",
+                 odd.c_str());
+  }
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -31,25 +30,9 @@ std::string cpu_model() {
   return "unknown";
 }
 
-std::string rounding_mode() {
-  switch (std::fegetround()) {
-    case FE_TONEAREST:
-      return "to nearest";
-    case FE_UPWARD:
-      return "upward";
-    case FE_DOWNWARD:
-      return "downward";
-    default:
-      return "toward zero";
-  }
-}
-
 /// Where a run's times come from.
 RunInfo environment() {
-  return {{"compiler", NEARMISS_COMPILER},
-          {"flags", NEARMISS_FLAGS},
-          {"cpu", cpu_model()},
-          {"rounding", rounding_mode()}};
+  return {{"compiler", NEARMISS_COMPILER}, {"flags", NEARMISS_FLAGS}, {"cpu", cpu_model()}};
 }
 
 }  // namespace

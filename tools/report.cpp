@@ -14,7 +14,7 @@ namespace nearmiss::tools {
 void add_report(CLI::App& app, int& exit_code) {
   struct Options {
     std::vector<std::filesystem::path> stores;
-    std::filesystem::path folder, baseline, power, audit;
+    std::filesystem::path folder, baseline, power, audit, environments;
   };
   auto options = std::make_shared<Options>();
   auto* command =
@@ -37,12 +37,17 @@ void add_report(CLI::App& app, int& exit_code) {
       ->add_option("--audit", options->audit,
                    "Show the audit of rounding constants, as nearmiss audit --json keeps it")
       ->type_name("FILE");
+  command
+      ->add_option("--environments", options->environments,
+                   "Show which compilers, flags and modes keep the guarantee, as tools/environments found")
+      ->type_name("FILE");
   command->callback([options, &exit_code] {
     const Campaign campaign = load_campaigns(options->stores);
     ReportContext context;
     if (!options->baseline.empty()) context.baseline = load_campaign(options->baseline);
     if (!options->power.empty()) context.hunts = load_hunts(options->power);
     if (!options->audit.empty()) context.audit = load_audit(options->audit);
+    if (!options->environments.empty()) context.environments = load_environments(options->environments);
     write_report(campaign, context, options->folder);
     fmt::print("{}\n", summary_table(campaign.statistics));
     if (context.baseline) {

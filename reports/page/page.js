@@ -151,6 +151,18 @@ function drawPower() {
   ], rows, true);
 }
 
+function drawEnvironments() {
+  if (!report.environments) return;
+  show("environments-section");
+  fillTable(element("environments"), [
+    text("CCD", "subject"), text("compiler", "compiler"), text("flags", "flags"), text("mode", "mode"),
+    count("queries", "queries"), count("collisions", "collisions"), count("missed", "missed", true),
+    count("false positives", "false_positives"), count("beyond", "refuted_bounds", true), count("no answer", "faults", true),
+    { ...text("guarantee", "verdict"), bad: (r) => r.missed + r.faults > 0 },
+    { title: "first failure", text: (r) => r.first ?? "" },
+  ], report.environments, true);
+}
+
 function drawTightness() {
   const rows = Object.entries(report.tightness ?? {}).map(([name, extreme]) => ({ name, ...extreme }));
   if (rows.length === 0) return;
@@ -240,6 +252,7 @@ drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
 drawAudit();
 drawPower();
+drawEnvironments();
 drawTightness();
 drawFindings();
 drawFarthest();

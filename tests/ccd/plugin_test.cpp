@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "tests/queries.hpp"
 
@@ -31,6 +32,18 @@ TEST(Plugin, ATimeIsPassedOn) {
   EXPECT_TRUE(verdict.hit);
   EXPECT_EQ(verdict.time, 0.5);
   EXPECT_EQ(verdict.stage, Stage::unspecified);
+}
+
+TEST(Plugin, LeavesArithmeticPlain) {
+  const auto subject = make_subject(plugin("hostile"));
+  EXPECT_EQ(odd_arithmetic(), "");
+  const Query query = testing::falling_vertex(0, 0, 2, 1);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FALSE(subject->decide(query).hit);
+    EXPECT_EQ(odd_arithmetic(), "");
+    EXPECT_EQ(subject->distance_bound(query), 0);
+    EXPECT_EQ(odd_arithmetic(), "");
+  }
 }
 
 TEST(Plugin, AnErrorIsAnError) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "fuzz/failures/failure.hpp"
 #include "fuzz/families/families.hpp"
@@ -88,6 +89,16 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
   }
   EXPECT_GE(faults, 2);
   EXPECT_LE(faults, 16);
+}
+
+TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
+  const auto subject = make_isolated_plugin(plugin("hostile"));
+  const auto queries = some_queries(500);
+  std::vector<Verdict> verdicts(queries.size(), Verdict{.hit = true});
+  subject->decide(queries, verdicts);
+  for (const Verdict& verdict : verdicts) EXPECT_FALSE(verdict.hit);
+  EXPECT_EQ(subject->distance_bound(queries[0]), 0);
+  EXPECT_TRUE(is_arithmetic_plain());
 }
 
 TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {

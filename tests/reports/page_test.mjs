@@ -124,6 +124,7 @@ async function showsFindings(browser) {
   for (const file of far) readFileSync(join(folder, "found", file));
   assert.ok((await count(page, "#slowest tbody tr")) >= 4);
   assert.equal(await page.isVisible("#power-section"), false);
+  assert.equal(await page.isVisible("#environments-section"), false);
   const again = await page.locator("#how code").textContent();
   assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
 
@@ -138,7 +139,7 @@ async function showsThatNothingWasFound(browser) {
   assert.equal(await count(page, ".verdict.bad"), 0);
   assert.match(await page.textContent("#findings-note"), /^None/);
   assert.equal(await count(page, "#findings tbody tr"), 0);
-  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "tightness-section", "farthest-section"])
+  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "environments-section", "tightness-section", "farthest-section"])
     assert.equal(await page.isVisible(`#${left}`), false, left);
   assert.match(await page.textContent("#headline"), /^wang did not fail, in 100 queries\.$/);
   assert.equal(await count(page, "#headline.bad"), 0);
@@ -249,6 +250,19 @@ async function showsThePowerOfDetection(browser) {
   await page.close();
 }
 
+async function showsEnvironments(browser) {
+  const row = { subject: "wang", compiler: "g++ 12.2.0", flags: "-O2", mode: "upward", queries: 1000, collisions: 500, missed: 0,
+    false_positives: 10, refuted_bounds: 0, faults: 0, first: null };
+  const broken = { ...row, flags: "-O2 -ffast-math", missed: 3, first: "false-negative scale:1:29" };
+  writeFileSync(join(folder, "environments.json"), JSON.stringify([row, broken]));
+  const page = await open(browser, makeReport("environments", ["--cases", "10"], ["--environments", "environments.json"]));
+  assert.deepEqual(await page.locator("#environments tbody tr").allTextContents(),
+    ["wangg++ 12.2.0-O2upward1,00050001000keeps it",
+      "wangg++ 12.2.0-O2 -ffast-mathupward1,00050031000missesfalse-negative scale:1:29"]);
+  assert.equal(await count(page, "#environments td.bad"), 2);
+  await page.close();
+}
+
 /** Under another theme, on a phone, and on paper nothing is lost and nothing sticks out. */
 async function fitsEveryMedium(browser) {
   const url = pathToFileURL(join(folder, "found", "index.html")).href;
@@ -277,6 +291,7 @@ try {
   await showsSceneStepsAndMeshes(browser);
   await showsTheLadderAndTheAudit(browser);
   await showsThePowerOfDetection(browser);
+  await showsEnvironments(browser);
   await fitsEveryMedium(browser);
 } finally {
   await browser.close();

@@ -426,10 +426,35 @@ TEST_F(CommandLine, BadStores) {
   EXPECT_EQ(run("fuzz --cases 10 --db good.db").code, 0);
   expect_refused("report good.db -o new --power text.db",
                  {"text.db", "expected what nearmiss power --json keeps"});
+  expect_refused("report good.db -o new --environments text.db",
+                 {"text.db", "expected the table of tools/environments"});
   expect_refused("report good.db -o new --baseline text.db", {"text.db", "not a database"});
   expect_refused("merge new.db absent.db", {"absent.db: no such file"});
   expect_refused("fuzz --cases 10 --db taken.db", {"taken.db: exists already"});
   EXPECT_EQ(read("taken.db"), "precious");
+}
+
+TEST_F(CommandLine, HostileArithmeticIsSetRightAndSaid) {
+  write("q.vt", hit + "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p-1074  0 0 0  1 0 0  0 1 0\n");
+  const std::string before = "LD_PRELOAD=" + plugin("hostile");
+  const std::string says =
+      "nearmiss: found arithmetic that rounds upward, flushes subnormals to zero, takes subnormals for zero, "
+      "expected rounding to nearest with subnormals: set so\n";
+  const Answer answer = run("oracle --kind vt --distance q.vt", before);
+  EXPECT_EQ(answer.error, says);
+  EXPECT_EQ(answer.out, run("oracle --kind vt --distance q.vt").out);
+  // The threads of a campaign, and the processes of its plug-ins, are as the command is.
+  const auto positives = [&](const std::string& preload, const std::string& error) {
+    EXPECT_EQ(run("fuzz --family scale@-1070,planted --cases 2000 --quiet --json new.json --subject wang," +
+                      plugin("hostile"),
+                  preload)
+                  .error,
+              error);
+    const json subjects = read_json("new.json")["subjects"];
+    EXPECT_EQ(subjects["hostile"]["vt"]["positives"], 0);
+    return subjects["wang"]["vt"]["positives"].get<int>();
+  };
+  EXPECT_EQ(positives(before, says), positives("", ""));
 }
 
 // --- what goes wrong while it works -----------------------------------------------------------------------

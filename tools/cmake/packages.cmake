@@ -3,8 +3,8 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(CGAL REQUIRED QUIET)
 find_package(Boost 1.74 REQUIRED)
 find_package(fmt 9 REQUIRED)
-if(NEARMISS_LIBFUZZER)
-  return()  # its targets need no more
+if(NEARMISS_LIBFUZZER OR NEARMISS_ENVIRONMENT)
+  return()  # their targets need no more
 endif()
 find_package(CLI11 2.1 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)

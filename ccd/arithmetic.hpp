@@ -1,0 +1,73 @@
+// What nearmiss takes for granted of floating-point arithmetic: IEEE 754 by the compiler, rounding to nearest
+// with subnormals and without traps by the processor.
+#pragma once
+
+#include <cfenv>
+#include <cfloat>
+#include <limits>
+#include <string>
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+// The compiler. Only the plug-ins of fuzz/environments, which are on trial for this, define
+// NEARMISS_ANY_ARITHMETIC. What a compiler does not tell is whether it contracts: see README.md.
+#ifndef NEARMISS_ANY_ARITHMETIC
+#ifdef __FAST_MATH__
+#error "nearmiss needs IEEE arithmetic: found -ffast-math"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "nearmiss needs every operation to be rounded to its own type");
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53 &&
+                  std::numeric_limits<float>::is_iec559 && std::numeric_limits<float>::digits == 24,
+              "nearmiss needs IEEE double and float");
+#endif
+
+namespace nearmiss {
+
+/// Whether this thread rounds to nearest, keeps subnormals and traps nothing. A nanosecond.
+inline bool is_arithmetic_plain() {
+#ifdef __SSE2__
+  constexpr unsigned flags = 0x3f;    // what happened so far
+  constexpr unsigned plain = 0x1f80;  // all traps masked; to nearest, no flushing
+  return (_mm_getcsr() & 0xffffU & ~flags) == plain;
+#else
+  return std::fegetround() == FE_TONEAREST;
+#endif
+}
+
+/// What is not plain: "rounds upward, flushes subnormals to zero"; "" where nothing is.
+std::string odd_arithmetic();
+
+/// Makes this thread's arithmetic plain where it is not.
+inline void make_arithmetic_plain() {
+  if (!is_arithmetic_plain()) [[unlikely]]
+    std::fesetenv(FE_DFL_ENV);
+}
+
+/// Plain arithmetic for a scope, whatever the caller's is; that comes back at its end. At the entry of what is
+/// certified for rounding to nearest. A build with NEARMISS_UNGUARDED does without, to see what becomes of it.
+class PlainArithmetic {
+ public:
+  PlainArithmetic() {
+#ifndef NEARMISS_UNGUARDED
+    if (is_arithmetic_plain()) [[likely]]
+      return;
+    std::fegetenv(&callers_);
+    std::fesetenv(FE_DFL_ENV);
+    changed_ = true;
+#endif
+  }
+  ~PlainArithmetic() {
+    if (changed_) [[unlikely]]
+      std::fesetenv(&callers_);
+  }
+  PlainArithmetic(const PlainArithmetic&) = delete;
+  PlainArithmetic& operator=(const PlainArithmetic&) = delete;
+
+ private:
+  std::fenv_t callers_;
+  bool changed_ = false;
+};
+
+}  // namespace nearmiss

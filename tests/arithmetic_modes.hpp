@@ -1,0 +1,27 @@
+// Arithmetic that is not plain.
+#pragma once
+
+#include <pmmintrin.h>
+
+#include <array>
+#include <cfenv>
+
+namespace nearmiss::testing {
+
+/// A mode of the processor for a scope; plain arithmetic comes back.
+class HostileArithmetic {
+ public:
+  explicit HostileArithmetic(int rounding, bool flushes = false) {
+    std::fesetround(rounding);
+    if (!flushes) return;
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~HostileArithmetic() { std::fesetenv(FE_DFL_ENV); }
+  HostileArithmetic(const HostileArithmetic&) = delete;
+  HostileArithmetic& operator=(const HostileArithmetic&) = delete;
+};
+
+inline constexpr std::array directed{FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+
+}  // namespace nearmiss::testing

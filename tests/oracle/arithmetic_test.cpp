@@ -1,0 +1,71 @@
+// The oracle answers the same whatever the caller's arithmetic is, and leaves that as it was.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "ccd/arithmetic.hpp"
+#include "oracle/agreement.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/arithmetic_modes.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::HostileArithmetic;
+
+/// Contacts and misses by the last bit, of figures down to the smallest.
+std::vector<Query> close_calls() {
+  std::vector<Query> queries;
+  for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})
+    for (const double z : {0.0, 1.0, -1.0})
+      for (const Query& query :
+           {falling_vertex(0.25, 0.5, 8, z), falling_vertex(1.25, 0, 8, z), falling_edge(8, z)})
+        queries.push_back(testing::scaled(query, scale));
+  for (const double tiny : {0x1p-1074, 0x1p-60})
+    for (const Query& query :
+         {falling_vertex(tiny, 1 - tiny, 1, -1), falling_vertex(0.25, 0.25, 1, tiny), falling_edge(1, tiny)})
+      queries.push_back(query);
+  return queries;
+}
+
+std::vector<double> answers(const std::vector<Query>& queries) {
+  std::vector<double> all;
+  std::vector<Decision> decisions(queries.size());
+  decide(queries, decisions);
+  for (const Decision& decision : decisions) all.push_back(decision.collision ? 1 : 0);
+  for (const Query& query : queries) {
+    all.push_back(collides(query) ? 1 : 0);
+    all.push_back(collides_exactly(query) ? 1 : 0);
+    const auto time = earliest_time(query);
+    all.insert(all.end(), {time ? time->enclosure.lo : 2, time ? time->enclosure.hi : 2});
+    for (const Enclosure& each : {minimum_distance(query), closest_approach(query)})
+      all.insert(all.end(), {each.lo, each.hi});
+    all.insert(all.end(), {closest_ratio(query, 0x1p-20), closest_time(query),
+                           distance_exceeds(query, 0x1p-1060) ? 1.0 : 0.0});
+    all.push_back(ask_all(query).disagreement().empty() ? 1 : 0);
+  }
+  return all;
+}
+
+class Hostile : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Arithmetic, Hostile,
+                         ::testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
+
+TEST_P(Hostile, ArithmeticChangesNoAnswerAndStaysAsItWas) {
+  const auto queries = close_calls();
+  const auto expected = answers(queries);
+  for (const bool flushes : {false, true}) {
+    const HostileArithmetic hostile(GetParam(), flushes);
+    const std::string before = odd_arithmetic();
+    const auto found = answers(queries);
+    EXPECT_EQ(odd_arithmetic(), before);
+    make_arithmetic_plain();  // also to compare
+    EXPECT_EQ(found, expected) << before;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,26 @@
+/* A plug-in, and with LD_PRELOAD a library, that rounds upward and flushes subnormals to zero from when it is
+ * loaded, and again in every call. It reports a collision where it finds arithmetic so when it is called. */
+#include <fenv.h>
+#include <pmmintrin.h>
+
+#include "ccd/nearmiss_subject.h"
+
+__attribute__((constructor)) static void make_hostile(void) {
+  fesetround(FE_UPWARD);
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+}
+
+static int test(const double* x, double* toi) {
+  const volatile double one = 1, tiny = 0x1p-60, subnormal = 0x1p-1040, large = 0x1p100;
+  const int is_hostile = one + tiny > one || subnormal * large == 0;
+  (void)x;
+  (void)toi;
+  make_hostile();
+  return is_hostile;
+}
+
+static double distance_bound(const double* x, int is_edge_edge) { return test(x, NULL) + is_edge_edge; }
+
+static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "hostile", "1", test, test, distance_bound};
+const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
