@@ -71,7 +71,9 @@ void add_needs(const Scene& scene, std::array<std::uint64_t, 2> asked, std::vect
       {Miss::apart, "too far apart for a root"},
       {Miss::no_root, "the cubic has no root, no test is needed"},
       {Miss::culled, "vertex-edge tests are culled"}};
-  for (const auto& [name, counts] : scene.subjects) {
+  for (const auto& subject : scene.subjects) {
+    const std::string& name = subject.first;
+    const auto& counts = subject.second;
     const auto by = [&](Miss miss, std::size_t i) {
       return counts[i].rejected_by[static_cast<std::size_t>(miss)];
     };

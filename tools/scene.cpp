@@ -195,6 +195,7 @@ int run(Options options) {
   Record record(options.record, run_info(options, all.bound), {.environment = plugin_paths});
   const Verified verified = hold_trials(options, scene, all.subjects, record);
   fmt::print("{}", describe(scene));
+  if (record.statistics().counts.empty()) fmt::print("nothing had to be asked: the plan decides all pairs\n");
   const int code = record.finish(interrupted(), !interrupted());
   if (!options.verify_plan || interrupted()) return code;
   const double asking = verified.asking.count();

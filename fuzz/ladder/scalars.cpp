@@ -20,18 +20,9 @@ constexpr std::array<std::pair<std::string_view, Algorithm>, 3> algorithms{
 
 }  // namespace
 
-std::vector<ladder::Scalar> scalars() {
-  std::vector<ladder::Scalar> all;
-  for (const auto part : {ladder::machine_scalars(), ladder::quad_scalar(), ladder::scalars_to_48_bits(),
-                          ladder::scalars_to_96_bits(), ladder::scalars_to_256_bits()})
-    all.insert(all.end(), part.begin(), part.end());
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.epsilon_exponent > b.epsilon_exponent; });
-  return all;
-}
-
 std::unique_ptr<Subject> try_make_scaled(std::string_view name_and_bound, std::optional<double> given_bound) {
-  const auto [name, bound] = split_bound(name_and_bound, given_bound);
+  const SplitName split = split_bound(name_and_bound, given_bound);
+  const std::string_view name = split.name;
   const auto colon = name.find(':');
   if (colon == std::string_view::npos || name.find('/') != std::string_view::npos) return nullptr;
   const auto algorithm = std::find_if(algorithms.begin(), algorithms.end(),
@@ -41,7 +32,8 @@ std::unique_ptr<Subject> try_make_scaled(std::string_view name_and_bound, std::o
         fmt::format("unknown subject '{}', expected basic, wang or wang-tight before the colon", name));
   std::string names;
   for (const ladder::Scalar& scalar : scalars()) {
-    if (scalar.name == name.substr(colon + 1)) return scalar.make(name_and_bound, algorithm->second, bound);
+    if (scalar.name == name.substr(colon + 1))
+      return scalar.make(name_and_bound, algorithm->second, split.bound);
     names += fmt::format("{}{}", names.empty() ? "" : ", ", scalar.name);
   }
   throw Error(

@@ -69,9 +69,9 @@ class Scaled final : public Subject {
   [[nodiscard]] bool rounds() const override { return narrow; }
 
   [[nodiscard]] Query rounded(const Query& query) const override {
-    auto [seen, exponent] = as_seen(query);
-    for (double& c : seen.x) c = std::ldexp(c, -exponent);
-    return seen;
+    Seen seen = as_seen(query);
+    for (double& c : seen.query.x) c = std::ldexp(c, -seen.exponent);
+    return seen.query;
   }
 
  private:
@@ -80,21 +80,26 @@ class Scaled final : public Subject {
 
   template <class Steps>
   [[nodiscard]] Verdict decide(const Query& query, const Steps& steps) const {
-    const auto [seen, exponent] = as_seen(query);
+    const Seen seen = as_seen(query);
     std::optional<double> given = given_;
-    if (given) given = std::ldexp(*given, exponent);
+    if (given) given = std::ldexp(*given, seen.exponent);
     const auto of_kind = [&]<Kind kind>(std::integral_constant<Kind, kind>) {
-      return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen)
-                                            : wang<kind, T, options>(seen, given, steps);
+      return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
+                                            : wang<kind, T, options>(seen.query, given, steps);
     };
     return query.kind == Kind::vertex_triangle
                ? of_kind(std::integral_constant<Kind, Kind::vertex_triangle>())
                : of_kind(std::integral_constant<Kind, Kind::edge_edge>());
   }
 
+  struct Seen {
+    Query query;
+    int exponent = 0;
+  };
+
   /// A query with coordinates that T has, times a power of two that brings it into the range of float where T is
   /// that; the exponent. All other scalars have at least the range of double.
-  static std::pair<Query, int> as_seen(const Query& query) {
+  static Seen as_seen(const Query& query) {
     if constexpr (!narrow) return {query, 0};
     int exponent = 0;
     if constexpr (std::is_same_v<T, float>) {
