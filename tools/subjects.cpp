@@ -1,6 +1,7 @@
 // nearmiss subjects: which CCDs can be put on trial.
 #include <fmt/format.h>
 
+#include "fuzz/ladder/scalars.hpp"
 #include "fuzz/power/defects.hpp"
 #include "fuzz/subjects.hpp"
 #include "tools/commands.hpp"
@@ -13,6 +14,9 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "\nA plug-in is named by its path, with a slash in it: ./plugin.so (see ccd/nearmiss_subject.h).");
   command->callback([] {
     for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<23} {}\n", subject.name, subject.about);
+    fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
+    for (const ladder::Scalar& scalar : scalars())
+      fmt::print("{:<23} 2^{}\n", fmt::format("NAME:{}", scalar.name), scalar.epsilon_exponent);
     fmt::print("\nWith a known defect each, to measure whether a hunt would find one:\n");
     for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
   });
