@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "fuzz/failures/sieve.hpp"
-#include "fuzz/parallel.hpp"
+#include "fuzz/sifted_trials.hpp"
 
 namespace nearmiss {
 
@@ -59,7 +58,7 @@ Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   return {&plan.families[f], round, first, last};
 }
 
-TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjects& subjects) {
+TrialResult try_block(const CampaignPlan& plan, const Block& block, const SiftedTrials& trials) {
   TrialResult result;
   for (std::uint64_t parity = 0; parity < kinds.size(); ++parity) {
     const std::uint64_t first = block.first + (block.first % 2 == parity ? 0 : 1);
@@ -72,7 +71,7 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Subjec
     batch.provenance = [&](std::size_t i) {
       return fmt::format("{}:{}:{}", block.family->name, plan.seed, first + 2 * i);
     };
-    if (!batch.queries.empty()) result.merge(hold_trial(subjects, batch, plan.comparison));
+    if (!batch.queries.empty()) result.merge(trials.trial(batch));
   }
   for (Finding& finding : result.findings) finding.round = block.round;
   return result;
@@ -135,19 +134,14 @@ CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects
                             .of = cases_of_shard(plan),
                             .rounds = rounds.done()};
   const auto is_over = [&] { return stop || (plan.time && Clock::now() - start >= *plan.time); };
-  Sieve sieve(subjects, plan.jobs, stop);
-  sieve.know(plan.findings_before);
+  SiftedTrials trials(subjects, plan.comparison, plan.jobs, stop);
+  trials.know(plan.findings_before);
   while (!is_over()) {
     const auto wave = rounds.next_wave();
     progress.complete = wave.empty();
     if (progress.complete) break;
-    std::vector<TrialResult> results(wave.size());
-    in_parallel(plan.jobs, wave.size(), [&](std::size_t i) {
-      if (!stop) results[i] = try_block(plan, wave[i], subjects);
-    });
-    TrialResult sum;
-    for (TrialResult& result : results) sum.merge(std::move(result));
-    sieve.sift(sum.findings);
+    TrialResult sum =
+        trials.hold(wave.size(), [&](std::size_t i) { return try_block(plan, wave[i], trials); });
     if (stop) break;  // a wave counts as a whole or not at all
     progress.cases += Rounds::cases(wave);
     progress.rounds = rounds.done();

@@ -1,7 +1,6 @@
 // Trials over queries that come one at a time, such as a corpus or the pairs of a scene.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,28 +8,25 @@
 #include <utility>
 #include <vector>
 
-#include "fuzz/failures/sieve.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/sifted_trials.hpp"
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind and family, holds the trials on all cores, and passes the results
-/// on. Only a few batches are held at any time. The results do not depend on `jobs`, but for times.
+/// Collects queries into batches by kind and family, holds the trials and passes the results on. Only a few
+/// batches are held at any time.
 class TrialStream {
  public:
-  /// Takes the result of some batches, in order, findings sifted (sieve.hpp).
+  /// Takes the result of some batches, in order.
   using Sink = std::function<void(TrialResult&&)>;
 
-  TrialStream(const Subjects& subjects, const Comparison& comparison, int jobs, const std::atomic<bool>& stop,
-              Sink sink);
+  TrialStream(SiftedTrials& trials, Sink sink) : trials_(trials), sink_(std::move(sink)) {}
 
-  /// Takes a query; false once `stop` is set. `provenance` is called, until finish(), only for what is kept.
+  /// Takes a query; false once it is to stop. `provenance` is called, until finish(), only for what is kept.
   /// Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Decides what is still held. Queries that came before `stop` was set but are not decided yet are left
-  /// out.
+  /// Decides what is still held. Queries that are not decided when it is to stop are left out.
   void finish();
 
  private:
@@ -41,12 +37,8 @@ class TrialStream {
 
   void hold_trials();
 
-  const Subjects& subjects_;
-  Comparison comparison_;
-  int jobs_;
-  const std::atomic<bool>& stop_;
+  SiftedTrials& trials_;
   Sink sink_;
-  Sieve sieve_;
   std::map<std::pair<std::string, Kind>, Pending> pending_;
   std::vector<Pending> full_;
 };

@@ -48,8 +48,8 @@ int run(const Options& options) {
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
-    TrialStream stream(subjects, options.trial.comparison, options.trial.jobs, stop,
-                       [&](TrialResult&& result) { record.add(std::move(result)); });
+    SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
+    TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
         if (stop) return;

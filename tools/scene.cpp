@@ -152,13 +152,13 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   Export exported(options.export_to);
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
-  SceneTrial trial(subjects, options.trial.comparison, options.trial.jobs, stop,
-                   [&](TrialResult&& result) { record.add(std::move(result)); });
+  SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
+  SceneTrial trial(scene, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
   for (std::size_t step = 0; step < scene.steps() && !stop; ++step) {
     const MovingMesh mesh = moving_mesh(scene, step);
     exported.add_all(mesh, leave_out, stop);
     const auto start = std::chrono::steady_clock::now();
-    trial.hold(step_name(scene, step), mesh, leave_out, [&](double part) { progress.asking(step, part); });
+    trial.hold(step, mesh, leave_out, [&](double part) { progress.asking(step, part); });
     verified.asking += std::chrono::steady_clock::now() - start;
     if (options.verify_plan && !stop)
       verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
@@ -167,7 +167,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
       }));
   }
   exported.finish();
-  if (trial.picture()) record.add(*trial.picture());
+  if (const auto picture = trial.picture()) record.add(*picture);
   return verified;
 }
 

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 namespace nearmiss {
@@ -129,18 +128,19 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
     (mark != 0 ? marked : others).push_back({std::move(vertices), mark});
   };
   std::vector<bool> in_figure(mesh.start.size());
-  std::set<std::array<int, 2>> of_triangles;
+  std::vector<std::array<int, 2>> of_triangles;
   for (const auto& t : mesh.triangles) {
     Mark mark = mark_of(triangles_, t);
     for (const auto& side : {edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])}) {
       mark |= mark_of(edges_, side);
-      of_triangles.insert(side);
+      of_triangles.push_back(side);
     }
     add_figure({t.begin(), t.end()}, mark);
     for (const int vertex : t) in_figure[static_cast<std::size_t>(vertex)] = true;
   }
+  std::ranges::sort(of_triangles);
   for (const auto& e : mesh.edges) {
-    if (!of_triangles.contains(e)) add_figure({e.begin(), e.end()}, mark_of(edges_, e));
+    if (!std::ranges::binary_search(of_triangles, e)) add_figure({e.begin(), e.end()}, mark_of(edges_, e));
     for (const int vertex : e) in_figure[static_cast<std::size_t>(vertex)] = true;
   }
   for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)

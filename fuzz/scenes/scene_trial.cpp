@@ -4,57 +4,48 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "corpus/query_text.hpp"
-#include "fuzz/parallel.hpp"
 
 namespace nearmiss {
 
-SceneTrial::SceneTrial(const Subjects& subjects, const Comparison& comparison, int jobs,
-                       const std::atomic<bool>& stop, Sink sink)
-    : subjects_(subjects),
-      comparison_(comparison),
-      jobs_(jobs),
-      stop_(stop),
-      sink_(std::move(sink)),
-      sieve_(subjects, jobs, stop) {}
-
-void SceneTrial::hold(const std::string& name, const MovingMesh& mesh, LeaveOut leave_out,
+void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
                       const std::function<void(double)>& progress) {
+  const std::string name = step_name(scene_, step);
   const Plan plan(mesh, leave_out);
-  const std::size_t at_once = 4 * static_cast<std::size_t>(jobs_);
-  Funnels parts;
-  Marks marks;
-  for (std::size_t first = 0; first < plan.parts() && !stop_; first += at_once) {
-    std::vector<PartResult> results(std::min(at_once, plan.parts() - first));
-    in_parallel(jobs_, results.size(), [&](std::size_t i) { results[i] = hold_part(name, plan, first + i); });
-    PartResult sum;
-    for (PartResult& each : results) {
-      for (const auto& [kind, funnel] : each.funnels) parts[kind].merge(funnel);
-      marks.merge(each.marks);
-      sum.trial.merge(std::move(each.trial));
+  Part sum;
+  for (std::size_t first = 0; first < plan.parts() && !trials_.stop();) {
+    std::vector<Part> parts(std::min(trials_.at_once(), plan.parts() - first));
+    sink_(trials_.hold(parts.size(),
+                       [&](std::size_t i) { return hold_part(name, plan, first + i, parts[i]); }));
+    for (const Part& part : parts) {
+      for (const auto& [kind, funnel] : part.funnels) sum.funnels[kind].merge(funnel);
+      sum.marks.merge(part.marks);
     }
-    sieve_.sift(sum.trial.findings);
-    sink_(std::move(sum.trial));
-    progress(static_cast<double>(first + results.size()) / static_cast<double>(plan.parts()));
-  }
-  if (marks.size() > most_marks_) {
-    most_marks_ = marks.size();
-    std::vector<std::string> names;
-    for (const auto& subject : subjects_) names.push_back(subject->name());
-    picture_ = marks.picture(name, mesh, names);
+    first += parts.size();
+    progress(static_cast<double>(first) / static_cast<double>(plan.parts()));
   }
   TrialResult counted;
-  for (const Funnels& funnels : {parts, stop_ ? Funnels{} : plan.rest(parts)})
+  for (const Funnels& funnels : {sum.funnels, trials_.stop() ? Funnels{} : plan.rest(sum.funnels)})
     for (const auto& [kind, funnel] : funnels) counted.statistics.funnels[{name, kind}].merge(funnel);
   sink_(std::move(counted));
+  if (sum.marks.size() > marks_.size()) {
+    most_marked_ = step;
+    marks_ = std::move(sum.marks);
+  }
 }
 
-SceneTrial::PartResult SceneTrial::hold_part(const std::string& name, const Plan& plan,
-                                             std::size_t part) const {
-  PartResult result;
+std::optional<ScenePicture> SceneTrial::picture() const {
+  if (marks_.size() == 0) return std::nullopt;
+  std::vector<std::string> names;
+  for (const auto& subject : trials_.subjects()) names.push_back(subject->name());
+  return marks_.picture(step_name(scene_, most_marked_), moving_mesh(scene_, most_marked_), names);
+}
+
+TrialResult SceneTrial::hold_part(const std::string& name, const Plan& plan, std::size_t number,
+                                  Part& part) const {
+  TrialResult result;
   const auto ask = [&](const Pairs& pairs) {
     const Batch batch{
         .kind = pairs.kind,
@@ -66,13 +57,13 @@ SceneTrial::PartResult SceneTrial::hold_part(const std::string& name, const Plan
                                  fmt::join(pairs.candidates[i].vertices, ","));
             },
         .observe = [&](std::size_t i, std::size_t subject,
-                       const Outcome& outcome) { result.marks.add(pairs.candidates[i], subject, outcome); }};
-    result.trial.merge(hold_trial(subjects_, batch, comparison_));
+                       const Outcome& outcome) { part.marks.add(pairs.candidates[i], subject, outcome); }};
+    result.merge(trials_.trial(batch));
   };
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {
-    if (collides) result.marks.add_collision(candidate);
+    if (collides) part.marks.add_collision(candidate);
   };
-  result.funnels = plan.follow(part, ask, decided, [&] { return stop_.load(); });
+  part.funnels = plan.follow(number, ask, decided, [&] { return trials_.stop().load(); });
   return result;
 }
 

@@ -170,7 +170,8 @@ TEST(TrialStream, DecidesEverythingInOrder) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{false};
   TrialResult sum;
-  TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  SiftedTrials trials(subjects, {}, 2, stop);
+  TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   constexpr int count = 12345;
   for (int i = 0; i < count; ++i)
     stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt,
@@ -187,7 +188,8 @@ TEST(TrialStream, DecidesNothingOnceItIsToStop) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{true};
   TrialResult sum;
-  TrialStream stream(subjects, {}, 2, stop, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  SiftedTrials trials(subjects, {}, 2, stop);
+  TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, [] { return ""; }));
   stream.finish();
   EXPECT_TRUE(sum.statistics.counts.empty());
