@@ -1,29 +1,19 @@
 #include "reports/audit_table.hpp"
 
-#include <fmt/format.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
+#include "reports/json_file.hpp"
 
 namespace nearmiss {
 
 std::string load_audit(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
-  const auto fail = [&](std::string_view found) {
-    return Error(
-        fmt::format("{}: found '{}', expected what nearmiss audit --json keeps", file.string(), found));
-  };
-  try {
-    const auto json = nlohmann::ordered_json::parse(in);
+  std::string text;
+  read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
     for (const char* table : {"constants", "tolerances"})
-      if (!json.at(table).is_array()) throw fail(fmt::format("no list of {}", table));
-    return json.dump();
-  } catch (const nlohmann::ordered_json::exception& error) {
-    throw fail(error.what());
-  }
+      json.at(table).get_ref<const nlohmann::ordered_json::array_t&>();  // throws where it is no list
+    text = json.dump();
+  });
+  return text;
 }
 
 }  // namespace nearmiss

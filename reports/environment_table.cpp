@@ -1,11 +1,8 @@
 #include "reports/environment_table.hpp"
 
-#include <fmt/format.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
+#include "reports/json_file.hpp"
 
 namespace nearmiss {
 
@@ -30,11 +27,9 @@ ordered_json environments_json(const std::vector<Environment>& environments) {
 }
 
 std::vector<Environment> load_environments(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
   std::vector<Environment> environments;
-  try {
-    for (const ordered_json& each : ordered_json::parse(in)) {
+  read_json_file(file, "the table of tools/environments", [&](const ordered_json& json) {
+    for (const ordered_json& each : json) {
       Environment row{.subject = each.at("subject"),
                       .compiler = each.at("compiler"),
                       .flags = each.at("flags"),
@@ -48,10 +43,7 @@ std::vector<Environment> load_environments(const std::filesystem::path& file) {
       if (!each.at("first").is_null()) row.first = each["first"].get<std::string>();
       environments.push_back(std::move(row));
     }
-  } catch (const ordered_json::exception& error) {
-    throw Error(
-        fmt::format("{}: found '{}', expected the table of tools/environments", file.string(), error.what()));
-  }
+  });
   return environments;
 }
 

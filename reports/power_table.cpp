@@ -1,11 +1,8 @@
 #include "reports/power_table.hpp"
 
-#include <fmt/format.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
+#include "reports/json_file.hpp"
 
 namespace nearmiss {
 
@@ -27,11 +24,9 @@ ordered_json hunts_json(const std::vector<Hunt>& hunts) {
 }
 
 std::vector<Hunt> load_hunts(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
   std::vector<Hunt> hunts;
-  try {
-    for (const ordered_json& each : ordered_json::parse(in)) {
+  read_json_file(file, "what nearmiss power --json keeps", [&](const ordered_json& json) {
+    for (const ordered_json& each : json) {
       Hunt hunt{.subject = each.at("subject"), .way = each.at("way")};
       if (!each.at("failure").is_null()) {
         hunt.failure = each["failure"].get<std::string>();
@@ -41,10 +36,7 @@ std::vector<Hunt> load_hunts(const std::filesystem::path& file) {
       }
       hunts.push_back(std::move(hunt));
     }
-  } catch (const ordered_json::exception& error) {
-    throw Error(fmt::format("{}: found '{}', expected what nearmiss power --json keeps", file.string(),
-                            error.what()));
-  }
+  });
   return hunts;
 }
 
