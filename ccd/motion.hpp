@@ -139,7 +139,7 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
   pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
   pair.W = largest(extent, 3);
-  pair.B = (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + 64 * epsilon<T>);
+  pair.B = (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + 64 * epsilon<T>());
 }
 
 }  // namespace detail

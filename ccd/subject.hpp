@@ -143,21 +143,25 @@ std::vector<SubjectInfo> subjects();
 inline constexpr std::string_view of_scene = "@scene";
 
 /// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). A bound, given as
-/// NAME@B or as `given_bound` (of NAME and NAME@scene), in the queries' unit of length, takes the place of every
-/// pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B take no notice of it. Throws Error for a name that is not known or
-/// a plug-in that cannot be used.
+/// NAME@B or as `given_bound` (of NAME and NAME@scene), in the queries' unit of length, takes the place of
+/// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B take no
+/// notice of it. Throws Error for a name that is not known or a plug-in that cannot be used.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
 /// The same, but nothing for a name that is not known.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
-/// A name without its bound, "@B" or "@scene", and what bound that is; the one that is given where there is none.
+/// A name without its bound, "@B" or "@scene", and what bound that is; the one that is given where there is
+/// none.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
+
+/// Throws Error: a subject found a coordinate that is not finite.
+[[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
 
 /// Throws Error that lists the known names.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);

@@ -16,10 +16,6 @@ namespace nearmiss {
 
 namespace {
 
-[[noreturn, gnu::cold]] void refuse(const std::string& name) {
-  throw Error(name + ": found a coordinate that is not finite, expected 24 finite numbers");
-}
-
 template <Kind kind>
 double own_bound(const Query& query) {
   const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
@@ -57,7 +53,7 @@ class BuiltIn final : public Subject {
 
  private:
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
-    if (!is_finite(query)) refuse(name_);
+    if (!is_finite(query)) refuse_coordinates(name_);
     return query.kind == Kind::vertex_triangle ? Policy::template decide<Kind::vertex_triangle>(query, given_)
                                                : Policy::template decide<Kind::edge_edge>(query, given_);
   }
@@ -172,6 +168,10 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::option
   auto subject = try_make_subject(name_or_path, given_bound);
   if (!subject) refuse_subject(name_or_path, subjects());
   return subject;
+}
+
+void refuse_coordinates(std::string_view name) {
+  throw Error(std::string(name) + ": found a coordinate that is not finite, expected 24 finite numbers");
 }
 
 void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {

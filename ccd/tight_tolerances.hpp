@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "ccd/constraints.hpp"
@@ -10,12 +11,12 @@
 
 namespace nearmiss {
 
-/// ε = 2^this. An arithmetic that errs by more than its number of digits says has one of its own.
+/// ε = 2^this.
 template <class T>
 inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 
 /// Tolerances for B = 1 as multiples of powers of e = ε^¼.
-struct TightConstants {
+struct ToleranceConstants {
   double mu;           ///< of ε
   double tau, eta, R;  ///< of e², e, e
   double lambda2, D2;  ///< of e²
@@ -74,7 +75,7 @@ constexpr double lowest(const Function& f, double lo, double hi) {
 ///
 /// Every value is rounded a few times when it is computed: below 16 ε relatively, all together. R and D² are
 /// larger by that and 2^-30, and so is μ.
-constexpr TightConstants solve_tight(int eps_exponent) {
+constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
   const double margin = 1 + 16 * eps + 0x1p-30;
@@ -118,30 +119,42 @@ constexpr TightConstants solve_tight(int eps_exponent) {
 }
 
 template <class T>
-inline constexpr TightConstants tight_constants = solve_tight(epsilon_exponent<T>);
+inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
+
+/// The paper's, for ε = 2^this, likewise.
+constexpr ToleranceConstants closed_forms(int eps_exponent) {
+  const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
+  return {64 / e, 64, 4, 6, 2080, 34 * 34 + 522};
+}
+
+/// The tolerances for a bound B from their constants.
+template <class T>
+Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& B) {
+  using std::sqrt;
+  const T Be = B * sqrt(sqrt(eps));
+  const T B2 = B * B;
+  const T B2e2 = Be * Be;
+  Tolerances<T> tol;
+  tol.delta = B2 * eps * 311;
+  tol.D2 = B2e2 * static_cast<T>(c.D2);
+  tol.rho = B2e2 * 3;
+  tol.psi = B2e2 * 725;
+  tol.lambda2 = B2e2 * static_cast<T>(c.lambda2);
+  tol.R = Be * static_cast<T>(c.R);
+  tol.S = tol.R * 3;
+  tol.mu = B2 * B * eps * static_cast<T>(c.mu);
+  tol.tau = B2e2 * static_cast<T>(c.tau);
+  tol.eta = Be * static_cast<T>(c.eta);
+  return tol;
+}
 
 /// Failure-proof for every scalar of 11 to 256 bits, where `paper_tolerances` are not for ε above 2^-37, as
 /// far as the paper's μ >= 33492 B³ε and ψ = 725 B²ε^½ are (fuzz/audit/ derives less for both), and for
 /// queries whose coordinates the scalar has: a narrower one rounds them first. The distance bound is the
 /// smallest that the constraints give: 37.3 B e for double and finer, 48.3 B e for float.
 template <class T>
-Tolerances<T> tight_tolerances(T B) {
-  constexpr const TightConstants& c = tight_constants<T>;
-  const T Be = B * fourth_root_of_epsilon<T>();
-  const T B2 = B * B;
-  const T B2e2 = Be * Be;
-  Tolerances<T> tol;
-  tol.delta = 311 * B2 * epsilon<T>;
-  tol.D2 = static_cast<T>(c.D2) * B2e2;
-  tol.rho = 3 * B2e2;
-  tol.psi = 725 * B2e2;
-  tol.lambda2 = static_cast<T>(c.lambda2) * B2e2;
-  tol.R = static_cast<T>(c.R) * Be;
-  tol.S = 3 * tol.R;
-  tol.mu = static_cast<T>(c.mu) * B2 * B * epsilon<T>;
-  tol.tau = static_cast<T>(c.tau) * B2e2;
-  tol.eta = static_cast<T>(c.eta) * Be;
-  return tol;
+Tolerances<T> tight_tolerances(const T& B) {
+  return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
 /// The algorithm with these.

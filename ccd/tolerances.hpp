@@ -2,22 +2,21 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <limits>
 
 namespace nearmiss {
 
 /// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
 template <class T>
-inline const T epsilon = std::numeric_limits<T>::epsilon();
-template <std::floating_point T>
-inline constexpr T epsilon<T> = std::numeric_limits<T>::epsilon();
+constexpr T epsilon() {
+  return std::numeric_limits<T>::epsilon();
+}
 
 /// ε^¼, the paper's measure of how far false positives may be (2^-13 for double).
 template <class T>
 T fourth_root_of_epsilon() {
   using std::sqrt;
-  return sqrt(sqrt(epsilon<T>));
+  return sqrt(sqrt(epsilon<T>()));
 }
 
 /// The tolerances of §4 for a pair bounded by B: closed forms, failure-proof where μ >= 33492 B³ε, which
@@ -51,7 +50,7 @@ Tolerances<T> paper_tolerances(T B) {
   const T B2 = B * B;
   const T B2e2 = Be * Be;
   Tolerances<T> tol;
-  tol.delta = 311 * B2 * epsilon<T>;
+  tol.delta = 311 * B2 * epsilon<T>();
   tol.D2 = ((16 + 18) * (16 + 18) + 522) * B2e2;
   tol.rho = 3 * B2e2;
   tol.psi = 725 * B2e2;

@@ -23,10 +23,10 @@ constexpr std::array algorithms{"wang", "wang-tight"};
 constexpr int finest = -127;
 constexpr int coarsest = -23;
 
-/// The distance bound in units of B for ε = 2^exponent: √(D² + 2δ).
+/// The distance bound in units of B for ε = 2^exponent.
 double claimed_distance(const std::string& algorithm, int exponent) {
-  const double D2 = algorithm == "wang" ? paper_tolerances(1.0).D2 * 0x1p26 : solve_tight(exponent).D2;
-  return std::sqrt(D2 * std::exp2(exponent / 2.0) + 2 * 311 * std::exp2(exponent));
+  const ToleranceConstants c = algorithm == "wang" ? closed_forms(exponent) : solve_tight(exponent);
+  return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
 bool is_ladder(const std::vector<Rung>& all) {

@@ -171,11 +171,11 @@ void add_common(CLI::App& command, Options& options) {
       ->needs("--db");
 }
 
-/// All scalars from float's precision to 128 bits.
+/// The scalars with a name of their own, and every eighth number of bits from float's precision to 128.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
-  for (const ladder::Scalar& scalar : scalars())
-    if (scalar.epsilon_exponent <= -23 && scalar.epsilon_exponent >= -127) names.emplace_back(scalar.name);
+  for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);
+  for (int bits = 24; bits <= 128; bits += 8) names.push_back(fmt::format("p{}", bits));
   return names;
 }
 

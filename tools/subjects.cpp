@@ -15,8 +15,10 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
   command->callback([] {
     for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<23} {}\n", subject.name, subject.about);
     fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
-    for (const ladder::Scalar& scalar : scalars())
-      fmt::print("{:<23} 2^{}\n", fmt::format("NAME:{}", scalar.name), scalar.epsilon_exponent);
+    for (const ladder::Scalar& scalar : named_scalars())
+      fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);
+    fmt::print("{:<23} 2^(1 - N), N bits, from {} to {}\n", "NAME:pN", ladder::fewest_bits,
+               ladder::most_bits);
     fmt::print("\nWith a known defect each, to measure whether a hunt would find one:\n");
     for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
   });

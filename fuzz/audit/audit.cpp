@@ -15,7 +15,7 @@ namespace {
 using namespace audit_parts;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double eps = epsilon<double>;
+constexpr double eps = epsilon<double>();
 constexpr Kind vt = Kind::vertex_triangle;
 constexpr Kind ee = Kind::edge_edge;
 
@@ -82,14 +82,14 @@ std::vector<Group> groups() {
   all.push_back(
       {{quote("VT: N", "4.4", B2, 13, vectors), quote("VT: height test", "4.4", B2, 21, vectors),
         quote("VT: weight", "4.4", B4, 181, vectors), quote("VT: barycentric test", "4.4", B4, 565, vectors),
-        quote("weight_error", "ve_culling.hpp", B4, weight_error<double>, vectors)},
+        quote("weight_error", "ve_culling.hpp", B4, weight_error, vectors)},
        rounded_figure<vt>,
        1,
        vt});
   all.push_back(
       {{quote("EE: N", "4.5", B2, 13, vectors), quote("EE: height test", "4.5", B2, 16, vectors),
         quote("EE: weight", "4.5", B4, 181, vectors), quote("EE: barycentric test", "4.5", B4, 362, vectors),
-        quote("weight_error", "ve_culling.hpp", B4, weight_error<double>, vectors)},
+        quote("weight_error", "ve_culling.hpp", B4, weight_error, vectors)},
        rounded_figure<ee>,
        1,
        ee});

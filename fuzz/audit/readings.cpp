@@ -15,7 +15,7 @@ namespace nearmiss::audit_parts {
 
 namespace {
 
-constexpr double eps = epsilon<double>;
+constexpr double eps = epsilon<double>();
 constexpr Kind vt = Kind::vertex_triangle;
 constexpr Kind ee = Kind::edge_edge;
 

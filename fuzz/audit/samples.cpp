@@ -31,10 +31,9 @@ double draw_time(Random& random) {
 
 bool Sample::within_bounds() const {
   const auto within = [this](const Moving<double>& m, double size) {
-    const double most = size * B * (1 - 8 * epsilon<double>);
-    return max_component(m.x()) <= most &&
-           max_component(m.v()) <=
-               B * (1 - 8 * epsilon<double>)&&max_component(Vector3<double>(m.x() + m.v())) <= most;
+    const double most = size * B * (1 - 8 * epsilon<double>());
+    return max_component(m.x()) <= most && max_component(m.v()) <= B * (1 - 8 * epsilon<double>()) &&
+           max_component(Vector3<double>(m.x() + m.v())) <= most;
   };
   return B > 0 && within(p, reach) && within(q, 1) && within(r, 1);
 }

@@ -36,9 +36,8 @@ std::vector<ToleranceRow> tolerance_table() {
   for (const auto& [exponent, scalars] : known) {
     const double eps = std::ldexp(1.0, exponent);
     const double e = std::sqrt(std::sqrt(eps));
-    const TightConstants closed{64 / e, 64, 4, 6, 2080, 34 * 34 + 522};
-    const auto paper = tolerances_of(closed, eps);
-    const auto tight = tolerances_of(solve_tight(exponent), eps);
+    const auto paper = tolerances_of(closed_forms(exponent), eps, 1.0);
+    const auto tight = tolerances_of(solve_tight(exponent), eps, 1.0);
     const double E = 4 * e * e;
     rows.push_back({.exponent = exponent,
                     .scalars = scalars,

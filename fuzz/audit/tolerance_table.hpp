@@ -13,7 +13,7 @@ namespace nearmiss {
 struct ToleranceRow {
   int exponent = 0;
   std::string_view scalars;
-  TightConstants tight{};
+  ToleranceConstants tight{};
   double paper_bound = 0;
   double tight_bound = 0;
   double relative_bound = 0;  ///< the tight one in units of B
@@ -23,26 +23,6 @@ struct ToleranceRow {
 };
 
 std::vector<ToleranceRow> tolerance_table();
-
-/// The coefficients with their powers of e and ε, for B = 1.
-template <class Number>
-Tolerances<Number> tolerances_of(const TightConstants& c, const Number& eps) {
-  using std::sqrt;
-  const Number e2 = sqrt(eps);
-  const Number e = sqrt(e2);
-  Tolerances<Number> tol;
-  tol.delta = eps * 311;
-  tol.D2 = e2 * c.D2;
-  tol.rho = e2 * 3;
-  tol.psi = e2 * 725;
-  tol.lambda2 = e2 * c.lambda2;
-  tol.R = e * c.R;
-  tol.S = tol.R * 3;
-  tol.mu = eps * c.mu;
-  tol.tau = e2 * c.tau;
-  tol.eta = e * c.eta;
-  return tol;
-}
 
 /// The E that allows most: squared, four times R² - r².
 template <class Number>

@@ -9,13 +9,14 @@
 
 namespace nearmiss {
 
-/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, as long as nothing comes near the ends of double's range,
-///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error bounds
-///   product          5u²          for basic building blocks of double-word arithmetic", ACM TOMS 44, 2017;
-///                                 Algorithm 10 there)
+/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, as long as nothing comes near
+/// the ends of double's range,
+///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error
+///   product          5u²          bounds for basic building blocks of double-word arithmetic", ACM TOMS 44,
+///                                 2017; Algorithm 10 there)
 ///   quotient, root   at most 16u², as tests against rational numbers have it; nobody states more
-/// and so ε = 16u² = 2^-102. Debian's libqd is built to add in another way, whose error has no relative bound where
-/// signs differ: the paper's model would not hold, so its careful sum and quotient are called by name.
+/// and so ε = 16u² = 2^-102. Debian's libqd is built to add in another way, whose error has no relative bound
+/// where signs differ: the paper's model would not hold, so its careful sum and quotient are called by name.
 class DoubleDouble {
  public:
   DoubleDouble(double value = 0) : value_(value) {}

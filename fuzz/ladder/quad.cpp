@@ -1,6 +1,4 @@
 // IEEE's binary128, which g++ computes in software; clang has no library for it, and then there is none.
-#include <array>
-
 #include "fuzz/ladder/scalars.hpp"
 
 #if __has_include(<quadmath.h>)
@@ -10,14 +8,10 @@
 
 namespace nearmiss::ladder {
 
-namespace {
-
-using Quad = boost::multiprecision::float128;
-constexpr std::array all{Scalar{"quad", epsilon_exponent<Quad>, &make_scaled<Quad>}};
-
-}  // namespace
-
-std::span<const Scalar> quad_scalar() { return all; }
+std::vector<Scalar> quad_scalar() {
+  using Quad = boost::multiprecision::float128;
+  return {{"quad", epsilon_exponent<Quad>, &make_scaled<Quad>}};
+}
 
 }  // namespace nearmiss::ladder
 
@@ -25,7 +19,7 @@ std::span<const Scalar> quad_scalar() { return all; }
 
 namespace nearmiss::ladder {
 
-std::span<const Scalar> quad_scalar() { return {}; }
+std::vector<Scalar> quad_scalar() { return {}; }
 
 }  // namespace nearmiss::ladder
 

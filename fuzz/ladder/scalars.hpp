@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,27 +15,25 @@ namespace ladder {
 
 enum class Algorithm : std::uint8_t { basic, wang, wang_tight };
 
-/// Makes a subject.
-using Make = std::unique_ptr<Subject> (*)(std::string_view name, Algorithm algorithm,
-                                          std::optional<double> given_bound);
-
 struct Scalar {
-  std::string_view name;
+  std::string name;
   int epsilon_exponent;  ///< ε = 2^this
-  Make make;
+  std::unique_ptr<Subject> (*make)(std::string_view subject, int epsilon_exponent, Algorithm algorithm,
+                                   std::optional<double> given_bound);
 };
 
-/// The parts of the list, each from a file of its own.
-std::span<const Scalar> machine_scalars();
-std::span<const Scalar> quad_scalar();
-std::span<const Scalar> scalars_to_48_bits();
-std::span<const Scalar> scalars_to_96_bits();
-std::span<const Scalar> scalars_to_256_bits();
+/// The parts of the list, each from a file of its own. No quad where the compiler has none.
+std::vector<Scalar> machine_scalars();
+std::vector<Scalar> quad_scalar();
+/// Of so many bits: "p40".
+Scalar bits_scalar(int bits);
+
+inline constexpr int fewest_bits = 16, most_bits = 256;
 
 }  // namespace ladder
 
-/// All scalars, by ascending precision.
-std::vector<ladder::Scalar> scalars();
+/// The scalars with a name of their own, by ascending precision. Beside them there are "p16" to "p256".
+std::vector<ladder::Scalar> named_scalars();
 
 /// basic, wang or wang-tight over a scalar, as "wang:p40"; nothing for a name without a colon. A bound as for
 /// make_subject. Throws Error for an algorithm or a scalar that is not known.

@@ -1,5 +1,5 @@
-// Compiled without coverage: where the compiler itself names the ends of the section of the counters, it takes
-// these names for others.
+// Compiled without coverage: where the compiler itself names the ends of the section of the counters, it
+// takes these names for others.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>

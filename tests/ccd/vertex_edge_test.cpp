@@ -24,7 +24,7 @@ const double e = std::ldexp(1.0, -13);
 TEST(Tolerances, AreThePapersForDouble) {
   EXPECT_EQ(fourth_root_of_epsilon<double>(), e);
   EXPECT_EQ(tol.D2, 1678 * e * e);
-  EXPECT_EQ(tol.delta, 311 * epsilon<double>);
+  EXPECT_EQ(tol.delta, 311 * epsilon<double>());
   EXPECT_EQ(tol.rho, 3 * e * e);
   EXPECT_EQ(tol.psi, 725 * e * e);
   EXPECT_EQ(tol.lambda2, 2080 * e * e);
@@ -33,7 +33,7 @@ TEST(Tolerances, AreThePapersForDouble) {
   EXPECT_EQ(tol.mu, 64 * e * e * e);
   EXPECT_EQ(tol.tau, 64 * e * e);
   EXPECT_EQ(tol.eta, 4 * e);
-  EXPECT_GE(tol.mu, 33492 * epsilon<double>);  // what makes the cubic solver failure-proof
+  EXPECT_GE(tol.mu, 33492 * epsilon<double>());  // what makes the cubic solver failure-proof
 }
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {

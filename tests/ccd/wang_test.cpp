@@ -149,8 +149,8 @@ TEST_P(EveryWang, ReportsCollisionsWhoseDifferencesOverflow) {
       decide(make_query(Kind::vertex_triangle, {{0, 0, big}, a, b, c}, {{0, 0, big / 2}, a, b, c})).hit);
 }
 
-// At both times x0 and x1, or x0 and x2, are farther apart than the largest double, and the relative velocity is
-// infinity less infinity.
+// At both times x0 and x1, or x0 and x2, are farther apart than the largest double, and the relative velocity
+// is infinity less infinity.
 TEST_P(EveryWang, ReportsCollisionsWhosePositionsOverflowAtBothTimes) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3<double> far = std::numeric_limits<double>::max() * Vector3<double>::Unit(axis);

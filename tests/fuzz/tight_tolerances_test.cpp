@@ -59,7 +59,7 @@ void expect_constraints(const Tolerances<Interval>& tol, const Interval& eps, in
 template <class T>
 void expect_constraints_as_computed() {
   const int exponent = epsilon_exponent<T>;
-  ASSERT_EQ(static_cast<double>(epsilon<T>), std::ldexp(1.0, exponent));
+  ASSERT_EQ(static_cast<double>(epsilon<T>()), std::ldexp(1.0, exponent));
   for (const double B : {1.0, 1.3, 1.9, 0.7})
     expect_constraints(enclosed(T(B)), Interval(std::ldexp(1.0, exponent)), exponent);
 }
@@ -81,7 +81,7 @@ TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
 TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   for (int exponent = -10; exponent >= -255; --exponent) {
     const Interval eps(std::ldexp(1.0, exponent));
-    expect_constraints(tolerances_of(solve_tight(exponent), eps), eps, exponent);
+    expect_constraints(tolerances_of(solve_tight(exponent), eps, Interval(1)), eps, exponent);
   }
 }
 
@@ -94,9 +94,9 @@ struct Problem {
 
   /// How much each is violated, in the logarithm.
   void violations(const double* x, double* missing) const {
-    const TightConstants c{
+    const ToleranceConstants c{
         mu, std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]), std::exp(x[4])};
-    const auto tol = tolerances_of(c, eps);
+    const auto tol = tolerances_of(c, eps, 1.0);
     const double e = std::sqrt(std::sqrt(eps));
     for (const auto& each :
          constraints(tol, eps, e * std::exp(x[5]), e * std::exp(x[6]), full_errors(eps, tol.S)))
@@ -106,7 +106,7 @@ struct Problem {
 
 /// The smallest D² that NLopt finds from a point that satisfies the constraints, but is far from ours.
 double lowest_D2(int exponent) {
-  const TightConstants c = solve_tight(exponent);
+  const ToleranceConstants c = solve_tight(exponent);
   Problem problem{std::ldexp(1.0, exponent), c.mu};
   std::vector<double> x{std::log(c.tau),      std::log(c.eta), std::log(2 * c.R), std::log(0.5 * c.lambda2),
                         std::log(2.5 * c.D2), std::log(c.R),   std::log(c.R)};
