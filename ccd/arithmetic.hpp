@@ -45,8 +45,9 @@ inline void make_arithmetic_plain() {
     std::fesetenv(FE_DFL_ENV);
 }
 
-/// Plain arithmetic for a scope, whatever the caller's is; that comes back at its end. At the entry of what is
-/// certified for rounding to nearest. A build with NEARMISS_UNGUARDED does without, to see what becomes of it.
+/// Plain arithmetic for a scope, whatever the caller's is; that comes back at its end. At the entry of what
+/// is certified for rounding to nearest. A build with NEARMISS_UNGUARDED does without, to see what becomes of
+/// it.
 class PlainArithmetic {
  public:
   PlainArithmetic() {

@@ -15,8 +15,9 @@ typedef struct {
   /* x: 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
    * vertex_triangle: vertex x0, triangle x1 x2 x3. edge_edge: edges x0x1 and x2x3.
    * Returns 1 for a collision within [0, 1], 0 for none, less than 0 for an error. *toi is the time of a
-   * collision; it is NaN on entry and may be left so. Called from several threads at once, rounding to nearest,
- * with subnormals and without traps; a plug-in may change that, and it is changed back after each call. */
+   * collision; it is NaN on entry and may be left so. Called from several threads at once, rounding to
+   * nearest, with subnormals and without traps; a plug-in may change that, and it is changed back after each
+   * call. */
   int (*vertex_triangle)(const double* x, double* toi);
   int (*edge_edge)(const double* x, double* toi);
   /* The largest distance that a false positive may have, as claimed; NULL where nothing is claimed. */

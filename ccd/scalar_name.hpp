@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The algorithm and the scalar of a subject's name, without its bound; the scalar is "" where none is named, and
-/// then it is double.
+/// The algorithm and the scalar of a subject's name, without its bound; the scalar is "" where none is named,
+/// and then it is double.
 struct ScaledName {
   std::string_view algorithm, scalar;
 };

@@ -75,9 +75,9 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 // Let s be the sum of all squared components of p, q and r. E <= √2 √s_x with the positions' part s_x (an
 // edge is the difference of two vectors at most), W <= √3 √s_v with the velocities' part (p + r - q at most),
 // and so E + W <= √(5 s) by Cauchy and Schwarz; μ, proportional to B³ and μ1 at B = 1, is at most 5^(3/2) μ1
-// s^(3/2) < 11.2 μ1 s^(3/2): with 16 there is 0.4 μ to spare for every rounding here, and for the order of end
-// points (F of another order differs in sign and rounding only). Squared, for want of a root: (16 μ1)² s³.
-// For s outside its range, where s³ might over- or underflow, nothing is told.
+// s^(3/2) < 11.2 μ1 s^(3/2): with 16 there is 0.4 μ to spare for every rounding here, and for the order of
+// end points (F of another order differs in sign and rounding only). Squared, for want of a root: (16 μ1)²
+// s³. For s outside its range, where s³ might over- or underflow, nothing is told.
 template <Kind kind, class T, class Steps>
 bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
   const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();

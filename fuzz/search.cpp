@@ -17,6 +17,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
+constexpr double smallest = 1e-5;  // edges, paths and speeds that are drawn, beside those of about 1
+
 /// What is searched over: a contact, in the frame in which `base` rests at the origin, and how far apart the
 /// figures are put.
 struct Meeting {
@@ -72,17 +74,17 @@ Meeting draw(Random& random) {
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
-  const auto speed = [&] { return random.one_in(3) ? 0 : some(1e-5, 1); };
+  const auto speed = [&] { return random.one_in(3) ? 0 : some(smallest, 1); };
   Meeting m;
-  m.q = path(random.vector(some(1e-5, 1)), speed());
-  m.r = path(random.vector(some(1e-5, 1)), speed());
+  m.q = path(random.vector(some(smallest, 1)), speed());
+  m.r = path(random.vector(some(smallest, 1)), speed());
   if (random.one_in(3)) {
     const double along = random.uniform(-1.5, 1.5);
     const double across = some(1e-6, 1e-1);
     m.r = {along * m.q.start + random.vector(across), along * m.q.end + random.vector(across)};
   }
   for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
-  m.w = random.vector(some(1e-5, 1));
+  m.w = random.vector(some(smallest, 1));
   if (random.one_in(3))
     m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
           random.vector(some(1e-6, 1e-1));
@@ -224,7 +226,7 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
     return sum;
   };
-  return query_of(kind, placed(Climb(random, true, 1e-5, objective).run([&] { return draw(random); })));
+  return query_of(kind, placed(Climb(random, true, smallest, objective).run([&] { return draw(random); })));
 }
 
 Query search_far(const Subject& subject, Random& random, Kind kind) {
@@ -242,12 +244,13 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
     const double ratio = closest_ratio(query, claimed);
     return ratio >= 1 && distance_exceeds(query, claimed) ? HUGE_VAL : std::min(ratio, 1.0);
   };
-  // The reach of what is drawn is about 3; that of a subject may be much less, and so are gaps and steps then.
+  // The reach of what is drawn is about 3; that of a subject may be much less, and so are gaps and steps
+  // then.
   const auto reach_of = [&](const Meeting& m) {
     const double claimed = subject.distance_bound(query_of(kind, m));
     return std::isfinite(claimed) && claimed > 0 ? claimed : wang->distance_bound(query_of(kind, m));
   };
-  const double finest_step = std::min(1e-5, 1e-3 * reach_of(draw(random)));
+  const double finest_step = std::min(smallest, 1e-3 * reach_of(draw(random)));
   return query_of(kind, Climb(random, false, finest_step, objective).run([&] {
     Meeting m = draw(random);
     m.gap = random.vector(random.log_uniform(1e-4, 2) * reach_of(m));

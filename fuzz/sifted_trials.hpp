@@ -35,8 +35,8 @@ class SiftedTrials {
     return hold_trial(subjects_, batch, comparison_);
   }
 
-  /// What trial(0) to trial(count - 1) give, in this order, findings sifted (sieve.hpp). Those that have not begun
-  /// when `stop` is set are left out.
+  /// What trial(0) to trial(count - 1) give, in this order, findings sifted (sieve.hpp). Those that have not
+  /// begun when `stop` is set are left out.
   TrialResult hold(std::size_t count, const std::function<TrialResult(std::size_t)>& trial);
 
  private:

@@ -48,8 +48,8 @@ struct Comparison {
 /// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, apart from the
 /// oracle. A false positive's distance is measured by the bound that the subject claims, or by that of wang
 /// for the same pair where it claims none; only a claimed bound can be refuted. A query without an answer, or
-/// without the bound that is asked for, is a fault of the subject. A subject that rounds coordinates is judged by
-/// the rounded query, which is also what is kept of it.
+/// without the bound that is asked for, is a fault of the subject. A subject that rounds coordinates is
+/// judged by the rounded query, which is also what is kept of it.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
 
 }  // namespace nearmiss

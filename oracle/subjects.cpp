@@ -4,13 +4,17 @@
 #include <array>
 #include <string>
 
-#include "ccd/error.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+constexpr std::array infos{
+    SubjectInfo{"exact", "the oracle itself: certified filter, exact arithmetic for what it leaves"},
+    SubjectInfo{"exact-scalar", "the same, one query at a time"},
+};
 
 /// The oracle as a subject, but for the swept boxes: a subject is asked where they meet.
 class Exact : public Subject {
@@ -26,8 +30,7 @@ class Exact : public Subject {
 
  protected:
   static Verdict verdict(const Query& query, FilterStage stage) {
-    if (stage == FilterStage::undecided && !is_finite(query))
-      throw Error("exact: found a coordinate that is not finite, expected 24 finite numbers");
+    if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(infos[0].name);
     const bool hit = settle(query, stage);
     const bool filtered = stage != FilterStage::undecided;
     if (!hit) return Verdict::rejected(filtered ? Miss::filter : Miss::exact);
@@ -52,11 +55,6 @@ class ExactBatch final : public Exact {
       for (std::size_t i = 0; i < some.size(); ++i) verdicts[first + i] = verdict(some[i], stages[i]);
     }
   }
-};
-
-constexpr std::array infos{
-    SubjectInfo{"exact", "the oracle itself: certified filter, exact arithmetic for what it leaves"},
-    SubjectInfo{"exact-scalar", "the same, one query at a time"},
 };
 
 }  // namespace

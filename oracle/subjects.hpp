@@ -9,8 +9,9 @@
 
 namespace nearmiss {
 
-/// `exact` and `exact-scalar`: the certified filter and exact arithmetic for what it leaves, many queries side
-/// by side or one at a time. They claim that there is no false positive at all: their distance bound is 0.
+/// `exact` and `exact-scalar`: the certified filter and exact arithmetic for what it leaves, many queries
+/// side by side or one at a time. They claim that there is no false positive at all: their distance bound is
+/// 0.
 std::span<const SubjectInfo> exact_subjects();
 
 /// One of these by its name; nothing for another name.

@@ -19,10 +19,10 @@ enum class RelativeMotion : std::uint8_t {
 /// where a difference overflows.
 RelativeMotion relative_motion(const Query& query);
 
-/// Whether the figures of a query at relative rest or translation meet, by exact static predicates: of rest the
-/// figures at t = 0 themselves; of translation the segment along which x0 moves and the triangle, or one edge
-/// and the parallelogram that the other one sweeps. Nothing where that cannot be told so: where the relative
-/// path's end is no double, or figures have no length or area.
+/// Whether the figures of a query at relative rest or translation meet, by exact static predicates: of rest
+/// the figures at t = 0 themselves; of translation the segment along which x0 moves and the triangle, or one
+/// edge and the parallelogram that the other one sweeps. Nothing where that cannot be told so: where the
+/// relative path's end is no double, or figures have no length or area.
 std::optional<bool> meets_by_translation(const Query& query);
 
 }  // namespace nearmiss

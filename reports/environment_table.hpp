@@ -17,7 +17,8 @@ struct Environment {
   std::uint64_t queries = 0, collisions = 0, missed = 0, false_positives = 0, refuted_bounds = 0, faults = 0;
   std::optional<std::string> first = {};  ///< what failed first, and the query's provenance
 
-  /// The guarantee is that no collision is missed: "keeps it", "misses", or "gives no answer" to some queries.
+  /// The guarantee is that no collision is missed: "keeps it", "misses", or "gives no answer" to some
+  /// queries.
   [[nodiscard]] std::string_view verdict() const {
     return missed > 0 ? "misses" : faults > 0 ? "gives no answer" : "keeps it";
   }

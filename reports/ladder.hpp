@@ -28,8 +28,8 @@ struct Fit {
   int points = 0;
 };
 
-/// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer than
-/// three.
+/// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer
+/// than three.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
 
 /// "rungs" and "fits"; nothing where fewer than two precisions of an algorithm are there.

@@ -26,8 +26,8 @@ struct ShownFinding {
 /// The findings to show, the first ones of each signature, with files numbered for each subject and sort.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
-/// The command that shows a finding again, run in the report's folder: with the plug-in where the machine that
-/// found it has it, and its limits and bound.
+/// The command that shows a finding again, run in the report's folder: with the plug-in where the machine
+/// that found it has it, and its limits and bound.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 /// The farthest false positive of one subject, kind and family.

@@ -32,8 +32,8 @@ void write_findings(SQLite::Database& db, std::int64_t run, std::span<const Find
 /// Adds pictures of a run.
 void write_pictures(SQLite::Database& db, std::int64_t run, std::span<const ScenePicture> pictures);
 
-/// Everything. Throws Error, with `where`, for a value that no store has; and what SQLite and the JSON library
-/// throw.
+/// Everything. Throws Error, with `where`, for a value that no store has; and what SQLite and the JSON
+/// library throw.
 Campaign read_campaign(SQLite::Database& db, const std::string& where);
 
 }  // namespace nearmiss

@@ -110,7 +110,8 @@ RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   return info;
 }
 
-/// How far a scene is: each step is asked about, and verified where that is wanted, which takes most of the time.
+/// How far a scene is: each step is asked about, and verified where that is wanted, which takes most of the
+/// time.
 class SceneProgress {
  public:
   SceneProgress(const Options& options, std::size_t steps, const Record& record)

@@ -16,13 +16,13 @@ struct SceneSubjects {
   std::optional<double> bound = {};  ///< of the scene, where one is asked for
 };
 
-/// The subjects with each bound, "pair", "scene" or a number: NAME takes each pair's own, NAME@scene the largest of
-/// the scene's pairs, NAME@B the number. Throws Error.
+/// The subjects with each bound, "pair", "scene" or a number: NAME takes each pair's own, NAME@scene the
+/// largest of the scene's pairs, NAME@B the number. Throws Error.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene);
 
-/// Leaves the cheapest subject whose false positives stay within the contact's thickness, a number; prints what
-/// each promises and costs. Throws Error where there is none.
+/// Leaves the cheapest subject whose false positives stay within the contact's thickness, a number; prints
+/// what each promises and costs. Throws Error where there is none.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects);
 

@@ -70,13 +70,12 @@ class IsolatedPlugin final : public Subject {
     return count;
   }
 
-  static void fill(Shared& shared, std::span<const Query> queries) {
+  void fill(Shared& shared, std::span<const Query> queries) const {
     shared.kind = queries.front().kind;
     shared.first = 0;
     shared.count = static_cast<std::uint32_t>(queries.size());
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (!is_finite(queries[i]))
-        throw Error("found a coordinate that is not finite, expected 24 finite numbers");
+      if (!is_finite(queries[i])) refuse_coordinates(name_);
       shared.queries[i] = queries[i].x;
     }
   }

@@ -75,8 +75,7 @@ class DefectiveSubject final : public Subject {
 
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override {
-    if (!is_finite(query))
-      throw Error(name_ + ": found a coordinate that is not finite, expected 24 finite numbers");
+    if (!is_finite(query)) refuse_coordinates(name_);
     return decide(query, steps_);
   }
 

@@ -155,7 +155,8 @@ class CandidateFinder::Boxes {
     else
       std::copy_if(others_.begin(), others_.end(), std::back_inserter(near), is_near);
 
-    // So few boxes are scanned where CGAL's default, 10, sorts them on: twice as fast on meshes of 64,000 triangles.
+    // So few boxes are scanned where CGAL's default, 10, sorts them on: twice as fast on meshes of 64,000
+    // triangles.
     constexpr std::ptrdiff_t scanned = 200;
     Passer passer(mesh_, kind_, sink, stop);
     const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };

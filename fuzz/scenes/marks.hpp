@@ -25,8 +25,8 @@ class Marks {
   /// How many figures are marked.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
-  /// Of a step; `subjects` are the names. Triangles have the marks of their edges too. Of figures with a mark,
-  /// and of those without, as many are shown as a page can bear.
+  /// Of a step; `subjects` are the names. Triangles have the marks of their edges too. Of figures with a
+  /// mark, and of those without, as many are shown as a page can bear.
   [[nodiscard]] ScenePicture picture(const std::string& step, const MovingMesh& mesh,
                                      const std::vector<std::string>& subjects) const;
 

@@ -21,8 +21,8 @@ enum class LeaveOut : std::uint8_t {
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// Where swept boxes meet, what becomes of a pair if all is left out that can be, and whether it collides if it
-/// is not asked.
+/// Where swept boxes meet, what becomes of a pair if all is left out that can be, and whether it collides if
+/// it is not asked.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Some pairs of one kind.
@@ -38,8 +38,8 @@ using AskSink = std::function<void(const Pairs&)>;
 /// Takes a pair that is left out after its boxes met, and whether it collides.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
-/// Goes through the pairs of a step, in parts that can be gone through each by itself, in any order and by any
-/// thread. What the parts are does not depend on threads.
+/// Goes through the pairs of a step, in parts that can be gone through each by itself, in any order and by
+/// any thread. What the parts are does not depend on threads.
 class Plan {
  public:
   /// The mesh must outlive this.
@@ -48,13 +48,13 @@ class Plan {
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
-  /// Passes on the pairs of a part: those that remain to `ask`, some hundred at a time, those that are decided
-  /// without a subject to `decided` where it is given. Nothing is kept. Pairs whose boxes do not meet are in no
-  /// part. `stop` is asked now and then, and ends it.
+  /// Passes on the pairs of a part: those that remain to `ask`, some hundred at a time, those that are
+  /// decided without a subject to `decided` where it is given. Nothing is kept. Pairs whose boxes do not meet
+  /// are in no part. `stop` is asked now and then, and ends it.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided, const Stop& stop) const;
 
-  /// What is in no part, told from the sum of all parts: pairs whose boxes do not meet, and the time that it took to
-  /// make the parts.
+  /// What is in no part, told from the sum of all parts: pairs whose boxes do not meet, and the time that it
+  /// took to make the parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:

@@ -14,8 +14,8 @@
 
 namespace nearmiss {
 
-/// Holds trials over the steps of a scene and passes the results on as they come. Only what a few parts of a step
-/// found is held at any time.
+/// Holds trials over the steps of a scene and passes the results on as they come. Only what a few parts of a
+/// step found is held at any time.
 class SceneTrial {
  public:
   /// Takes the result of some parts of a step, in order.
@@ -24,12 +24,13 @@ class SceneTrial {
   SceneTrial(const Scene& scene, SiftedTrials& trials, Sink sink)
       : scene_(scene), trials_(trials), sink_(std::move(sink)) {}
 
-  /// Asks about all pairs that the plan of a step, whose mesh this is, leaves. `progress` takes the part that is
-  /// done.
+  /// Asks about all pairs that the plan of a step, whose mesh this is, leaves. `progress` takes the part that
+  /// is done.
   void hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
             const std::function<void(double)>& progress);
 
-  /// Of the step so far with the most figures that collide, or are reported falsely; nothing where there is none.
+  /// Of the step so far with the most figures that collide, or are reported falsely; nothing where there is
+  /// none.
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 
  private:

@@ -23,9 +23,9 @@ struct Verification {
   void merge(const Verification& other);
 };
 
-/// Asks subjects and the oracle about every pair of a step that the plan leaves out: of boxes that do not meet it must say
-/// that there is no collision, of rest and translation the same as the plan. Finds the candidates in two ways.
-/// `progress` takes the part that is done and says whether to go on.
+/// Asks subjects and the oracle about every pair of a step that the plan leaves out: of boxes that do not
+/// meet it must say that there is no collision, of rest and translation the same as the plan. Finds the
+/// candidates in two ways. `progress` takes the part that is done and says whether to go on.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 
