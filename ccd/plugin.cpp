@@ -40,7 +40,7 @@ Verdict Plugin::decide(const Query& query) const {
 }
 
 double Plugin::distance_bound(const Query& query) const {
-  if (subject_->distance_bound == nullptr) return std::numeric_limits<double>::infinity();
+  if (!claims_bound()) return std::numeric_limits<double>::infinity();
   const double bound = subject_->distance_bound(query.x.data(), query.kind == Kind::edge_edge ? 1 : 0);
   make_arithmetic_plain();
   return bound >= 0 ? bound : std::numeric_limits<double>::quiet_NaN();

@@ -26,6 +26,7 @@ class Plugin final : public Subject {
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override;
   [[nodiscard]] double distance_bound(const Query& query) const override;
+  [[nodiscard]] bool claims_bound() const override { return subject_->distance_bound != nullptr; }
 
   /// What the plug-in returns, and the time that it gives; `time` stays as it is where it gives none.
   int ask(const Query& query, double& time) const;

@@ -112,8 +112,12 @@ class Subject {
   [[nodiscard]] virtual bool is_remote() const { return false; }
 
   /// The largest distance that a false positive of this subject may have, as the subject claims it
-  /// (same unit of length as the query); infinity where it claims nothing, NaN where it fails to say.
+  /// (same unit of length as the query); infinity where it claims nothing or more than the largest double, NaN
+  /// where it fails to say.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
+
+  /// Whether it claims a bound; of any query or of none.
+  [[nodiscard]] virtual bool claims_bound() const { return true; }
 
   /// Whether it looks at fewer digits than a double has.
   [[nodiscard]] virtual bool rounds() const { return false; }

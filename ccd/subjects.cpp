@@ -23,7 +23,7 @@ double own_bound(const Query& query) {
 }
 
 /// A policy is `template <Kind> static Verdict decide(query, given)`, and the same of `distance_bound` and
-/// `needed_tolerance`, each a static function that gives a double.
+/// `needed_tolerance`, each a static function that gives a double; and a constant `claims_bound`.
 template <class Policy>
 class BuiltIn final : public Subject {
  public:
@@ -51,6 +51,8 @@ class BuiltIn final : public Subject {
     return Policy::needed_tolerance(query, given_);
   }
 
+  [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
+
  private:
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse_coordinates(name_);
@@ -64,6 +66,8 @@ class BuiltIn final : public Subject {
 
 template <bool plane_culling>
 struct Basic {
+  static constexpr bool claims_bound = false;
+
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
     return basic<kind, double, plane_culling>(query);
@@ -78,6 +82,8 @@ struct Basic {
 
 template <WangOptions options, class Steps = AllSteps>
 struct Wang {
+  static constexpr bool claims_bound = true;
+
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& given) {
     return wang<kind, double, options, Steps>(query, given);

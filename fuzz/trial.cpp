@@ -200,10 +200,13 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
       if (outcome.verdict.hit && !outcome.collision) {
         const double claimed = subjects[s]->distance_bound(query);
         if (std::isnan(claimed)) outcome.verdict.fault = Fault::error;
-        const bool claims = std::isfinite(claimed);
-        const auto distance = judge.distance(claims ? claimed : wang->distance_bound(query));
-        outcome.ratio = distance.ratio;
-        outcome.bound_refuted = claims && distance.exceeds;
+        const bool claims = subjects[s]->claims_bound();
+        const double unit = claims ? claimed : wang->distance_bound(query);
+        if (std::isfinite(unit)) {  // else beyond the largest double, and nothing can be farther
+          const auto distance = judge.distance(unit);
+          outcome.ratio = distance.ratio;
+          outcome.bound_refuted = claims && distance.exceeds;
+        }
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
       if (batch.observe) batch.observe(i, s, outcome);

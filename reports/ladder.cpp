@@ -38,13 +38,18 @@ bool is_ladder(const std::vector<Rung>& all) {
 
 }  // namespace
 
-std::vector<Rung> rungs(const Statistics& statistics) {
+std::string_view origin(std::string_view family) {
+  return family.starts_with("search-") ? "directed search" : family;
+}
+
+std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
   std::map<std::string, Rung> by_subject;
   for (const auto& [key, counts] : statistics.counts) {
     const auto [algorithm, scalar] = split_scalar(key.subject);
     const auto exponent = epsilon_exponent_of(scalar);
     if (!exponent || std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) continue;
     if (key.subject.find('@') != std::string::npos) continue;  // B is not the pair's own
+    if (!only.empty() && origin(key.family) != only) continue;
     Rung& rung = by_subject[key.subject];
     rung.subject = key.subject;
     rung.algorithm = algorithm;
@@ -86,7 +91,20 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
   const double slope = xy / xx;
   double residual = 0;
   for (const auto& [x, y] : points) residual += std::pow(y - y_mean - slope * (x - x_mean), 2);
-  return Fit{slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(points.size())};
+  return Fit{algorithm, "", slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(points.size())};
+}
+
+std::vector<Fit> fits(const Statistics& statistics) {
+  std::set<std::string> origins{""};
+  for (const auto& [key, counts] : statistics.counts) origins.emplace(origin(key.family));
+  std::vector<Fit> all;
+  for (const std::string algorithm : algorithms)
+    for (const std::string& each : origins)
+      if (auto line = fit(rungs(statistics, each), algorithm)) {
+        line->origin = each;
+        all.push_back(*line);
+      }
+  return all;
 }
 
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) {
@@ -104,12 +122,12 @@ std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) 
     json["rungs"].back().update(rates_json(rung.counts));
   }
   json["fits"] = nlohmann::ordered_json::array();
-  for (const std::string algorithm : algorithms)
-    if (const auto line = fit(all, algorithm))
-      json["fits"].push_back({{"algorithm", algorithm},
-                              {"exponent", line->exponent},
-                              {"standard_error", line->standard_error},
-                              {"points", line->points}});
+  for (const Fit& line : fits(statistics))
+    json["fits"].push_back({{"algorithm", line.algorithm},
+                            {"origin", line.origin},
+                            {"exponent", line.exponent},
+                            {"standard_error", line.standard_error},
+                            {"points", line.points}});
   return json;
 }
 
@@ -124,11 +142,11 @@ std::string ladder_table(const Statistics& statistics) {
                     with_separators(rung.counts.false_positives), fmt::format("{:.3g}", rung.farthest),
                     fmt::format("{:.3g}", rung.claimed), fmt::format("{:.0f}", rung.counts.ns_per_query())});
   std::string text = "\n" + columns(rows, 1);
-  for (const std::string algorithm : algorithms)
-    if (const auto line = fit(all, algorithm))
-      text +=
-          fmt::format("{}: the farthest distance goes as epsilon^({:.4f} +- {:.4f}), from {} precisions\n",
-                      algorithm, line->exponent, line->standard_error, line->points);
+  for (const Fit& line : fits(statistics))
+    text +=
+        fmt::format("{}{}{}: the farthest distance goes as epsilon^({:.4f} +- {:.4f}), from {} precisions\n",
+                    line.algorithm, line.origin.empty() ? "" : ", ", line.origin, line.exponent,
+                    line.standard_error, line.points);
   return text;
 }
 

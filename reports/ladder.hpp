@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/statistics.hpp"
@@ -19,11 +20,18 @@ struct Rung {
   Counts counts;        ///< over all families and kinds
 };
 
-/// wang and wang-tight over the scalars that statistics have, by ascending precision.
-std::vector<Rung> rungs(const Statistics& statistics);
+/// Where queries come from: their family, or "directed search" for those that a search for any subject has
+/// found.
+std::string_view origin(std::string_view family);
 
-/// The power of ε by which the farthest distance falls, fitted by least squares to its logarithm.
+/// wang and wang-tight over the scalars that statistics have, by ascending precision; of one origin, or of
+/// all where it is "".
+std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = "");
+
+/// The power of ε by which the farthest distance of an algorithm falls, fitted by least squares to its
+/// logarithm, for one origin or for all.
 struct Fit {
+  std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
   int points = 0;
 };
@@ -31,6 +39,9 @@ struct Fit {
 /// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer
 /// than three.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
+
+/// For each algorithm that over all, and those over each origin.
+std::vector<Fit> fits(const Statistics& statistics);
 
 /// "rungs" and "fits"; nothing where fewer than two precisions of an algorithm are there.
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics);

@@ -23,6 +23,7 @@ class IsolatedPlugin final : public Subject {
   IsolatedPlugin(std::string path, const Limits& limits) : path_(std::move(path)), limits_(limits) {
     idle_.push_back(std::make_unique<WorkerProcess>(path_, limits_));
     name_ = idle_.back()->shared().name.data();
+    claims_bound_ = idle_.back()->shared().claims_bound;
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -51,6 +52,7 @@ class IsolatedPlugin final : public Subject {
   }
 
   [[nodiscard]] bool is_remote() const override { return true; }
+  [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     std::unique_ptr<WorkerProcess> worker = take();
@@ -123,6 +125,7 @@ class IsolatedPlugin final : public Subject {
   std::string path_;
   Limits limits_;
   std::string name_;
+  bool claims_bound_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

@@ -152,6 +152,7 @@ int work(const char* path, const char* bytes) {
   try {
     plugin = std::make_unique<Plugin>(path);
     copy(plugin->name(), shared->name);
+    shared->claims_bound = plugin->claims_bound();
   } catch (const Error& error) {
     copy(error.what(), shared->error);
   }

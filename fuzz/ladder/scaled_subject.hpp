@@ -61,7 +61,7 @@ class Scaled final : public Subject {
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
-    if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::infinity();
+    if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Setting<T> setting(epsilon_exponent_);
     // Rounded up, and with the slack of B in a scalar of few digits: B <= B* (1 + 40ε).
     const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
@@ -69,6 +69,8 @@ class Scaled final : public Subject {
     const double B = given_.value_or(pair_bound(rounded(query)));
     return std::nextafter(bound * slack * B, std::numeric_limits<double>::infinity());
   }
+
+  [[nodiscard]] bool claims_bound() const override { return algorithm_ != Algorithm::basic; }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();

@@ -30,6 +30,14 @@ std::vector<Query> some_queries(std::uint64_t count) {
   return queries;
 }
 
+TEST(Isolation, TellsWhetherABoundIsClaimed) {
+  for (const char* name : {"example", "always", "hostile"}) {
+    const auto direct = make_subject(plugin(name));
+    EXPECT_EQ(make_isolated_plugin(plugin(name))->claims_bound(), direct->claims_bound()) << name;
+    EXPECT_EQ(direct->claims_bound(), std::isfinite(direct->distance_bound(some_queries(1)[0]))) << name;
+  }
+}
+
 TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   const auto isolated = make_isolated_plugin(plugin("example"));
   const auto direct = make_subject(plugin("example"));

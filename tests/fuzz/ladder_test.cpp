@@ -195,7 +195,10 @@ TEST_P(EveryScalar, MissesNothingAndReportsNothingBeyondItsBound) {
   TrialResult sum;
   for (const Batch& batch : batches(7, 30)) sum.merge(hold_trial(subjects, batch));
   std::uint64_t collisions = 0;
-  for (const auto& [key, counts] : sum.statistics.counts) collisions += counts.collisions;
+  for (const auto& [key, counts] : sum.statistics.counts) {
+    collisions += counts.collisions;
+    EXPECT_LE(counts.max_ratio(), 1) << key.family;
+  }
   EXPECT_GT(collisions, 500);
   EXPECT_EQ(sum.statistics.false_negatives(), 0);
   EXPECT_EQ(sum.statistics.refuted_bounds(), 0);

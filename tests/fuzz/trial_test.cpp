@@ -27,6 +27,7 @@ class Told final : public Subject {
   }
   using Subject::decide;
   [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
+  [[nodiscard]] bool claims_bound() const override { return std::isfinite(bound_); }
 
  private:
   std::string name_;

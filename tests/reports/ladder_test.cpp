@@ -59,13 +59,33 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {"wang:p200", 1}})), "wang").has_value());
 }
 
+TEST(Ladder, EachOriginHasAFitOfItsOwn) {
+  Statistics statistics = farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}});
+  const auto families = statistics.counts;
+  for (const auto& [key, counts] : families)
+    for (const char* search : {"search-far-wang:p24", "search-miss-wang:p40"}) {
+      auto own = key;
+      own.family = search;
+      statistics.counts[own] = counts;
+    }
+  const auto all = fits(statistics);
+  ASSERT_EQ(all.size(), 3);
+  EXPECT_EQ(all[0].origin, "");
+  EXPECT_EQ(all[1].origin, "directed search");
+  EXPECT_EQ(all[2].origin, families.begin()->first.family);
+  for (const Fit& each : all) {
+    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² has a term in ε beside that in ε^½
+    EXPECT_EQ(each.points, 3);
+  }
+}
+
 TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
   EXPECT_FALSE(ladder_json(farthest_at({{"wang", 1}, {"wang-tight", 1}, {"basic:float", 1}})).has_value());
   EXPECT_EQ(ladder_table(farthest_at({{"wang", 1}})), "");
   const auto json = ladder_json(farthest_at({{"wang:p24", 1}, {"wang", 0.5}, {"wang:p64", 1}}));
   ASSERT_TRUE(json.has_value());
   EXPECT_EQ((*json)["rungs"].size(), 3);
-  EXPECT_EQ((*json)["fits"].size(), 1);
+  EXPECT_EQ((*json)["fits"].size(), 2);  // over all, and of its only family
   EXPECT_NE(ladder_table(farthest_at({{"wang:p24", 1}, {"wang", 1}, {"wang:p64", 1}})).find("epsilon^(0.25"),
             std::string::npos);
 }
