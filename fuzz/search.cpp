@@ -17,7 +17,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr double smallest = 1e-5;  // edges, paths and speeds that are drawn, beside those of about 1
+constexpr double usually_smallest = 1e-5;  // of what is drawn, beside what is about 1
 
 /// What is searched over: a contact, in the frame in which `base` rests at the origin, and how far apart the
 /// figures are put.
@@ -67,9 +67,9 @@ Query query_of(Kind kind, const Meeting& m) {
   return query;
 }
 
-/// Figures of all sizes, thin ones, motion of all speeds and in their plane, or all of it near one plane,
-/// contact on borders and ends.
-Meeting draw(Random& random) {
+/// Figures of sizes from the smallest to 1, thin ones, motion of such speeds and in their plane, or all of it
+/// near one plane, contact on borders and ends.
+Meeting draw(Random& random, double smallest) {
   const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
@@ -80,16 +80,16 @@ Meeting draw(Random& random) {
   m.r = path(random.vector(some(smallest, 1)), speed());
   if (random.one_in(3)) {
     const double along = random.uniform(-1.5, 1.5);
-    const double across = some(1e-6, 1e-1);
+    const double across = some(0.1 * smallest, 1e-1);
     m.r = {along * m.q.start + random.vector(across), along * m.q.end + random.vector(across)};
   }
   for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
   m.w = random.vector(some(smallest, 1));
   if (random.one_in(3))
     m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
-          random.vector(some(1e-6, 1e-1));
+          random.vector(some(0.1 * smallest, 1e-1));
   if (random.one_in(4)) {
-    const double out_of_plane = random.log_uniform(1e-14, 1e-2);
+    const double out_of_plane = random.log_uniform(1e-4 * smallest * smallest, 1e-2);
     for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
   }
   m.gap.setZero();
@@ -207,6 +207,18 @@ class Climb {
   std::exception_ptr error_;  ///< of the objective
 };
 
+/// How far a subject's false positives may be: what it claims, or what wang does.
+double reach(const Subject& subject, const Query& query) {
+  const double claimed = subject.distance_bound(query);
+  return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
+}
+
+/// What counts for a subject may be much smaller than usual, where its reach is.
+double smallest_for(const Subject& subject, Random random, Kind kind) {
+  const Meeting typical = draw(random, usually_smallest);
+  return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
+}
+
 Query search_miss(const Subject& subject, Random& random, Kind kind) {
   std::array<double, 6> mixture{};
   for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
@@ -226,11 +238,12 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
     return sum;
   };
-  return query_of(kind, placed(Climb(random, true, smallest, objective).run([&] { return draw(random); })));
+  const double smallest = exactly ? usually_smallest : smallest_for(subject, random, kind);
+  return query_of(
+      kind, placed(Climb(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
 }
 
 Query search_far(const Subject& subject, Random& random, Kind kind) {
-  const auto wang = make_subject("wang");
   const auto objective = [&](const Meeting& m) {
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
@@ -239,21 +252,15 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
       return std::isnan(needed) ? -1 : -std::log2(needed);
     }
     if (collides(query)) return 0.0;
-    const double claimed = subject.distance_bound(query);
-    if (!std::isfinite(claimed)) return closest_ratio(query, wang->distance_bound(query));
-    const double ratio = closest_ratio(query, claimed);
-    return ratio >= 1 && distance_exceeds(query, claimed) ? HUGE_VAL : std::min(ratio, 1.0);
+    const double bound = subject.claims_bound() ? subject.distance_bound(query) : reach(subject, query);
+    const double ratio = closest_ratio(query, bound);
+    if (!subject.claims_bound()) return ratio;
+    return ratio >= 1 && distance_exceeds(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
   };
-  // The reach of what is drawn is about 3; that of a subject may be much less, and so are gaps and steps
-  // then.
-  const auto reach_of = [&](const Meeting& m) {
-    const double claimed = subject.distance_bound(query_of(kind, m));
-    return std::isfinite(claimed) && claimed > 0 ? claimed : wang->distance_bound(query_of(kind, m));
-  };
-  const double finest_step = std::min(smallest, 1e-3 * reach_of(draw(random)));
-  return query_of(kind, Climb(random, false, finest_step, objective).run([&] {
-    Meeting m = draw(random);
-    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach_of(m));
+  const double smallest = smallest_for(subject, random, kind);
+  return query_of(kind, Climb(random, false, smallest, objective).run([&] {
+    Meeting m = draw(random, smallest);
+    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(subject, query_of(kind, m)));
     return m;
   }));
 }
