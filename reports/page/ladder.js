@@ -41,17 +41,16 @@ function drawLadder() {
 function drawAudit() {
   if (!report.audit) return;
   show("audit-section");
-  const value = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
   fillTable(element("audit"), [
     text("constant", "name"), text("section", "section"), text("unit", "unit"),
-    { ...value("quoted", "quoted"), bad: (r) => r.too_small }, value("derived", "derived"), value("largest seen", "seen"),
-    value("slack", "slack"), { title: "", text: (r) => (r.too_small ? `too small${r.note ? `: ${r.note}` : ""}` : r.note), bad: (r) => r.too_small },
+    { ...figure("quoted", "quoted"), bad: (r) => r.too_small }, figure("derived", "derived"), figure("largest seen", "seen"),
+    figure("slack", "slack"), { title: "", text: (r) => (r.too_small ? `too small${r.note ? `: ${r.note}` : ""}` : r.note), bad: (r) => r.too_small },
   ], report.audit.constants);
   fillTable(element("tolerances"), [
     text("scalar", "scalars"), { title: "ε", number: (r) => r.epsilon, text: (r) => `2^${r.epsilon_exponent}` },
-    value("the paper's bound, B ε^¼", "paper_bound"),
+    figure("the paper's bound, B ε^¼", "paper_bound"),
     { title: "failure-proof", text: (r) => (r.paper_breaks ? `no: ${r.paper_breaks}` : "yes"), bad: (r) => r.paper_breaks !== "" },
-    value("smallest bound, B ε^¼", "tight_bound"), value("in B", "tight_bound_over_B"), value("μ / B³ε", "mu"), value("τ / B²ε^½", "tau"),
-    value("η / Bε^¼", "eta"), value("R / Bε^¼", "R"), value("λ² / B²ε^½", "lambda2"), value("D² / B²ε^½", "D2"),
+    figure("smallest bound, B ε^¼", "tight_bound"), figure("in B", "tight_bound_over_B"), figure("μ / B³ε", "mu"), figure("τ / B²ε^½", "tau"),
+    figure("η / Bε^¼", "eta"), figure("R / Bε^¼", "R"), figure("λ² / B²ε^½", "lambda2"), figure("D² / B²ε^½", "D2"),
   ], report.audit.tolerances);
 }

@@ -108,18 +108,8 @@ function drawMesh(picture) {
     Object.assign(view, next);
     draw();
   }
-  const turn = (yaw, pitch) => change({ yaw: view.yaw + yaw, pitch: Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.pitch + pitch)) });
-  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
-  canvas.addEventListener("pointermove", (event) => {
-    if (event.buttons) turn(event.movementX / 120, event.movementY / 120);
-  });
-  const keys = { ArrowLeft: () => turn(-0.2, 0), ArrowRight: () => turn(0.2, 0), ArrowUp: () => turn(0, -0.2), ArrowDown: () => turn(0, 0.2),
-    "+": () => change({ zoom: view.zoom * 1.3 }), "-": () => change({ zoom: view.zoom / 1.3 }) };
-  canvas.addEventListener("keydown", (event) => {
-    if (!keys[event.key]) return;
-    event.preventDefault();
-    keys[event.key]();
-  });
+  const keys = { "+": () => change({ zoom: view.zoom * 1.3 }), "-": () => change({ zoom: view.zoom / 1.3 }) };
+  makeTurnable(canvas, view, 120, draw, keys);
   const button = (label, key) => {
     const node = made("button", key, { type: "button", "aria-label": label });
     node.addEventListener("click", keys[key]);

@@ -60,21 +60,7 @@ function drawPicture(kind, x, time) {
       });
   }
 
-  function turned(yaw, pitch) {
-    turn.yaw += yaw;
-    turn.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, turn.pitch + pitch));
-    draw();
-  }
-  svg.addEventListener("pointerdown", (event) => svg.setPointerCapture(event.pointerId));
-  svg.addEventListener("pointermove", (event) => {
-    if (event.buttons) turned(event.movementX / 80, event.movementY / 80);
-  });
-  svg.addEventListener("keydown", (event) => {
-    const step = { ArrowLeft: [-0.2, 0], ArrowRight: [0.2, 0], ArrowUp: [0, -0.2], ArrowDown: [0, 0.2] }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    turned(...step);
-  });
+  makeTurnable(svg, turn, 80, draw);
   draw();
   return svg;
 }

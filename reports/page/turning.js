@@ -1,0 +1,28 @@
+// How a figure is turned by mouse and keys.
+"use strict";
+
+/**
+ * @param node what is drawn on
+ * @param view its yaw and pitch are changed
+ * @param slowness pixels that the mouse moves for a radian
+ * @param draw draws it anew
+ * @param others {key: what else it does}
+ */
+function makeTurnable(node, view, slowness, draw, others = {}) {
+  function turn(yaw, pitch) {
+    view.yaw += yaw;
+    view.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.pitch + pitch));
+    draw();
+  }
+  node.addEventListener("pointerdown", (event) => node.setPointerCapture(event.pointerId));
+  node.addEventListener("pointermove", (event) => {
+    if (event.buttons) turn(event.movementX / slowness, event.movementY / slowness);
+  });
+  const keys = { ArrowLeft: () => turn(-0.2, 0), ArrowRight: () => turn(0.2, 0), ArrowUp: () => turn(0, -0.2), ArrowDown: () => turn(0, 0.2),
+    ...others };
+  node.addEventListener("keydown", (event) => {
+    if (!keys[event.key]) return;
+    event.preventDefault();
+    keys[event.key]();
+  });
+}
