@@ -22,6 +22,7 @@ namespace {
 constexpr std::array algorithms{"wang", "wang-tight"};
 constexpr int finest = -127;
 constexpr int coarsest = -23;
+constexpr int double_exponent = -52;
 
 /// The distance bound in units of B for ε = 2^exponent.
 double claimed_distance(const std::string& algorithm, int exponent) {
@@ -37,6 +38,23 @@ bool is_ladder(const std::vector<Rung>& all) {
 }
 
 }  // namespace
+
+LadderPlace place_of(const std::string& subject) {
+  const auto [algorithm, scalar] = split_scalar(subject);
+  const auto exponent = epsilon_exponent_of(scalar);
+  const std::string given_bound = subject.substr(std::min(subject.rfind('@'), subject.size()));
+  if (!exponent) return {subject, "double", double_exponent, std::nullopt};
+  LadderPlace place{std::string(algorithm) + given_bound, scalar.empty() ? "double" : std::string(scalar),
+                    *exponent, std::nullopt};
+  if (!given_bound.empty()) return place;
+  if (algorithm == "basic" || algorithm == "basic-plain")  // these claim nothing: wang's is their measure
+    place.unit = claimed_distance("wang", double_exponent);
+  else if (algorithm == "wang-tight")
+    place.unit = claimed_distance("wang-tight", *exponent);
+  else if (algorithm == "wang" || algorithm == "wang-eps" || algorithm == "wang-plain")
+    place.unit = claimed_distance("wang", *exponent);
+  return place;
+}
 
 std::string_view origin(std::string_view family) {
   return family.starts_with("search-") ? "directed search" : family;

@@ -20,6 +20,16 @@ struct Rung {
   Counts counts;        ///< over all families and kinds
 };
 
+/// A subject's place on a ladder. One that is on none is an algorithm of its own.
+struct LadderPlace {
+  std::string algorithm, scalar;  ///< the algorithm with its bound, if one is given: "wang@0.5"
+  int epsilon_exponent = 0;
+  /// What the distances of its false positives are fractions of, in units of B; nothing where not known.
+  std::optional<double> unit;
+};
+
+LadderPlace place_of(const std::string& subject);
+
 /// Where queries come from: their family, or "directed search" for those that a search for any subject has
 /// found.
 std::string_view origin(std::string_view family);

@@ -22,6 +22,7 @@ NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_turning, NEARMISS_PAGE "/turning.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
 NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
+NEARMISS_ASSET(nearmiss_page_error_time, NEARMISS_PAGE "/error_time.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
 NEARMISS_ASSET(nearmiss_page_ladder, NEARMISS_PAGE "/ladder.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
@@ -77,6 +78,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
                                       between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
+                                      between(nearmiss_page_error_time_begin, nearmiss_page_error_time_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
                                       between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
                                       between(nearmiss_page_js_begin, nearmiss_page_js_end)})

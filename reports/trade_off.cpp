@@ -1,6 +1,7 @@
 #include "reports/trade_off.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -23,27 +24,44 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
     if (counts.timed_queries != 0 && asked[{key.kind, key.family}] == subjects.size())
       sums[key.subject].merge(counts);
   std::vector<TradeOff> all;
-  for (const auto& [subject, counts] : sums) all.push_back({subject, counts});
+  for (const auto& [subject, counts] : sums) all.push_back({subject, counts, place_of(subject)});
   return all;
 }
 
-std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const Counts&)) {
+std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
   std::vector<const TradeOff*> sound;
   for (const TradeOff& each : all)
     if (each.sound()) sound.push_back(&each);
   std::sort(sound.begin(), sound.end(), [&](const TradeOff* a, const TradeOff* b) {
-    return std::pair(a->counts.ns_per_query(), error(a->counts)) <
-           std::pair(b->counts.ns_per_query(), error(b->counts));
+    return std::pair(a->counts.ns_per_query(), error(*a)) < std::pair(b->counts.ns_per_query(), error(*b));
   });
   std::vector<std::string> front;
   double least = std::numeric_limits<double>::infinity();
   for (const TradeOff* each : sound) {
-    if (error(each->counts) >= least) continue;
-    least = error(each->counts);
+    if (error(*each) >= least) continue;
+    least = error(*each);
     front.push_back(each->subject);
   }
   return front;
 }
+
+namespace {
+
+bool has_ladder(const std::vector<TradeOff>& all) {
+  std::map<std::string, std::set<std::string>> scalars;
+  for (const TradeOff& each : all) scalars[each.place.algorithm].insert(each.place.scalar);
+  return std::any_of(scalars.begin(), scalars.end(), [](const auto& each) { return each.second.size() > 2; });
+}
+
+nlohmann::ordered_json ladder_of(std::vector<TradeOff> all) {
+  std::erase_if(all, [](const TradeOff& each) { return !each.farthest(); });
+  nlohmann::ordered_json json;
+  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return *each.farthest(); });
+  json["paper_bound"] = *place_of("wang").unit;
+  return json;
+}
+
+}  // namespace
 
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   const auto all = trade_offs(statistics);
@@ -52,9 +70,16 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   for (const TradeOff& each : all) {
     auto& subject = json["subjects"][each.subject] = rates_json(each.counts);
     subject["sound"] = each.sound();
+    subject["algorithm"] = each.place.algorithm;
+    subject["scalar"] = each.place.scalar;
+    subject["epsilon"] = std::exp2(each.place.epsilon_exponent);
+    const auto farthest = each.farthest();
+    subject["farthest_over_B"] = farthest ? nlohmann::ordered_json(*farthest) : nlohmann::ordered_json();
   }
-  json["front_by_distance"] = pareto_front(all, [](const Counts& c) { return c.max_ratio(); });
-  json["front_by_rate"] = pareto_front(all, [](const Counts& c) { return c.false_positive_rate(); });
+  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.counts.max_ratio(); });
+  json["front_by_rate"] =
+      pareto_front(all, [](const TradeOff& each) { return each.counts.false_positive_rate(); });
+  if (has_ladder(all)) json["ladder"] = ladder_of(all);
   return json;
 }
 

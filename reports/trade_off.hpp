@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reports/ladder.hpp"
 #include "reports/statistics.hpp"
 
 namespace nearmiss {
@@ -13,6 +15,13 @@ namespace nearmiss {
 struct TradeOff {
   std::string subject;
   Counts counts;
+  LadderPlace place;
+
+  /// How far its farthest false positive is in units of B; nothing where that is not known.
+  [[nodiscard]] std::optional<double> farthest() const {
+    if (counts.false_positives == 0) return 0;
+    return place.unit ? std::optional(counts.max_ratio() * *place.unit) : std::nullopt;
+  }
 
   /// Whether it may stand on a front: an answer to every query, no miss, no refuted bound.
   [[nodiscard]] bool sound() const {
@@ -25,10 +34,11 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 
 /// The sound ones of which no sound one is as fast with less error, fastest first (the Pareto front); `error`
 /// gives what is to be small.
-std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const Counts&));
+std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
-/// "subjects" with ns_per_query, rates and distances of each, "front_by_distance" (the largest one) and
-/// "front_by_rate" (of false positives).
+/// "subjects" with ns_per_query, rates and distances of each, "front_by_distance" (the largest one),
+/// "front_by_rate" (of false positives). Where an algorithm is there over three scalars or more, "ladder": the
+/// "front_by_distance" and the "paper_bound" of double in units of B, as bounds differ.
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -22,6 +22,17 @@ const subjectColor = {
   field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjectNames, range: subjectNames.map((_, i) => palette[i % palette.length]) },
 };
+/** Colours of algorithms, which subjects over many scalars share. */
+const algorithmNames = [...new Set([...Object.values(report.error_against_time.subjects), ...(report.ladder?.rungs ?? [])]
+  .map((row) => row.algorithm))];
+const colorOfAlgorithm = (name) => palette[algorithmNames.indexOf(name) % palette.length];
+const algorithmColor = (names) => ({
+  field: "algorithm", type: "nominal", title: "algorithm",
+  scale: { domain: names, range: names.map(colorOfAlgorithm) },
+});
+/** A colour halfway between two, "#rrggbb" all. */
+const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
+  Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 
 /** A logarithmic axis for values of which some may be 0: these stand at its lower end, which says so. */
@@ -37,52 +48,6 @@ function logAxisWithZero(values) {
   const zero = values.some((v) => v === 0) ? 10 ** (lowest - step) : 10 ** lowest;
   return { zero, scale: { type: "log", domain: [zero, 10 ** highest], nice: false },
     axis: { values: [...decades, zero], labelExpr: `datum.value < ${10 ** (lowest - 0.5)} ? '0' : format(datum.value, '~g')` } };
-}
-
-function drawErrorTime() {
-  const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
-  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
-  const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
-    scale: { type: "log", nice: false, padding: 30 }, axis: { grid: true, tickCount: 6, format: "~s" } };
-  const tooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
-    { field: "false_negatives", title: "missed" }, { field: "collisions", title: "of collisions" },
-    { field: "false_positive_rate", title: "false positives", format: ".3~%" },
-    { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
-    { field: "q99_fp_distance_over_bound", title: "99 %", format: ".3~g" },
-    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
-  const panel = (title, top, marks, front) => {
-    const axis = logAxisWithZero(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
-    const shown = rows.map((row) => {
-      const at = { ...row, top: Math.max(row[top], axis.zero) };
-      marks.forEach((field, i) => (at[`mark${i}`] = Math.max(row[field], axis.zero)));
-      return at;
-    });
-    const y = (field) => ({ field, type: "quantitative", title: null, scale: axis.scale, axis: axis.axis });
-    const own = { x, color: subjectColor, tooltip };
-    return {
-      width: 420, height: 280, title, data: { values: shown },
-      layer: [
-        ...(front.length === 0 ? [] : [{ transform: [{ filter: { field: "subject", oneOf: front } }],
-          mark: { type: "line", interpolate: "step-after", strokeDash: [5, 4], color: color("--soft") }, encoding: { x, y: y("top") } }]),
-        ...(marks.length === 0 ? [] : [
-          { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("mark0"), y2: { field: "top" } } },
-          ...marks.map((_, i) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width: i === 0 ? 8 : 14 },
-            encoding: { ...own, y: y(`mark${i}`) } }))]),
-        { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
-          encoding: { ...own, y: y("top"), shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjectNames } } } },
-        ...(rows.every((row) => row.false_negatives === 0) ? [] : [{ transform: [{ filter: "datum.false_negatives > 0" }],
-          mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper") },
-          encoding: { x, y: y("top"), tooltip } }]),
-      ],
-    };
-  };
-  return draw("error-time", "For each subject the run time of a query, and how far and how many its false positives are.", {
-    hconcat: [
-      panel("distance / bound of false positives", "max_fp_distance_over_bound",
-        ["median_fp_distance_over_bound", "q99_fp_distance_over_bound"], front_by_distance),
-      panel("false positives, of all that is no collision", "false_positive_rate", [], front_by_rate),
-    ],
-  });
 }
 
 /** Rates of random families, but of no sweep; cases and scenes are no samples. */

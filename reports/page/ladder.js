@@ -13,27 +13,17 @@ function drawLadder() {
     count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),
     figure("farthest / B", "farthest"), figure("claimed / B", "claimed"), count("beyond", "refuted_bounds", true), figure("ns / query", "ns_per_query"),
   ], rungs, true);
-  const algorithms = [...new Set(rungs.map((r) => r.algorithm))];
-  const hue = { field: "algorithm", type: "nominal", title: "tolerances", scale: { domain: algorithms, range: palette } };
+  const hue = algorithmColor([...new Set(rungs.map((r) => r.algorithm))]);
   const x = { field: "epsilon", type: "quantitative", title: "machine epsilon ε", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } };
   const tooltip = [{ field: "subject" }, { field: "epsilon", format: ".3e" }, { field: "farthest", title: "farthest / B", format: ".4~g" },
     { field: "claimed", title: "claimed / B", format: ".4~g" }, { field: "false_positives", title: "false positives" },
     { field: "false_negatives", title: "missed" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
   const distance = (field) => ({ field, type: "quantitative", title: "distance / B", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } });
-  const reached = rungs.filter((r) => r.farthest > 0);
-  return draw("ladder-chart", "For each machine epsilon the farthest false positive and the distance bound; beside it the run time.", {
-    hconcat: [
-      { width: 440, height: 320, title: "how far false positives are: lines the bound, points the farthest found", layer: [
-        { data: { values: rungs }, mark: { type: "line", strokeWidth: 1.5, strokeDash: [5, 4] }, encoding: { x, y: distance("claimed"), color: hue } },
-        { data: { values: reached }, mark: { type: "point", filled: true, size: 50 }, encoding: { x, y: distance("farthest"), color: hue, tooltip } },
-      ] },
-      { width: 380, height: 320, title: "against run time", data: { values: reached }, layer: [
-        { mark: { type: "point", filled: true, size: 50 }, encoding: {
-          x: { field: "ns_per_query", type: "quantitative", title: "ns a query", scale: { type: "log", nice: false, padding: 20 }, axis: { format: "~s" } },
-          y: distance("farthest"), color: hue, tooltip } },
-        { mark: { type: "text", align: "left", dx: 6, fontSize: 9, color: color("--soft") }, transform: [{ filter: "!test(/^p/, datum.scalar)" }],
-          encoding: { x: { field: "ns_per_query", type: "quantitative" }, y: distance("farthest"), text: { field: "scalar" } } },
-      ] },
+  return draw("ladder-chart", "For each machine epsilon the farthest false positive and the distance bound.", {
+    width: 640, height: 320, title: "how far false positives are: lines the bound, points the farthest found", layer: [
+      { data: { values: rungs }, mark: { type: "line", strokeWidth: 1.5, strokeDash: [5, 4] }, encoding: { x, y: distance("claimed"), color: hue } },
+      { data: { values: rungs.filter((r) => r.farthest > 0) }, mark: { type: "point", filled: true, size: 50 },
+        encoding: { x, y: distance("farthest"), color: hue, tooltip } },
     ],
   });
 }

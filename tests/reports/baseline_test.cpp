@@ -140,7 +140,8 @@ TEST(TradeOff, OnTheFrontIsWhatNoSoundOneBeats) {
                        {at("fast"), counts(100, 50, 0, 40, 100)},
                        {at("beaten"), counts(100, 50, 0, 41, 200)},
                        {at("wrong"), counts(100, 50, 1, 0, 50)}};
-  const auto front = pareto_front(trade_offs(statistics), [](const Counts& c) { return c.max_ratio(); });
+  const auto front =
+      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.counts.max_ratio(); });
   EXPECT_THAT(front, ElementsAre("fast", "exact"));
 }
 
@@ -152,6 +153,34 @@ TEST(TradeOff, OnlyFamiliesOfAllCount) {
   const auto all = trade_offs(statistics);
   ASSERT_THAT(all, SizeIs(2));
   EXPECT_EQ(all[1].counts.ns_per_query(), 200);
+}
+
+TEST(TradeOff, OfALadderDistancesCompareInUnitsOfB) {
+  const auto at = [](const char* subject) { return Key{subject, Kind::edge_edge, "f"}; };
+  Statistics statistics;
+  statistics.counts = {{at("wang:float"), counts(100, 50, 0, 40, 100)},
+                       {at("wang"), counts(100, 50, 0, 30, 200)},
+                       {at("basic:p40"), counts(100, 50, 0, 20, 250)}};
+  for (auto& each : statistics.counts) each.second.farthest = {{0.5, {}, "f:1:0"}};
+  EXPECT_FALSE(trade_offs_json(statistics).contains("ladder"));  // two scalars
+  statistics.counts[at("wang:p80")] = counts(100, 50, 0, 30, 300);
+  statistics.counts[at("wang:p80")].farthest = {{1, {}, "f:1:0"}};
+  statistics.counts[at("defect:vv")] =
+      counts(100, 50, 0, 30, 10);  // of what its distances are parts is not known
+  statistics.counts[at("exact")] = counts(100, 50, 0, 0, 1000);
+  const auto json = trade_offs_json(statistics);
+  const double paper = 40.963 * 0x1p-13;
+  EXPECT_NEAR(json["ladder"]["paper_bound"], paper, 1e-7);
+  EXPECT_EQ(json["ladder"]["front_by_distance"],
+            nlohmann::json::array({"wang:float", "wang", "wang:p80", "exact"}));
+  const auto& subjects = json["subjects"];
+  EXPECT_NEAR(subjects["wang"]["farthest_over_B"], paper / 2, 1e-7);
+  EXPECT_NEAR(subjects["basic:p40"]["farthest_over_B"], paper / 2, 1e-7);  // it claims no bound
+  EXPECT_EQ(subjects["exact"]["farthest_over_B"], 0);
+  EXPECT_TRUE(subjects["defect:vv"]["farthest_over_B"].is_null());
+  EXPECT_EQ(subjects["wang:float"]["algorithm"], "wang");
+  EXPECT_EQ(subjects["wang:float"]["epsilon"], 0x1p-23);
+  EXPECT_EQ(subjects["defect:vv"]["algorithm"], "defect:vv");
 }
 
 class PowerTable : public testing::TemporaryFolder {};

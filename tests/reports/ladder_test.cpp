@@ -43,6 +43,18 @@ TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
   EXPECT_NEAR(all[2].claimed, 37.3 * 0x1p-13, 1e-6);
 }
 
+TEST(Ladder, ASubjectThatIsOnNoneIsAnAlgorithmOfItsOwn) {
+  EXPECT_EQ(place_of("wang:p40").algorithm, "wang");
+  EXPECT_EQ(place_of("wang:p40").scalar, "p40");
+  EXPECT_NEAR(*place_of("wang-eps").unit, 40.963 * 0x1p-13, 1e-7);
+  EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the bound is not the pair's own
+  for (const char* other : {"exact", "defect:vv", "./plugin.so"}) {
+    EXPECT_EQ(place_of(other).algorithm, other);
+    EXPECT_EQ(place_of(other).unit, std::nullopt);
+  }
+}
+
 TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   const auto exactly =
       rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}}));

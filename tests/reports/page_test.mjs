@@ -228,6 +228,32 @@ async function showsSceneStepsAndMeshes(browser) {
   await page.close();
 }
 
+/** Colours are algorithms'; labels are scalars, and hide no other. */
+async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
+  assert.equal(await page.isVisible("#error-time-of-ladder"), true);
+  assert.equal(await page.isVisible("#error-time-of-each"), false);
+  const fills = (selector) => page.locator(selector).evaluateAll((all) => all.map((each) => each.getAttribute("fill")));
+  for (const [panel, front] of [[0, ladder.front_by_distance], [1, front_by_rate]]) {
+    const inPanel = `#error-time .concat_${panel}_group`;
+    const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
+    assert.equal(points.length, Object.keys(subjects).length);
+    assert.equal(new Set(points).size, 2);
+    assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4); // the front; scalars of the machine and emulated
+    const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
+      .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")
+      .map((each) => ({ text: each.textContent, bold: each.getAttribute("font-weight") === "bold", box: each.getBoundingClientRect().toJSON() })));
+    assert.deepEqual(labels.filter(({ bold }) => bold).map(({ text }) => text).sort(), front.map((name) => subjects[name].scalar).sort());
+    assert.ok(labels.length >= 3 && labels.length <= points.length);
+    const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 2 || b.bottom <= a.top + 2; // lines are 2 higher than letters
+    labels.forEach(({ box }, i) => labels.slice(0, i).forEach((other) => assert.ok(apart(box, other.box))));
+  }
+  const pale = () => count(page, "#error-time .mark-symbol.role-mark path[opacity='0.1']");
+  assert.equal(await pale(), 0);
+  await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
+  assert.equal(await pale(), Object.keys(subjects).length); // half of the points, in each of two panels
+  await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
+}
+
 async function showsTheLadderAndTheAudit(browser) {
   run("ladder", "--scalar", "float,p40,p64", "--cases", "48", "--db", "ladder.db");
   run("audit", "--queries", "2", "--steps", "0", "--json", "audit.json");
@@ -235,6 +261,7 @@ async function showsTheLadderAndTheAudit(browser) {
   const page = await open(browser, pathToFileURL(join(folder, "ladder", "index.html")).href);
   assert.equal(await count(page, "#ladder tbody tr"), 6);
   assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
+  await showsErrorTimeOfTheLadder(page, JSON.parse(readFileSync(join(folder, "ladder", "report.json"))).error_against_time);
   assert.match(await page.textContent("#ladder-fits"), /wang-tight: the farthest distance goes as ε\^0\.\d+ ± /);
   assert.ok((await count(page, "#audit tbody tr")) > 50);
   assert.ok((await count(page, "#audit td.bad")) >= 2);

@@ -1,0 +1,159 @@
+// Error against run time: a mark for each subject, or lines where there are algorithms over many scalars.
+"use strict";
+
+const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
+  { field: "false_negatives", title: "missed" }, { field: "collisions", title: "of collisions" },
+  { field: "false_positive_rate", title: "false positives", format: ".3~%" }];
+
+/** Two panels go beside each other where there is room. */
+const panelWidth = (widest) => Math.max(300, Math.min(widest, (element("error-time").clientWidth - 150) / 2));
+
+const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
+
+/** A mark for each subject. */
+function drawErrorTimeOfEach() {
+  const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
+  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
+  const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
+    scale: { type: "log", nice: false, padding: 30 }, axis: { grid: true, tickCount: 6, format: "~s" } };
+  const tooltip = [...errorTimeTooltip,
+    { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
+    { field: "q99_fp_distance_over_bound", title: "99 %", format: ".3~g" },
+    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+  const panel = (title, top, marks, front) => {
+    const axis = logAxisWithZero(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
+    const shown = rows.map((row) => {
+      const at = { ...row, top: Math.max(row[top], axis.zero) };
+      marks.forEach((field, i) => (at[`mark${i}`] = Math.max(row[field], axis.zero)));
+      return at;
+    });
+    const y = (field) => ({ field, type: "quantitative", title: null, scale: axis.scale, axis: axis.axis });
+    const own = { x, color: subjectColor, tooltip };
+    return {
+      width: panelWidth(420), height: 280, title, data: { values: shown },
+      layer: [
+        ...(front.length === 0 ? [] : [{ transform: [{ filter: { field: "subject", oneOf: front } }],
+          mark: { type: "line", interpolate: "step-after", strokeDash: [5, 4], color: color("--soft") }, encoding: { x, y: y("top") } }]),
+        ...(marks.length === 0 ? [] : [
+          { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("mark0"), y2: { field: "top" } } },
+          ...marks.map((_, i) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width: i === 0 ? 8 : 14 },
+            encoding: { ...own, y: y(`mark${i}`) } }))]),
+        { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
+          encoding: { ...own, y: y("top"), shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjectNames } } } },
+        ...(rows.every((row) => row.false_negatives === 0) ? [] : [{ transform: [{ filter: "datum.false_negatives > 0" }],
+          mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper") },
+          encoding: { x, y: y("top"), tooltip } }]),
+      ],
+    };
+  };
+  return draw("error-time", "For each subject the run time of a query, and how far and how many its false positives are.", {
+    hconcat: [
+      panel("distance / bound of false positives", "max_fp_distance_over_bound",
+        ["median_fp_distance_over_bound", "q99_fp_distance_over_bound"], front_by_distance),
+      panel("false positives, of all that is no collision", "false_positive_rate", [], front_by_rate),
+    ],
+  });
+}
+
+const labelSize = 10;
+const isEmulated = (row) => /^p\d/.test(row.scalar);
+
+/** Numbers those of an algorithm whose scalars are of one sort, of the machine or emulated, from few digits to many. */
+function makeStrands(rows) {
+  const strands = new Map();
+  for (const row of rows) {
+    row.strand = row.algorithm + (isEmulated(row) ? " p" : "");
+    strands.set(row.strand, [...(strands.get(row.strand) ?? []), row]);
+  }
+  for (const strand of strands.values()) {
+    strand.sort((a, b) => b.epsilon - a.epsilon);
+    strand.forEach((row, i) => Object.assign(row, { step: i, isEnd: i === 0 || i === strand.length - 1, isFew: i % 3 === 0 }));
+  }
+}
+
+/**
+ * Finds places for labels beside their points where they hide neither each other nor a point; what has no place is left out.
+ * @param points [{at: [x, y] in pixels, label, rank: lower ones first; infinite ones have no label}]
+ */
+function placedLabels(points, [width, height]) {
+  const pen = made("canvas").getContext("2d");
+  pen.font = `${labelSize}px ${look.font}`;
+  const taken = points.map(({ at: [x, y] }) => [x - 4, y - 4, x + 4, y + 4]);
+  const isFree = (box) => box[0] >= 0 && box[1] >= 0 && box[2] <= width && box[3] <= height &&
+    taken.every((other) => box[0] >= other[2] || box[2] <= other[0] || box[1] >= other[3] || box[3] <= other[1]);
+  const placed = [];
+  for (const point of points.filter(({ rank }) => rank < Infinity).sort((a, b) => a.rank - b.rank)) {
+    const [x, y] = point.at;
+    const [w, h] = [pen.measureText(point.label).width + 2, labelSize + 1];
+    for (const [dx, dy] of [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]]) {
+      const box = [x + dx, y + dy, x + dx + w, y + dy + h];
+      if (!isFree(box)) continue;
+      taken.push(box);
+      placed.push({ ...point, place: [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2] });
+      break;
+    }
+  }
+  return placed;
+}
+
+/** A line for each algorithm and sort of scalars; a few points are labelled by their scalars. */
+function drawErrorTimeOfLadder() {
+  const { subjects, ladder, front_by_rate } = report.error_against_time;
+  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
+  for (const id of ["error-time-of-each", "error-time-of-ladder"]) element(id).toggleAttribute("hidden");
+  makeStrands(rows);
+  const isAlone = ({ algorithm }) => rows.filter((row) => row.algorithm === algorithm).length === 1;
+  const times = rows.map((row) => row.ns_per_query);
+  const [shortest, longest] = [0.7 * Math.min(...times), 1.4 * Math.max(...times)];
+  const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
+    scale: { type: "log", nice: false, domain: [shortest, longest] }, axis: { grid: true, tickCount: 6, format: "~s" } };
+  const hue = { ...algorithmColor([...new Set(rows.map((row) => row.algorithm))]), legend: { symbolOpacity: 1 } };
+  const opacity = (most) => ({ condition: { param: "chosen", value: most }, value: 0.1 });
+  const tooltip = [...errorTimeTooltip, { field: "epsilon", title: "ε", format: ".3~e" },
+    { field: "farthest_over_B", title: "farthest / B", format: ".4~g" },
+    { field: "max_fp_distance_over_bound", title: "farthest / bound", format: ".5~g" }];
+  const [width, height] = [panelWidth(460), 360];
+  const panel = (title, field, front, bounds, params) => {
+    const known = rows.filter((row) => row[field] !== null);
+    const axis = logAxisWithZero([...known.map((row) => row[field]), ...bounds]);
+    const shown = known.map((row) => ({ ...row, y: Math.max(row[field], axis.zero), isFront: front.includes(row.subject) }));
+    const y = { field: "y", type: "quantitative", title: null, scale: axis.scale, axis: axis.axis };
+    const [lowest, highest] = axis.scale.domain;
+    const part = (value, from, to) => Math.log(value / from) / Math.log(to / from);
+    const labels = placedLabels(shown.map((row) => ({ ...row, label: isAlone(row) ? row.algorithm : row.scalar,
+      ink: mixed(colorOfAlgorithm(row.algorithm), color("--ink")),
+      rank: row.isFront ? 0 : !isEmulated(row) ? 1 : row.isEnd ? 2 : row.isFew ? 3 : Infinity,
+      at: [width * part(row.ns_per_query, shortest, longest), height * (1 - part(row.y, lowest, highest))] })), [width, height])
+      .map(({ place: [px, py], ...row }) => ({ ...row, ns_per_query: shortest * (longest / shortest) ** (px / width),
+        y: lowest * (highest / lowest) ** (1 - py / height) }));
+    const text = (ofFront, mark, encoding) => ({ data: { values: labels.filter((row) => row.isFront === ofFront) },
+      mark: { type: "text", fontSize: labelSize, fontWeight: ofFront ? "bold" : "normal", ...mark },
+      encoding: { x, y, text: { field: "label" }, opacity: opacity(1), ...encoding } });
+    const texts = (ofFront) => [text(ofFront, { stroke: color("--paper"), strokeWidth: 3 }, {}),
+      text(ofFront, {}, { color: { field: "ink", type: "nominal", scale: null } })];
+    const points = (values, size, params = []) => ({ params, data: { values },
+      mark: { type: "point", filled: true, size }, encoding: { x, y, color: hue, tooltip, opacity: opacity(1) } });
+    return {
+      width, height, title, data: { values: shown },
+      layer: [
+        ...bounds.map((bound) => ({ data: { values: [{ y: bound }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 }, encoding: { y } })),
+        { data: { values: shown.filter((row) => row.isFront) },
+          mark: { type: "line", interpolate: "step-after", strokeDash: [5, 4], color: color("--soft") }, encoding: { x, y } },
+        { mark: { type: "line", strokeWidth: 1.5 },
+          encoding: { x, y, color: hue, detail: { field: "strand" }, order: { field: "step", type: "quantitative" }, opacity: opacity(isDark ? 0.8 : 0.5) } },
+        points(shown.filter(isEmulated), 26), points(shown.filter((row) => !isEmulated(row)), 80, params),
+        { data: { values: shown.filter((row) => row.false_negatives > 0) },
+          mark: { type: "point", shape: "cross", angle: 45, size: 40, filled: true, color: color("--bad"), stroke: color("--paper"), strokeWidth: 0.5 },
+          encoding: { x, y, tooltip, opacity: opacity(1) } },
+        ...texts(false), ...texts(true),
+      ],
+    };
+  };
+  return draw("error-time", "For each algorithm and scalar the run time of a query, and how far and how many its false positives are.", {
+    hconcat: [
+      panel("farthest false positive / B", "farthest_over_B", ladder.front_by_distance, [ladder.paper_bound],
+        [{ name: "chosen", select: { type: "point", fields: ["algorithm"] }, bind: "legend" }]),
+      panel("false positives, of all that is no collision", "false_positive_rate", front_by_rate, [], []),
+    ],
+  });
+}
