@@ -14,17 +14,10 @@ namespace nearmiss {
 
 namespace {
 
-/// The scene of "scene:NAME#STEP".
-std::string scene_of(const std::string& step) { return step.substr(0, step.rfind('#')); }
-
 /// What a line says of a fate.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
-
-std::string percent(std::uint64_t part, std::uint64_t all) {
-  return all == 0 ? "" : fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
-}
 
 /// What became of the pairs of a scene, over all its steps.
 struct Scene {
@@ -98,6 +91,8 @@ void add_needs(const Scene& scene, std::array<std::uint64_t, 2> asked, std::vect
 }
 
 }  // namespace
+
+std::string scene_of(const std::string& step) { return step.substr(0, step.rfind('#')); }
 
 std::string funnel_tables(const Statistics& statistics) {
   std::string text;

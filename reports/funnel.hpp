@@ -51,6 +51,9 @@ struct Funnel {
   bool operator==(const Funnel&) const = default;
 };
 
+/// The scene of "scene:NAME#STEP": "scene:NAME".
+std::string scene_of(const std::string& step);
+
 /// A line for each fate, a column for each kind, over all steps of each scene; "" where there is none.
 std::string funnel_tables(const Statistics& statistics);
 

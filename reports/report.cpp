@@ -10,6 +10,7 @@
 #include "oracle/oracle.hpp"
 #include "reports/baseline.hpp"
 #include "reports/csv.hpp"
+#include "reports/decider_table.hpp"
 #include "reports/headline.hpp"
 #include "reports/json.hpp"
 #include "reports/ladder.hpp"
@@ -113,6 +114,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(campaign.statistics))
     json["farthest"].push_back(farthest_json(each));
+  if (auto rows = deciders_json(campaign.statistics); !rows.empty()) json["deciders"] = std::move(rows);
   if (const auto ladder = ladder_json(campaign.statistics)) json["ladder"] = *ladder;
   for (const Run& run : campaign.runs)
     for (const ScenePicture& picture : run.pictures) {

@@ -61,6 +61,10 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
   return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
 }
 
+std::string percent(std::uint64_t part, std::uint64_t all) {
+  return all == 0 ? "" : fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
+}
+
 std::string fraction_of_bound(double ratio) {
   std::string text;
   for (int digits = 3; digits <= 17; ++digits) {

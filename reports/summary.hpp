@@ -36,6 +36,9 @@ std::string columns(const std::vector<std::vector<std::string>>& rows, std::size
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);
 
+/// A part of all as "12.3 %"; "" of nothing.
+std::string percent(std::uint64_t part, std::uint64_t all);
+
 /// Three digits, or as many as it takes to tell what is below 1 from 1.
 std::string fraction_of_bound(double ratio);
 

@@ -37,7 +37,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
 /// "subjects" with ns_per_query, rates and distances of each, "front_by_distance" (the largest one),
-/// "front_by_rate" (of false positives). Where an algorithm is there over three scalars or more, "ladder": the
+/// "front_by_rate" (of false positives). Where an algorithm is there over three scalars or more, "ladder":
 /// "front_by_distance" and the "paper_bound" of double in units of B, as bounds differ.
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 

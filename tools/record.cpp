@@ -10,6 +10,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
+#include "reports/decider_table.hpp"
 #include "reports/json.hpp"
 #include "reports/ladder.hpp"
 #include "reports/summary.hpp"
@@ -116,7 +117,8 @@ int Record::finish(bool interrupted, bool complete) {
   const Campaign campaign{{{info_, {part_}, findings_, {}}}, statistics_};
   if (!options_.json.empty()) replace_file(options_.json, summary_json(campaign).dump(2) + "\n");
   fmt::print("{}{}{}", options_.summary ? summary_table(statistics_) : "",
-             sweep_tables(statistics_) + ladder_table(statistics_), funnel_tables(statistics_));
+             sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
+             funnel_tables(statistics_));
   const auto findings = campaign.findings();
   if (!findings.empty()) fmt::print("\nthe first findings:\n");
   for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)

@@ -113,6 +113,23 @@ function drawSlowest() {
   ], rows);
 }
 
+/** What decided the queries of subjects that ask others than their own algorithm. */
+function drawDeciders() {
+  const rows = report.deciders;
+  if (!rows) return;
+  show("stages-section");
+  show("deciders-part");
+  const share = (title, name) => ({ title, number: (r) => r.decided_by[name] / r.queries,
+    text: (r) => `${percent(r.decided_by[name] / r.queries)} (${integer(r.decided_by[name])})` });
+  const over = (name) => (rows.some((r) => r.time_over[name])
+    ? [{ title: `/ ${name}`, number: (r) => r.time_over[name] ?? -1, text: (r) => short(r.time_over[name]) }] : []);
+  fillTable(element("deciders"), [
+    text("subject", "subject"), { title: "family", text: (r) => r.family || "all" }, count("queries", "queries"),
+    share("its algorithm", "algorithm"), share("certified filter", "filter"), share("finer scalar", "finer"),
+    share("exact arithmetic", "exact"), figure("ns / query", "ns_per_query"), ...over("wang"), ...over("exact"),
+  ], rows, true);
+}
+
 function drawOracle() {
   const byFamily = element("oracle-by-family").checked;
   const rows = [];
@@ -248,6 +265,7 @@ drawScenes();
 element("by-step").addEventListener("change", drawScenes);
 drawScenePictures();
 drawSlowest();
+drawDeciders();
 drawOracle();
 element("oracle-by-family").addEventListener("change", drawOracle);
 drawAudit();

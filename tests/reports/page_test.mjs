@@ -67,6 +67,8 @@ async function showsFindings(browser) {
   assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
   assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
 
+  assert.equal(await page.isVisible("#deciders-part"), false); // neither asks another
+
   assert.equal(await count(page, "#counts tbody tr"), 4);
   await page.check("#by-family");
   const families = Object.keys(report.oracle.families.vt).length;
@@ -228,6 +230,32 @@ async function showsSceneStepsAndMeshes(browser) {
   await page.close();
 }
 
+async function showsWhatDecides(browser) {
+  const page = await open(browser, makeReport("decided", ["--cases", "2200", "--subject", "adaptive,wang,exact"]));
+  const { deciders, subjects } = JSON.parse(readFileSync(join(folder, "decided", "report.json")));
+  const families = [...new Set(Object.values(subjects.adaptive).flatMap((ofKind) => Object.keys(ofKind.families)))].sort();
+  assert.deepEqual(deciders.map(({ family }) => family), ["", ...families]);
+  const { queries, decided_by, time_over } = deciders[0];
+  assert.equal(queries, 2200);
+  const byWang = ["planes", "apart", "no-root", "culled", "tests"];
+  const cleared = Object.values(subjects.adaptive).flatMap((ofKind) => byWang.map((why) => ofKind.rejected_by[why] ?? 0));
+  assert.equal(decided_by.algorithm, cleared.reduce((a, b) => a + b));
+  assert.ok(decided_by.filter > 0 && decided_by.exact > 0);
+  assert.ok(time_over.wang > 0 && time_over.exact > 0);
+  const rows = await page.locator("#deciders tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.deepEqual(rows.map(([subject, family]) => [subject, family]), ["all", ...families].map((family) => ["adaptive", family]));
+  assert.equal(rows[0].length, 10);
+  for (const [i, name] of ["algorithm", "filter", "finer", "exact"].entries()) {
+    const [, share, times] = rows[0][3 + i].match(/^([\d.]+)(?: %)? \(([\d,]+)\)$/);
+    assert.equal(Number(times.replaceAll(",", "")), decided_by[name]);
+    assert.ok(Math.abs(Number(share) - (100 * decided_by[name]) / queries) < 0.06);
+  }
+  await page.click("#deciders th:has-text('exact arithmetic')");
+  const most = deciders.reduce((a, b) => (b.decided_by.exact / b.queries > a.decided_by.exact / a.queries ? b : a));
+  assert.equal(await page.locator("#deciders tbody tr td:nth-child(2)").first().textContent(), most.family);
+  await page.close();
+}
+
 /** Colours are algorithms'; labels are scalars, and hide no other. */
 async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
   assert.equal(await page.isVisible("#error-time-of-ladder"), true);
@@ -317,6 +345,7 @@ try {
   await showsScenes(browser);
   await showsSceneStepsAndMeshes(browser);
   await showsTheLadderAndTheAudit(browser);
+  await showsWhatDecides(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await fitsEveryMedium(browser);
