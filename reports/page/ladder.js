@@ -3,11 +3,26 @@
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
 
+/** The exponents of each family, or of what a directed search found, beside each other for each algorithm. */
+function drawFits(fits) {
+  const origins = [...new Set(fits.map((fit) => fit.origin))];
+  if (origins.length < 2) return;
+  show("ladder-origins-part");
+  const of = (origin, algorithm) => fits.find((fit) => fit.origin === origin && fit.algorithm === algorithm);
+  fillTable(element("ladder-origins"), [{ title: "queries from", text: (origin) => origin },
+    ...[...new Set(fits.map((fit) => fit.algorithm))].flatMap((algorithm) => [
+      { title: `${algorithm}: exponent of ε`, number: (origin) => of(origin, algorithm)?.exponent ?? -1,
+        text: (origin) => { const fit = of(origin, algorithm); return fit ? `${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}` : "–"; } },
+      { title: "precisions", number: (origin) => of(origin, algorithm)?.points ?? 0, text: (origin) => short(of(origin, algorithm)?.points) }]),
+  ], origins, true);
+}
+
 function drawLadder() {
   const { rungs, fits } = report.ladder;
-  element("ladder-fits").textContent = fits.map((fit) =>
+  element("ladder-fits").textContent = fits.filter((fit) => fit.origin === "").map((fit) =>
     `${fit.algorithm}: the farthest distance goes as ε^${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}, over ${fit.points} precisions.`).join(" ") +
     " The paper predicts ¼.";
+  drawFits(fits.filter((fit) => fit.origin !== ""));
   fillTable(element("ladder"), [
     text("subject", "subject"), { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) }, count("queries", "queries"),
     count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),

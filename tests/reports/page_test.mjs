@@ -289,8 +289,12 @@ async function showsTheLadderAndTheAudit(browser) {
   const page = await open(browser, pathToFileURL(join(folder, "ladder", "index.html")).href);
   assert.equal(await count(page, "#ladder tbody tr"), 6);
   assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
-  await showsErrorTimeOfTheLadder(page, JSON.parse(readFileSync(join(folder, "ladder", "report.json"))).error_against_time);
-  assert.match(await page.textContent("#ladder-fits"), /wang-tight: the farthest distance goes as ε\^0\.\d+ ± /);
+  const report = JSON.parse(readFileSync(join(folder, "ladder", "report.json")));
+  await showsErrorTimeOfTheLadder(page, report.error_against_time);
+  assert.match(await page.textContent("#ladder-fits"), /^wang: [^:]*wang-tight: the farthest distance goes as ε\^0\.\d+ ± [^:]*$/);
+  const origins = new Set(report.ladder.fits.map((fit) => fit.origin).filter((origin) => origin !== ""));
+  assert.ok(origins.size > 1);
+  assert.deepEqual(new Set(await page.locator("#ladder-origins tbody td:first-child").allTextContents()), origins);
   assert.ok((await count(page, "#audit tbody tr")) > 50);
   assert.ok((await count(page, "#audit td.bad")) >= 2);
   assert.ok((await count(page, "#tolerances tbody tr")) >= 10);
