@@ -36,7 +36,7 @@ struct Shared {
   std::array<std::array<double, 24>, batch_size> queries{};
   std::array<Answer, batch_size> answers{};
   // After loading, before any order:
-  std::array<char, 256> name{};    ///< the plug-in's own
+  std::array<char, 256> name{};  ///< the plug-in's own
   bool claims_bound = false;
   std::array<char, 1024> error{};  ///< why it cannot be used; empty where it can
 };
