@@ -65,6 +65,7 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Sifted
     Batch batch;
     batch.kind = kinds[parity];
     batch.family = block.family->name;
+    batch.timed = block.family->timed;
     for (std::uint64_t index = first; index < block.last; index += 2)
       batch.queries.push_back(make_query(*block.family, plan.seed, index));
     if (block.family->planted) batch.truths.assign(batch.queries.size(), true);

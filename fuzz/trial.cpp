@@ -127,7 +127,7 @@ Timed decide_all(const Subject& subject, const Batch& batch) {
     const auto time = std::chrono::steady_clock::now() - start;
     answers.nanoseconds =
         static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(time).count());
-    if (!is_sampled(batch.queries.front(), one_in)) return answers;
+    if (!batch.timed || !is_sampled(batch.queries.front(), one_in)) return answers;
   }
   answers.each.resize(batch.queries.size());
   std::vector<Verdict> again(batch.queries.size());
@@ -156,6 +156,7 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
   for (const auto& subject : subjects) {
     answers.push_back(decide_all(*subject, batch));
     counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
+    if (!batch.timed) continue;
     counts.back()->timed_queries += batch.queries.size();
     counts.back()->nanoseconds += answers.back().nanoseconds;
     for (std::size_t i = 0; i < answers.back().each.size(); ++i)

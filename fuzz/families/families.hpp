@@ -31,6 +31,7 @@ struct Family {
   std::function<Query(Random&, Kind)> make;
   std::optional<Parameter> parameter{};  ///< each query draws its own value, uniformly
   std::uint64_t block_cases = 100;       ///< queries in a round of a campaign; fewer where they are dear
+  bool timed = true;                     ///< whether the time that answers take counts
 };
 
 /// A family with a parameter.
