@@ -69,6 +69,18 @@ Batch batch() {
 
 Counts counts_of(const TrialResult& result) { return result.statistics.counts.begin()->second; }
 
+TEST(Trial, TimesCountWhereTheBatchSaysSo) {
+  Batch untimed = batch();
+  untimed.timed = false;
+  const Subjects wang = one(make_subject("wang"));
+  EXPECT_EQ(counts_of(hold_trial(wang, batch())).timed_queries, batch().queries.size());
+  const Counts counts = counts_of(hold_trial(wang, untimed));
+  EXPECT_EQ(counts.queries, batch().queries.size());
+  EXPECT_EQ(counts.timed_queries, 0);
+  EXPECT_EQ(counts.nanoseconds, 0);
+  EXPECT_TRUE(counts.slowest.empty());
+}
+
 TEST(Trial, ASubjectThatNeverReportsMisses) {
   const auto result = hold_trial(one(std::make_unique<Told>("never", false, infinity)), batch());
   EXPECT_EQ(counts_of(result).false_negatives, 1);
