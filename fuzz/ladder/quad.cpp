@@ -1,4 +1,5 @@
-// IEEE's binary128, which g++ computes in software; clang has no library for it, and then there is none.
+// IEEE's binary128, which g++ computes in software; clang has no library for it, and then there is none. Its
+// operations round to nearest, as those of machine_scalars.cpp, and so does libquadmath's root.
 #include "fuzz/ladder/scalars.hpp"
 
 #if __has_include(<quadmath.h>)
