@@ -128,6 +128,33 @@ TEST(Bits, EveryOperationIsWithinHalfItsEpsilon) {
   }
 }
 
+#if __has_include(<quadmath.h>)
+extern "C" __float128 sqrtq(__float128);
+
+Rational exactly(__float128 a) {
+  Rational value = 0;
+  for (int part = 0; part < 3; ++part) {  // 113 bits are at most three doubles
+    const auto high = static_cast<double>(a);
+    value += Rational(high);
+    a -= high;
+  }
+  return value;
+}
+
+// What the hardware does not do for us, and no standard says.
+TEST(Quad, ItsRootIsWithinItsEpsilon) {
+  const Rational eps = 1 / Rational(mp::mpz_int(1) << 112);
+  Random random(3, 0, 0);
+  for (int i = 0; i < 100000; ++i) {
+    const __float128 low = random.uniform(-1, 1) * static_cast<__float128>(0x1p-55);
+    const __float128 a = (1 + 3 * static_cast<__float128>(random.uniform()) + low) * random.uniform();
+    const Rational root = exactly(sqrtq(a));
+    ASSERT_LE(root * root, exactly(a) * (1 + eps) * (1 + eps)) << i;
+    ASSERT_GE(root * root, exactly(a) * (1 - eps) * (1 - eps)) << i;
+  }
+}
+#endif
+
 TEST(Bits, AreThoseOfTheScope) {
   const Bits::Precision outer(20);
   EXPECT_EQ(static_cast<double>(epsilon<Bits>()), 0x1p-19);
