@@ -13,19 +13,22 @@ namespace nearmiss {
 
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   std::set<std::string> subjects;
-  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // of how many subjects, by kind and family
-  for (const auto& [key, counts] : statistics.counts) {
-    if (counts.timed_queries == 0) continue;
-    subjects.insert(key.subject);
-    ++asked[{key.kind, key.family}];
-  }
-  std::map<std::string, Counts> sums;
   for (const auto& [key, counts] : statistics.counts)
-    if (counts.timed_queries != 0 && asked[{key.kind, key.family}] == subjects.size())
-      sums[key.subject].merge(counts);
-  std::vector<TradeOff> all;
-  for (const auto& [subject, counts] : sums) all.push_back({subject, counts, place_of(subject)});
-  return all;
+    if (counts.timed_queries != 0) subjects.insert(key.subject);
+  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // of how many subjects, by kind and family
+  for (const auto& [key, counts] : statistics.counts)
+    if (subjects.contains(key.subject)) ++asked[{key.kind, key.family}];
+  std::map<std::string, Counts> all;
+  std::map<std::string, Counts> timed;
+  for (const auto& [key, counts] : statistics.counts)
+    if (asked[{key.kind, key.family}] == subjects.size()) {
+      all[key.subject].merge(counts);
+      if (counts.timed_queries != 0) timed[key.subject].merge(counts);
+    }
+  std::vector<TradeOff> trade_offs;
+  for (const auto& [subject, counts] : timed)
+    trade_offs.push_back({subject, counts, all.at(subject), place_of(subject)});
+  return trade_offs;
 }
 
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
@@ -33,7 +36,7 @@ std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (
   for (const TradeOff& each : all)
     if (each.sound()) sound.push_back(&each);
   std::sort(sound.begin(), sound.end(), [&](const TradeOff* a, const TradeOff* b) {
-    return std::pair(a->counts.ns_per_query(), error(*a)) < std::pair(b->counts.ns_per_query(), error(*b));
+    return std::pair(a->timed.ns_per_query(), error(*a)) < std::pair(b->timed.ns_per_query(), error(*b));
   });
   std::vector<std::string> front;
   double least = std::numeric_limits<double>::infinity();
@@ -68,7 +71,8 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   nlohmann::ordered_json json;
   json["subjects"] = nlohmann::ordered_json::object();
   for (const TradeOff& each : all) {
-    auto& subject = json["subjects"][each.subject] = rates_json(each.counts);
+    auto& subject = json["subjects"][each.subject] = rates_json(each.timed);
+    subject["max_fp_distance_over_bound"] = each.all.max_ratio();
     subject["sound"] = each.sound();
     subject["algorithm"] = each.place.algorithm;
     subject["scalar"] = each.place.scalar;
@@ -76,9 +80,9 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
     const auto farthest = each.farthest();
     subject["farthest_over_B"] = farthest ? nlohmann::ordered_json(*farthest) : nlohmann::ordered_json();
   }
-  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.counts.max_ratio(); });
+  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
   json["front_by_rate"] =
-      pareto_front(all, [](const TradeOff& each) { return each.counts.false_positive_rate(); });
+      pareto_front(all, [](const TradeOff& each) { return each.timed.false_positive_rate(); });
   if (has_ladder(all)) json["ladder"] = ladder_of(all);
   return json;
 }

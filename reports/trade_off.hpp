@@ -14,18 +14,19 @@ namespace nearmiss {
 /// What a subject costs and how wrong it is, over all kinds and families that every subject was asked.
 struct TradeOff {
   std::string subject;
-  Counts counts;
+  Counts timed;  ///< of families whose time counts: a directed search would spoil rates too
+  Counts all;
   LadderPlace place;
 
   /// How far its farthest false positive is in units of B; nothing where that is not known.
   [[nodiscard]] std::optional<double> farthest() const {
-    if (counts.false_positives == 0) return 0;
-    return place.unit ? std::optional(counts.max_ratio() * *place.unit) : std::nullopt;
+    if (all.false_positives == 0) return 0;
+    return place.unit ? std::optional(all.max_ratio() * *place.unit) : std::nullopt;
   }
 
   /// Whether it may stand on a front: an answer to every query, no miss, no refuted bound.
   [[nodiscard]] bool sound() const {
-    return counts.false_negatives == 0 && counts.refuted_bounds == 0 && counts.faults_total() == 0;
+    return all.false_negatives == 0 && all.refuted_bounds == 0 && all.faults_total() == 0;
   }
 };
 
@@ -36,7 +37,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 /// gives what is to be small.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
-/// "subjects" with ns_per_query, rates and distances of each, "front_by_distance" (the largest one),
+/// "subjects" with ns_per_query, rates and the farthest distance of each, "front_by_distance" (the largest one),
 /// "front_by_rate" (of false positives). Where an algorithm is there over three scalars or more, "ladder":
 /// "front_by_distance" and the "paper_bound" of double in units of B, as bounds differ.
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);

@@ -141,7 +141,7 @@ TEST(TradeOff, OnTheFrontIsWhatNoSoundOneBeats) {
                        {at("beaten"), counts(100, 50, 0, 41, 200)},
                        {at("wrong"), counts(100, 50, 1, 0, 50)}};
   const auto front =
-      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.counts.max_ratio(); });
+      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.all.max_ratio(); });
   EXPECT_THAT(front, ElementsAre("fast", "exact"));
 }
 
@@ -152,7 +152,24 @@ TEST(TradeOff, OnlyFamiliesOfAllCount) {
   statistics.counts[{"b", Kind::edge_edge, "only b"}] = counts(100, 50, 0, 0, 9000);
   const auto all = trade_offs(statistics);
   ASSERT_THAT(all, SizeIs(2));
-  EXPECT_EQ(all[1].counts.ns_per_query(), 200);
+  EXPECT_EQ(all[1].timed.ns_per_query(), 200);
+}
+
+TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
+  Statistics statistics;
+  statistics.counts[{"a", Kind::edge_edge, "f"}] = counts(100, 50, 0, 10, 100);
+  Counts& searched = statistics.counts[{"a", Kind::edge_edge, "search-far-a"}] = counts(100, 50, 1, 50, 9000);
+  searched.timed_queries = searched.nanoseconds = 0;
+  searched.farthest = {{0.875, {}, "search-far-a:1:0"}};
+  const auto all = trade_offs(statistics);
+  ASSERT_THAT(all, SizeIs(1));
+  EXPECT_EQ(all[0].all.max_ratio(), 0.875);
+  EXPECT_EQ(all[0].timed.false_positives, 10);
+  EXPECT_FALSE(all[0].sound());
+  const auto json = trade_offs_json(statistics)["subjects"]["a"];
+  EXPECT_EQ(json["max_fp_distance_over_bound"], 0.875);
+  EXPECT_EQ(json["false_positive_rate"], 0.2);
+  EXPECT_EQ(json["ns_per_query"], 100);
 }
 
 TEST(TradeOff, OfALadderDistancesCompareInUnitsOfB) {
