@@ -72,6 +72,8 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   json["subjects"] = nlohmann::ordered_json::object();
   for (const TradeOff& each : all) {
     auto& subject = json["subjects"][each.subject] = rates_json(each.timed);
+    subject["collisions"] = each.all.collisions;
+    subject["false_negatives"] = each.all.false_negatives;
     subject["max_fp_distance_over_bound"] = each.all.max_ratio();
     subject["sound"] = each.sound();
     subject["algorithm"] = each.place.algorithm;

@@ -14,7 +14,7 @@ namespace nearmiss {
 /// What a subject costs and how wrong it is, over all kinds and families that every subject was asked.
 struct TradeOff {
   std::string subject;
-  Counts timed;  ///< of families whose time counts: a directed search would spoil rates too
+  Counts timed;  ///< of families whose time counts, for rates too: those of a directed search tell nothing
   Counts all;
   LadderPlace place;
 

@@ -168,6 +168,7 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   EXPECT_FALSE(all[0].sound());
   const auto json = trade_offs_json(statistics)["subjects"]["a"];
   EXPECT_EQ(json["max_fp_distance_over_bound"], 0.875);
+  EXPECT_EQ(json["false_negatives"], 1);
   EXPECT_EQ(json["false_positive_rate"], 0.2);
   EXPECT_EQ(json["ns_per_query"], 100);
 }
