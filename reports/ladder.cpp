@@ -88,10 +88,13 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
 
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
   std::vector<std::pair<double, double>> points;
+  std::set<int> precisions;
   for (const Rung& rung : rungs)
     if (rung.algorithm == algorithm && rung.farthest > 0 && rung.epsilon_exponent <= coarsest &&
-        rung.epsilon_exponent >= finest)
+        rung.epsilon_exponent >= finest) {
       points.emplace_back(rung.epsilon_exponent, std::log2(rung.farthest));
+      precisions.insert(rung.epsilon_exponent);
+    }
   const auto n = static_cast<double>(points.size());
   double x_mean = 0;
   double y_mean = 0;
@@ -105,11 +108,11 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
     xx += (x - x_mean) * (x - x_mean);
     xy += (x - x_mean) * (y - y_mean);
   }
-  if (points.size() < 3 || xx == 0) return std::nullopt;
+  if (precisions.size() < 3) return std::nullopt;
   const double slope = xy / xx;
   double residual = 0;
   for (const auto& [x, y] : points) residual += std::pow(y - y_mean - slope * (x - x_mean), 2);
-  return Fit{algorithm, "", slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(points.size())};
+  return Fit{algorithm, "", slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(precisions.size())};
 }
 
 std::vector<Fit> fits(const Statistics& statistics) {
@@ -145,7 +148,7 @@ std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) 
                             {"origin", line.origin},
                             {"exponent", line.exponent},
                             {"standard_error", line.standard_error},
-                            {"points", line.points}});
+                            {"precisions", line.precisions}});
   return json;
 }
 
@@ -164,7 +167,7 @@ std::string ladder_table(const Statistics& statistics) {
     text +=
         fmt::format("{}{}{}: the farthest distance goes as epsilon^({:.4f} +- {:.4f}), from {} precisions\n",
                     line.algorithm, line.origin.empty() ? "" : ", ", line.origin, line.exponent,
-                    line.standard_error, line.points);
+                    line.standard_error, line.precisions);
   return text;
 }
 

@@ -43,11 +43,11 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = 
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
-  int points = 0;
+  int precisions = 0;  ///< how many ε
 };
 
 /// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer
-/// than three.
+/// than three ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
 
 /// For each algorithm that over all, and those over each origin.

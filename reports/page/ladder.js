@@ -13,14 +13,14 @@ function drawFits(fits) {
     ...[...new Set(fits.map((fit) => fit.algorithm))].flatMap((algorithm) => [
       { title: `${algorithm}: exponent of ε`, number: (origin) => of(origin, algorithm)?.exponent ?? -1,
         text: (origin) => { const fit = of(origin, algorithm); return fit ? `${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}` : "–"; } },
-      { title: "precisions", number: (origin) => of(origin, algorithm)?.points ?? 0, text: (origin) => short(of(origin, algorithm)?.points) }]),
+      { title: "precisions", number: (origin) => of(origin, algorithm)?.precisions ?? 0, text: (origin) => short(of(origin, algorithm)?.precisions) }]),
   ], origins, true);
 }
 
 function drawLadder() {
   const { rungs, fits } = report.ladder;
   element("ladder-fits").textContent = fits.filter((fit) => fit.origin === "").map((fit) =>
-    `${fit.algorithm}: the farthest distance goes as ε^${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}, over ${fit.points} precisions.`).join(" ") +
+    `${fit.algorithm}: the farthest distance goes as ε^${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}, over ${fit.precisions} precisions.`).join(" ") +
     " The paper predicts ¼.";
   drawFits(fits.filter((fit) => fit.origin !== ""));
   fillTable(element("ladder"), [

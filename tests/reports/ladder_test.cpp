@@ -60,15 +60,16 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
       rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p128", 1}}));
   const auto line = fit(exactly, "wang");
   ASSERT_TRUE(line.has_value());
-  EXPECT_EQ(line->points, 4);
+  EXPECT_EQ(line->precisions, 4);
   EXPECT_NEAR(line->exponent, 0.25, 1e-6);
   EXPECT_NEAR(line->standard_error, 0, 1e-6);
   // Half as far for each halving of ε on top of that: one more power.
   const auto steeper =
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
   EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
-  EXPECT_FALSE(
-      fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {"wang:p200", 1}})), "wang").has_value());
+  for (const char* no_third : {"wang:p200", "wang:float"})
+    EXPECT_FALSE(
+        fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}})), "wang").has_value());
 }
 
 TEST(Ladder, EachOriginHasAFitOfItsOwn) {
@@ -87,7 +88,7 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[2].origin, families.begin()->first.family);
   for (const Fit& each : all) {
     EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² has a term in ε beside that in ε^½
-    EXPECT_EQ(each.points, 3);
+    EXPECT_EQ(each.precisions, 3);
   }
 }
 
