@@ -10,6 +10,7 @@
 
 #include "fuzz/families/figures.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/family.hpp"
 
 namespace nearmiss {
 
@@ -278,12 +279,13 @@ Family search(std::string name, std::string about, std::function<Query(Random&, 
 }  // namespace
 
 Family miss_search(const Subject& subject) {
-  return search("search-miss-" + subject.name(), "collisions that are nearly missed, by directed search",
+  return search(std::string(miss_search_family) + subject.name(),
+                "collisions that are nearly missed, by directed search",
                 [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); });
 }
 
 Family far_search(const Subject& subject) {
-  return search("search-far-" + subject.name(), "far false positives, by directed search",
+  return search(std::string(far_search_family) + subject.name(), "far false positives, by directed search",
                 [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); });
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "reports/family.hpp"
 #include "reports/funnel.hpp"
 #include "reports/summary.hpp"
 
@@ -34,8 +35,8 @@ bool ask_others(const Deciders& queries) {
   return queries[0] != 0 && std::accumulate(queries.begin() + 1, queries.end(), std::uint64_t{0}) != 0;
 }
 
-std::string shown_family(const std::string& family) {
-  return family.starts_with("scene:") ? scene_of(family) : family;
+std::string row_family(const std::string& family) {
+  return family.starts_with("scene:") ? scene_of(family) : std::string(shown_family(family));
 }
 
 /// The time of a subject over that of another, of the keys that are `shown` and timed for both; nothing where
@@ -57,7 +58,7 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
 }
 
 DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family) {
-  const auto shown = [&](const Key& key) { return family.empty() || shown_family(key.family) == family; };
+  const auto shown = [&](const Key& key) { return family.empty() || row_family(key.family) == family; };
   Counts sum;
   for (const auto& [key, counts] : statistics.counts)
     if (key.subject == subject && shown(key)) sum.merge(counts);
@@ -78,7 +79,7 @@ std::uint64_t DeciderRow::all() const {
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
   std::map<std::string, std::set<std::string>> families;
   for (const auto& each : statistics.counts)
-    families[each.first.subject].insert(shown_family(each.first.family));
+    families[each.first.subject].insert(row_family(each.first.family));
   std::vector<DeciderRow> rows;
   for (const auto& [subject, names] : families) {
     DeciderRow all = row(statistics, subject, "");

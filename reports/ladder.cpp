@@ -12,6 +12,7 @@
 
 #include "ccd/scalar_name.hpp"
 #include "ccd/tight_tolerances.hpp"
+#include "reports/family.hpp"
 #include "reports/json.hpp"
 #include "reports/summary.hpp"
 
@@ -54,10 +55,6 @@ LadderPlace place_of(const std::string& subject) {
   else if (algorithm == "wang" || algorithm == "wang-eps" || algorithm == "wang-plain")
     place.unit = claimed_distance("wang", *exponent);
   return place;
-}
-
-std::string_view origin(std::string_view family) {
-  return family.starts_with("search-") ? "directed search" : family;
 }
 
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {

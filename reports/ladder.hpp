@@ -30,12 +30,8 @@ struct LadderPlace {
 
 LadderPlace place_of(const std::string& subject);
 
-/// Where queries come from: their family, or "directed search" for those that a search for any subject has
-/// found.
-std::string_view origin(std::string_view family);
-
-/// wang and wang-tight over the scalars that statistics have, by ascending precision; of one origin, or of
-/// all where it is "".
+/// wang and wang-tight over the scalars that statistics have, by ascending precision; of one origin
+/// (family.hpp), or of all where it is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = "");
 
 /// The power of ε by which the farthest distance of an algorithm falls, fitted by least squares to its

@@ -11,6 +11,7 @@
 #include "reports/baseline.hpp"
 #include "reports/csv.hpp"
 #include "reports/decider_table.hpp"
+#include "reports/family.hpp"
 #include "reports/headline.hpp"
 #include "reports/json.hpp"
 #include "reports/ladder.hpp"
@@ -52,10 +53,15 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
 }
 
 ordered_json farthest_json(const ShownFarthest& each) {
-  return {{"subject", each.key.subject},       {"kind", short_name(each.key.kind)},
-          {"family", each.key.family},         {"ratio", each.far.ratio},
-          {"provenance", each.far.provenance}, {"query", each.far.query.x},
-          {"time", moment(each.far.query)},    {"file", "farthest/" + each.exported.file}};
+  return {{"subject", each.key.subject},
+          {"kind", short_name(each.key.kind)},
+          {"family", each.key.family},
+          {"shown_family", shown_family(each.key.family)},
+          {"ratio", each.far.ratio},
+          {"provenance", each.far.provenance},
+          {"query", each.far.query.x},
+          {"time", moment(each.far.query)},
+          {"file", "farthest/" + each.exported.file}};
 }
 
 /// How each subject and kind did in the baseline and does now.
@@ -91,7 +97,7 @@ void fill_folder(const Campaign& campaign, const ReportContext& context, const f
 }  // namespace
 
 ordered_json report_json(const Campaign& campaign, const ReportContext& context) {
-  ordered_json json = summary_json(campaign);
+  ordered_json json = summary_json({campaign.runs, by_shown_family(campaign.statistics)});
   std::optional<Changes> since;
   if (context.baseline) since = changes(campaign, *context.baseline);
   const Headline line = headline(campaign.statistics, since);

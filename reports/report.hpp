@@ -21,9 +21,10 @@ struct ReportContext {
   std::vector<Environment> environments = {};
 };
 
-/// Everything that the page shows: summary_json with a headline, a verdict for each subject, error against
-/// run time, the histogram's borders, the findings (the first ones of each signature) and the farthest false
-/// positives with the names of their case files, and, where there is a baseline, what changed since.
+/// Everything that the page shows: summary_json by shown family (family.hpp), with a headline, a verdict for
+/// each subject, error against run time, the histogram's borders, the findings (the first ones of each
+/// signature) and the farthest false positives with the names of their case files, and, where there is a
+/// baseline, what changed since.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the folder, whole or not at all:

@@ -79,7 +79,7 @@ const quantile = (title, field) => ({ title, number: (r) => r.times[field] ?? -1
 
 /** The farthest false positive of a subject and kind, in a family or in any. */
 const farthestOf = ({ subject, kind, family }) => report.farthest
-  .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.family === family))
+  .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family))
   .reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
 
 function drawCounts() {

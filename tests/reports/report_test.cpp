@@ -139,6 +139,38 @@ TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
   EXPECT_EQ(json["findings"][6]["original_file"], "cases/false-negative-wang-007-original.case");
 }
 
+TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
+  Campaign campaign = some_campaign("wang:p24");
+  auto& counts = campaign.statistics.counts;
+  const Counts some = counts.begin()->second;
+  for (const char* family : {"search-far-wang:p24", "search-far-wang", "search-miss-wang", "searching"}) {
+    counts[{"wang:p24", Kind::vertex_triangle, family}] = some;
+    campaign.statistics.oracle[{Kind::vertex_triangle, family}].queries = 3;
+  }
+  campaign.runs.front().findings.front().family = "search-far-wang";
+  const auto json = report_json(campaign);
+  const auto& families = json["subjects"]["wang:p24"]["vt"]["families"];
+  EXPECT_EQ(families.size(), 4);
+  EXPECT_EQ(families["search-miss"]["queries"], 3);
+  EXPECT_EQ(families["searching"]["queries"], 3);
+  const auto& far = families["search-far"];
+  EXPECT_EQ(far["queries"], 6);
+  EXPECT_EQ(far["collisions"], 4);
+  EXPECT_EQ(far["false_negatives"], 2);
+  Counts both = some;
+  both.merge(some);
+  EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json(both)["false_positive_rate_interval_95"]);
+  EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
+  EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
+  // What leads back to a query has the whole name.
+  EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
+  ASSERT_EQ(json["farthest"].size(), 5);
+  EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");
+  EXPECT_EQ(json["farthest"][1]["shown_family"], "search-far");
+  EXPECT_THAT(statistics_csv(campaign.statistics), HasSubstr("\nwang:p24,vt,search-far-wang,3,"));
+  EXPECT_TRUE(summary_json(campaign)["subjects"]["wang:p24"]["vt"]["families"].contains("search-far-wang"));
+}
+
 TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
   write_report(some_campaign("wang"), {}, file("report"));
   write("report/cases/old.case", "");
