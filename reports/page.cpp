@@ -18,6 +18,7 @@
 NEARMISS_ASSET(nearmiss_page_html, NEARMISS_PAGE "/page.html");
 NEARMISS_ASSET(nearmiss_page_css, NEARMISS_PAGE "/page.css");
 NEARMISS_ASSET(nearmiss_page_data, NEARMISS_PAGE "/data.js");
+NEARMISS_ASSET(nearmiss_page_picker, NEARMISS_PAGE "/picker.js");
 NEARMISS_ASSET(nearmiss_page_tables, NEARMISS_PAGE "/tables.js");
 NEARMISS_ASSET(nearmiss_page_turning, NEARMISS_PAGE "/turning.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
@@ -77,6 +78,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_turning_begin, nearmiss_page_turning_end),
                                       between(nearmiss_page_picture_begin, nearmiss_page_picture_end),
                                       between(nearmiss_page_mesh_begin, nearmiss_page_mesh_end),
+                                      between(nearmiss_page_picker_begin, nearmiss_page_picker_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
                                       between(nearmiss_page_error_time_begin, nearmiss_page_error_time_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),

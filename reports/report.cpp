@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
@@ -103,8 +104,15 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   const Headline line = headline(campaign.statistics, since);
   json["headline"] = {{"clean", line.clean}, {"text", line.text}};
   json["verdicts"] = ordered_json::array();
-  for (const SubjectVerdict& each : subject_verdicts(campaign.statistics))
-    json["verdicts"].push_back({{"subject", each.subject}, {"clean", each.clean}, {"text", each.text}});
+  for (const SubjectVerdict& each : subject_verdicts(campaign.statistics)) {
+    const LadderPlace place = place_of(each.subject);
+    json["verdicts"].push_back({{"subject", each.subject},
+                                {"clean", each.clean},
+                                {"text", each.text},
+                                {"algorithm", place.algorithm},
+                                {"scalar", place.scalar},
+                                {"epsilon", std::exp2(place.epsilon_exponent)}});
+  }
   json["oracle"]["complaint"] = oracle_complaint(campaign.statistics);
   json["error_against_time"] = trade_offs_json(campaign.statistics);
   json["histogram_borders"] = ordered_json::array();

@@ -7,21 +7,19 @@ const words = { labelColor: color("--ink"), titleColor: color("--ink") };
 const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
   legend: { orient: "bottom", columns: 8, symbolLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
   axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
-const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
 
-/** Draws a chart; no code is made of strings, so that the strictest content policy allows it. */
-function draw(id, description, spec) {
-  return vegaEmbed("#" + id, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
+const drawn = {};
+
+/** Draws a chart, in place of an earlier one; no code is made of strings, so that the strictest content policy allows it. */
+async function draw(id, description, spec) {
+  const node = element(id);
+  node.style.minHeight = `${node.offsetHeight}px`; // what is below does not jump
+  drawn[id]?.finalize();
+  drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
     { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
+  node.style.minHeight = "";
 }
 
-// Okabe and Ito's colours, which the colour-blind can tell apart.
-const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47", "#5e3c99", "#1b1b1b"];
-const subjectNames = Object.keys(report.subjects);
-const subjectColor = {
-  field: "subject", type: "nominal", title: "subject",
-  scale: { domain: subjectNames, range: subjectNames.map((_, i) => palette[i % palette.length]) },
-};
 /** Colours of algorithms, which subjects over many scalars share. */
 const algorithmNames = [...new Set([...Object.values(report.error_against_time.subjects), ...(report.ladder?.rungs ?? [])]
   .map((row) => row.algorithm))];
@@ -59,11 +57,19 @@ function rateRows() {
 }
 
 function drawRates() {
-  const rows = rateRows();
-  const families = [...new Set(rows.map((row) => row.family))].sort();
-  const lowest = 10 ** Math.floor(Math.log10(Math.min(...rows.map((row) => row.lo))));
-  const y = { field: "family", type: "nominal", title: null, scale: { domain: families } };
-  const yOffset = { field: "subject", scale: { domain: subjectNames } };
+  const all = rateRows();
+  const rows = all.filter(isChosen);
+  const names = chosenNames();
+  const families = [...new Set(all.map((row) => row.family))].sort();
+  const lowest = 10 ** Math.floor(Math.log10(Math.min(...all.map((row) => row.lo))));
+  // However many there are the chart stays below 2,400 pixels, as long as there is room for the names of families.
+  const rowsOfSubjects = hasPicker ? names.length + 1 : 1.25 * names.length;
+  const step = Math.max(11 / rowsOfSubjects, Math.min(Math.max(4, 12 / names.length), 2300 / (families.length * rowsOfSubjects)));
+  const hue = chosenColor();
+  const opacity = isDark ? 1 : 0.7;
+  const y = { field: "family", type: "nominal", title: null, scale: { domain: families },
+    ...(hasPicker ? { scale: { domain: families, padding: 0 } } : {}) };
+  const yOffset = { field: "subject", scale: { domain: names, ...(hasPicker ? { padding: 1 } : {}) } };
   const decades = [];
   for (let decade = 1; decade >= 0.99 * lowest; decade /= 10) decades.push(decade);
   const rate = (field) => ({ field, type: "quantitative", title: "false positives, of all that is no collision",
@@ -73,18 +79,21 @@ function drawRates() {
     { field: "lo", title: "from", format: ".3~%" }, { field: "hi", title: "to", format: ".3~%" },
     { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
     { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+  const separators = { data: { values: families.slice(1).map((family) => ({ family })) },
+    mark: { type: "rule", color: color("--line") }, encoding: { y: { ...y, bandPosition: 0 } } };
   const panel = (kind, i) => ({
-    width: 400, height: { step: Math.max(4, 12 / subjectNames.length), for: "offset" }, title: kindTitles[kind],
+    width: 400, height: hasPicker ? families.length * rowsOfSubjects * step : { step, for: "offset" }, title: kindTitles[kind],
     transform: [{ filter: `datum.kind === "${kind}"` }],
     layer: [
-      { mark: { type: "rule", strokeWidth: 1.5 }, encoding: { y, yOffset, x: rate("lo"), x2: { field: "hi" }, color: subjectColor, tooltip } },
-      { mark: { type: "point", filled: true, size: 28 },
-        encoding: { y: i === 0 ? y : { ...y, axis: { labels: false, ticks: false } }, yOffset, x: rate("false_positive_rate"), color: subjectColor, tooltip } },
+      ...(hasPicker ? [separators] : []),
+      { mark: { type: "rule", strokeWidth: 1.5 }, encoding: { y, yOffset, x: rate("lo"), x2: { field: "hi" }, color: hue, tooltip } },
+      { mark: { type: "point", filled: true, size: Math.min(28, 10 * step), opacity },
+        encoding: { y: i === 0 ? y : { ...y, axis: { labels: false, ticks: false } }, yOffset, x: rate("false_positive_rate"), color: hue, tooltip } },
     ],
     resolve: { axis: { y: "shared" } },
   });
   return draw("rates", "For each family and subject the rate of false positives with its confidence interval.",
-    { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => rows.some((row) => row.kind === kind)).map(panel) });
+    { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
 function drawDistances() {
@@ -100,6 +109,7 @@ function drawDistances() {
     });
   }
   const used = values.filter((v) => v.count > 0).map((v) => v.from);
+  const hue = chosenColor();
   const first = borders[Math.max(0, borders.indexOf(Math.min(...used)) - 1)];
   const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
     encoding: { x: { field: "bound", type: "quantitative" } } };
@@ -113,7 +123,7 @@ function drawDistances() {
           x: { field: field === "count" ? "from" : "to", type: "quantitative", title: "distance / bound", scale: { type: "log", domain: [first, 10] },
             axis: { format: ".0e", tickCount: 8, labelAngle: -40 } },
           y: { field, type: "quantitative", title, ...scale },
-          color: subjectColor,
+          color: hue,
           tooltip: [{ field: "subject" }, { field: "from", format: ".3e" }, { field: "to", format: ".3e" }, { field: "count" },
             { field: "share", title: "not farther", format: ".2%" }],
         },
@@ -122,7 +132,7 @@ function drawDistances() {
     ],
   });
   return draw("distances", "How many false positives there are at each distance, and the share that is not farther.", {
-    data: { values },
+    data: { values: values.filter(isChosen) },
     hconcat: ["vt", "ee"].filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
       panel(kind, "count", "false positives", "step-after", { scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } }),
       panel(kind, "share", "not farther", "linear", { scale: { domain: [0, 1] }, axis: { tickCount: 5, format: "%" } }),
@@ -132,7 +142,7 @@ function drawDistances() {
 
 function drawStages() {
   const values = [];
-  for (const row of countRows(false))
+  for (const row of countRows(false).filter(isChosen))
     for (const [truth, field] of [["true positives", "true_positives_by_stage"], ["false positives", "false_positives_by_stage"]])
       for (const [stage, n] of Object.entries(row[field])) values.push({ subject: `${row.subject} ${row.kind}`, truth, stage, count: n });
   const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "filter", "exact", "unspecified"];
@@ -143,7 +153,7 @@ function drawStages() {
       width: 360, height: { step: 20 },
       mark: "bar",
       encoding: {
-        y: { field: "subject", type: "nominal", title: null },
+        y: { field: "subject", type: "nominal", title: null, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
         x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
         color: { field: "stage", type: "nominal", title: "accepted by", sort: order, scale: { domain: order, range: palette } },
         order: { field: "stage", sort: "ascending" },
@@ -157,7 +167,7 @@ function drawSweeps() {
   const values = [];
   for (const [family, bySubject] of Object.entries(report.sweeps))
     for (const [subject, steps] of Object.entries(bySubject))
-      steps.forEach((step, i) => values.push({ row: `${family} · ${subject}`, family, subject, step: i, ...step }));
+      if (isChosen({ subject })) steps.forEach((step, i) => values.push({ row: `${family} · ${subject}`, family, subject, step: i, ...step }));
   const ends = Math.max(...values.map((v) => v.step));
   const x = { field: "step", type: "ordinal", title: null,
     axis: { values: [0, ends], labelExpr: "datum.value === 0 ? 'lowest' : 'highest'", labelAngle: 0, labelFlush: true, ticks: false } };

@@ -29,7 +29,7 @@ function drawHead() {
 /** Links to the sections that are shown. */
 function drawNavigation() {
   const titles = { "findings-section": `Findings (${report.findings.length})` };
-  for (const section of document.querySelectorAll("main > section:not([hidden]) > h2"))
+  for (const section of document.querySelectorAll("main section:not([hidden]) > h2"))
     document.querySelector("nav").append(made("a", titles[section.parentNode.id] ?? section.textContent, { href: `#${section.parentNode.id}` }));
 }
 
@@ -287,6 +287,21 @@ const charts = [
 ].filter(([, , there]) => there);
 for (const [id] of charts) show(id);
 drawNavigation();
-Promise.all(charts.map(([, chart]) => chart()))
-  .then(() => document.body.setAttribute("data-drawn", "true"))
-  .catch((error) => document.body.setAttribute("data-error", String(error)));
+
+/** Draws charts one after another with an earlier call's; the last call's choice of subjects is what remains. */
+let calls = 0;
+let drawing = Promise.resolve();
+function drawCharts(some) {
+  const call = ++calls;
+  document.body.removeAttribute("data-drawn");
+  drawing = drawing.then(() => call === calls && Promise.all(some.map(([, chart]) => chart())))
+    .then(() => call === calls && document.body.setAttribute("data-drawn", "true"))
+    .catch((error) => document.body.setAttribute("data-error", String(error)));
+}
+drawCharts(charts);
+const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));
+if (hasPicker && ofSubjects.length > 0)
+  drawPicker(() => {
+    element("by-subject").classList.toggle("empty", chosenNames().length === 0);
+    drawCharts(chosenNames().length === 0 ? [] : ofSubjects);
+  });

@@ -67,6 +67,8 @@ async function showsFindings(browser) {
   assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
   assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
 
+  assert.equal(await page.isVisible("#picker"), false);
+
   assert.equal(await page.isVisible("#deciders-part"), false); // neither asks another
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
@@ -301,6 +303,60 @@ async function showsTheLadderAndTheAudit(browser) {
   await page.close();
 }
 
+/** Those that failed and the Pareto front come first; a change draws again what has a row or a line for each subject. */
+async function showsAChoiceOfManySubjects(browser) {
+  const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
+  const page = await open(browser, makeReport("many", ["--cases", "500", "--search", "--subject", names.join(",")]));
+  const { verdicts, error_against_time, subjects } = JSON.parse(readFileSync(join(folder, "many", "report.json")));
+  const bad = verdicts.filter((each) => !each.clean).map((each) => each.subject);
+  assert.ok(bad.includes("basic") && names.length - bad.length > 8);
+  const families = (name) => Object.keys(subjects[name].vt.families).filter((family) => family.startsWith("search"));
+  assert.deepEqual(families("wang"), ["search-far", "search-miss"]);
+
+  const chosen = () => page.locator("#picker input:checked").evaluateAll((all) => all.map((each) => each.value));
+  const shown = () => page.locator("#stages .role-axis-label text").allTextContents()
+    .then((labels) => labels.filter((label) => !label.endsWith("%")));
+  const rows = (some) => new Set(some.flatMap((name) => [`${name} vt`, `${name} ee`]));
+  const isAsChosen = async (some) => {
+    await page.waitForSelector("body[data-drawn]");
+    assert.deepEqual(new Set(await chosen()), new Set(some));
+    assert.deepEqual(new Set(await shown()), rows(some));
+    const lines = some.flatMap((name) => Object.values(subjects[name])).filter((each) => each.false_positives > 0).length;
+    assert.equal(await count(page, "#distances .mark-line path"), 2 * lines);
+    assert.match(await page.textContent("#picker-count"), new RegExp(`: ${some.length} of ${names.length}$`));
+    const rates = await page.locator("#rates svg.marks").boundingBox();
+    assert.ok(rates.height < 2500);
+  };
+  const first = await chosen();
+  assert.equal(first.length, 8);
+  const front = [...(error_against_time.ladder ?? error_against_time).front_by_distance, ...error_against_time.front_by_rate];
+  for (const name of [...bad, ...front].slice(0, 8)) assert.ok(first.includes(name), name);
+  await isAsChosen(first);
+  assert.equal(await count(page, "#picker-legend .swatch"), 8);
+
+  assert.equal(await page.isVisible("#picker-choices"), false);
+  await page.focus("#picker summary");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.isVisible("#picker-choices"), true);
+  await page.locator(`#picker input[value="${first[0]}"]`).focus();
+  await page.keyboard.press("Space");
+  await isAsChosen(first.slice(1));
+  const press = (name) => page.locator("#picker button", { hasText: new RegExp(`^${name}$`) }).click();
+  await press("none");
+  await page.waitForSelector("body[data-drawn]");
+  assert.equal(await page.locator("#stages svg.marks").isVisible(), false);
+  const ofWang = names.filter((name) => name === "wang" || name.startsWith("wang:"));
+  await press("wang");
+  await isAsChosen(ofWang);
+  await press("all");
+  await press("wang"); // before all are drawn
+  await isAsChosen(names.filter((name) => !ofWang.includes(name)));
+  await press("as at first");
+  await isAsChosen(first);
+  assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables are complete
+  await page.close();
+}
+
 async function showsThePowerOfDetection(browser) {
   run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
@@ -350,6 +406,7 @@ try {
   await showsSceneStepsAndMeshes(browser);
   await showsTheLadderAndTheAudit(browser);
   await showsWhatDecides(browser);
+  await showsAChoiceOfManySubjects(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await fitsEveryMedium(browser);

@@ -1,0 +1,105 @@
+// Which subjects are in charts that have a row or a line for each: all, or where there are many those that one chooses.
+"use strict";
+
+const subjectNames = Object.keys(report.subjects);
+const fewSubjects = 8;
+const hasPicker = subjectNames.length > fewSubjects;
+const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
+
+// Okabe and Ito's colours, which the colour-blind can tell apart.
+const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47",
+  isDark ? "#9a7fe0" : "#5e3c99", isDark ? "#f2f2f2" : "#1b1b1b", "#a2b627", "#f28e8e"];
+
+/** Algorithms together, each from few digits to many; where there are few subjects in the order of their names. */
+const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
+if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
+
+/** So many of a list, with its ends. */
+const evenly = (list, many) => (list.length <= many ? list
+  : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
+
+/** Those that failed; the Pareto fronts of error against run time; those that are over no other scalar; some of the others. */
+function firstChoice() {
+  const { front_by_distance, front_by_rate, ladder } = report.error_against_time;
+  const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate]);
+  const named = (test) => places.filter(test).map((place) => place.subject);
+  const choice = new Set(evenly(named((place) => !place.clean), 12));
+  for (const group of [named((place) => fronts.has(place.subject)), named((place) => place.algorithm === place.subject), named(() => true)])
+    for (const subject of evenly(group.filter((each) => !choice.has(each)), Math.max(0, fewSubjects - choice.size))) choice.add(subject);
+  return choice;
+}
+
+/** The colours of the chosen, as indices; they stay as long as a subject is chosen. */
+const chosenColors = new Map();
+
+/** Chooses these; of two that want the same colour one takes the first that is free. */
+function choose(choice) {
+  for (const subject of chosenColors.keys()) if (!choice.has(subject)) chosenColors.delete(subject);
+  const isFree = (index) => ![...chosenColors.values()].includes(index);
+  for (const { subject } of places) {
+    if (!choice.has(subject) || chosenColors.has(subject)) continue;
+    let index = subjectNames.indexOf(subject);
+    if (hasPicker && !isFree(index %= palette.length)) for (index = 0; !isFree(index); ++index);
+    chosenColors.set(subject, index);
+  }
+}
+choose(hasPicker ? firstChoice() : new Set(subjectNames));
+
+const isChosen = ({ subject }) => chosenColors.has(subject);
+const chosenNames = () => places.filter(isChosen).map((place) => place.subject);
+const paletteColor = (index) => palette[index % palette.length];
+const colorOf = (names, index) => ({ field: "subject", type: "nominal", title: "subject",
+  scale: { domain: names, range: names.map((name) => paletteColor(index(name))) } });
+const subjectColor = colorOf(subjectNames, (name) => subjectNames.indexOf(name));
+function chosenColor() {
+  const names = chosenNames();
+  const columns = Math.floor(element("how").clientWidth / (45 + 6 * Math.max(...names.map((name) => name.length))));
+  return { ...colorOf(names, (name) => chosenColors.get(name)), ...(hasPicker ? { legend: { columns: Math.max(2, Math.min(8, columns)) } } : {}) };
+}
+
+/** Draws the picker. @param redraw is called after each change */
+function drawPicker(redraw) {
+  show("picker");
+  const boxes = new Map();
+  const update = () => {
+    const names = chosenNames();
+    for (const [subject, box] of boxes) box.checked = chosenColors.has(subject);
+    element("picker-count").textContent = `Subjects in the charts below: ${names.length} of ${subjectNames.length}`;
+    element("picker-legend").replaceChildren(...(names.length > palette.length ? [] : names).map((name) =>
+      made("span", [made("span", "", { class: "swatch", style: `background: ${paletteColor(chosenColors.get(name))}` }), ` ${name}`])));
+  };
+  const change = (choice) => {
+    choose(choice);
+    update();
+    redraw();
+  };
+  const changed = (subjects, are) => {
+    const choice = new Set(chosenNames());
+    for (const subject of subjects) are ? choice.add(subject) : choice.delete(subject);
+    change(choice);
+  };
+  const button = (title, act, hint) => {
+    const node = made("button", title, { type: "button", ...(hint ? { title: hint } : {}) });
+    node.addEventListener("click", act);
+    return node;
+  };
+  const checkbox = ({ subject }, title) => {
+    const box = made("input", [], { type: "checkbox", value: subject });
+    box.addEventListener("change", () => changed([subject], box.checked));
+    boxes.set(subject, box);
+    return made("label", [box, ` ${title}`], { title: subject });
+  };
+  const group = (title, members, titleOf) => {
+    const subjects = members.map((place) => place.subject);
+    const toggle = () => changed(subjects, !subjects.every((subject) => chosenColors.has(subject)));
+    return made("fieldset", [made("legend", button(title, toggle, "all of them, or none")), ...members.map((place) => checkbox(place, titleOf(place)))]);
+  };
+  const alone = places.filter((place) => place.isAlone);
+  const algorithms = [...new Set(places.filter((place) => !place.isAlone).map((place) => place.algorithm))];
+  element("picker-choices").append(
+    made("div", [button("all", () => change(new Set(subjectNames))), button("none", () => change(new Set())),
+      button("as at first", () => change(firstChoice()))], { class: "buttons" }),
+    ...algorithms.map((name) => group(name, places.filter((place) => place.algorithm === name), (place) => place.scalar)),
+    ...(alone.length === 0 ? [] : [group(algorithms.length === 0 ? "subjects" : "others", alone, (place) => place.subject)]));
+  update();
+}
