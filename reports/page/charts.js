@@ -20,6 +20,9 @@ async function draw(id, description, spec) {
   node.style.minHeight = "";
 }
 
+/** Two panels go beside each other where there is room for them and their labels. */
+const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
+
 /** Colours of algorithms, which subjects over many scalars share. */
 const algorithmNames = [...new Set([...Object.values(report.error_against_time.subjects), ...(report.ladder?.rungs ?? [])]
   .map((row) => row.algorithm))];
@@ -82,7 +85,7 @@ function drawRates() {
   const separators = { data: { values: families.slice(1).map((family) => ({ family })) },
     mark: { type: "rule", color: color("--line") }, encoding: { y: { ...y, bandPosition: 0 } } };
   const panel = (kind, i) => ({
-    width: 400, height: hasPicker ? families.length * rowsOfSubjects * step : { step, for: "offset" }, title: kindTitles[kind],
+    width: panelWidth(400, 200), height: hasPicker ? families.length * rowsOfSubjects * step : { step, for: "offset" }, title: kindTitles[kind],
     transform: [{ filter: `datum.kind === "${kind}"` }],
     layer: [
       ...(hasPicker ? [separators] : []),
@@ -114,7 +117,7 @@ function drawDistances() {
   const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
     encoding: { x: { field: "bound", type: "quantitative" } } };
   const panel = (kind, field, title, interpolate, scale) => ({
-    width: 420, height: 200, title: title === "" ? undefined : kindTitles[kind],
+    width: panelWidth(420, 190), height: 200, title: title === "" ? undefined : kindTitles[kind],
     layer: [
       {
         transform: [{ filter: `datum.kind === "${kind}" && datum.from >= ${first}` }],
@@ -150,7 +153,7 @@ function drawStages() {
     data: { values },
     facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
     spec: {
-      width: 360, height: { step: 20 },
+      width: panelWidth(360, 210), height: { step: 20 },
       mark: "bar",
       encoding: {
         y: { field: "subject", type: "nominal", title: null, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },

@@ -5,9 +5,6 @@ const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: 
   { field: "false_negatives", title: "missed" }, { field: "collisions", title: "of collisions" },
   { field: "false_positive_rate", title: "false positives", format: ".3~%" }];
 
-/** Two panels go beside each other where there is room. */
-const panelWidth = (widest) => Math.max(300, Math.min(widest, (element("error-time").clientWidth - 150) / 2));
-
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
 /** A mark for each subject. */

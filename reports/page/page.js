@@ -11,8 +11,8 @@ const show = (id) => element(id).removeAttribute("hidden");
 const duration = (s) => (s < 120 ? `${short(s)} s` : s < 7200 ? `${short(s / 60)} min` : `${short(s / 3600)} h`);
 
 function drawHead() {
-  const { clean, text: verdict } = report.headline;
-  element("headline").textContent = verdict;
+  const { clean, text: headline } = report.headline;
+  element("headline").textContent = headline;
   element("headline").classList.toggle("bad", !clean);
   document.title = `${clean ? "ok" : "FAIL"}: nearmiss report`;
   element("runs").textContent = report.runs
@@ -21,9 +21,16 @@ function drawHead() {
     .join(" · ");
   const lines = report.verdicts.map((v) => ({ name: v.subject, bad: !v.clean, text: v.text }));
   if (report.oracle.complaint) lines.unshift({ name: "oracle", bad: true, text: report.oracle.complaint });
-  for (const line of lines)
-    element("verdicts").append(made("div", [["mark", line.bad ? "FAIL" : "ok"], ["subject", line.name], ["text", line.text]]
-      .map(([name, content]) => made("span", content, { class: name })), { class: line.bad ? "verdict bad" : "verdict" }));
+  const verdict = (line) => made("div", [["mark", line.bad ? "FAIL" : "ok"], ["subject", line.name], ["text", line.text]]
+    .map(([name, content]) => made("span", content, { class: name })), { class: line.bad ? "verdict bad" : "verdict" });
+  const [bad, good] = [true, false].map((are) => lines.filter((line) => line.bad === are));
+  if (good.length <= fewSubjects) {
+    element("verdicts").append(...lines.map(verdict));
+    return;
+  }
+  const summary = made("summary", [made("span", "ok", { class: "mark" }), made("span", `${good.length} subjects`, { class: "subject" }),
+    made("span", "did not fail", { class: "text" })], { class: "verdict" });
+  element("verdicts").append(...bad.map(verdict), made("details", [summary, ...good.map(verdict)]));
 }
 
 /** Links to the sections that are shown. */

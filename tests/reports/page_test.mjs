@@ -310,6 +310,11 @@ async function showsAChoiceOfManySubjects(browser) {
   const { verdicts, error_against_time, subjects } = JSON.parse(readFileSync(join(folder, "many", "report.json")));
   const bad = verdicts.filter((each) => !each.clean).map((each) => each.subject);
   assert.ok(bad.includes("basic") && names.length - bad.length > 8);
+  assert.equal(await page.locator(".verdict.bad").first().isVisible(), true);
+  assert.equal(await page.locator("#verdicts details div.verdict").first().isVisible(), false);
+  await page.click("#verdicts summary");
+  assert.equal(await count(page, "div.verdict:visible"), names.length);
+
   const families = (name) => Object.keys(subjects[name].vt.families).filter((family) => family.startsWith("search"));
   assert.deepEqual(families("wang"), ["search-far", "search-miss"]);
 
