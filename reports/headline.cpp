@@ -18,6 +18,11 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+/// The names of subjects, or where there are many their number.
+std::string subjects(const std::vector<std::string>& names) {
+  return names.size() <= 8 ? listed(names) : fmt::format("{} subjects", names.size());
+}
+
 std::string since_text(const Changes& since) {
   std::vector<std::string> news;
   if (const std::size_t ways = since.new_signatures.size(); ways != 0)
@@ -38,8 +43,8 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
   const std::string complaint = oracle_complaint(statistics);
   std::string text;
   if (!complaint.empty()) text = "The oracle is not to be trusted: " + complaint + ". ";
-  if (!failed.empty()) text += listed(failed) + " failed";
-  if (!clean.empty()) text += fmt::format("{}{} did not fail", failed.empty() ? "" : "; ", listed(clean));
+  if (!failed.empty()) text += subjects(failed) + " failed";
+  if (!clean.empty()) text += fmt::format("{}{} did not fail", failed.empty() ? "" : "; ", subjects(clean));
   if (const auto queries = statistics.oracle_total().queries; queries != 0)
     text += fmt::format(", in {}", counted(queries, "query", "queries"));
   if (since) text += fmt::format("{}{}", text.empty() ? "" : "; ", since_text(*since));

@@ -133,6 +133,14 @@ TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
   EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
 }
 
+TEST(Headline, CountsSubjectsWhereThereAreMany) {
+  Campaign many = campaign("1", {});
+  for (char name = 'a'; name < 'k'; ++name)
+    many.statistics.counts[{std::string(1, name), Kind::edge_edge, "f"}] = counts(9, 5, 0, 0);
+  many.statistics.counts.begin()->second.false_negatives = 1;
+  EXPECT_EQ(headline(many.statistics, std::nullopt).text, "a failed; 9 subjects did not fail.");
+}
+
 TEST(TradeOff, OnTheFrontIsWhatNoSoundOneBeats) {
   const auto at = [](const char* subject) { return Key{subject, Kind::edge_edge, "f"}; };
   Statistics statistics;
