@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "fuzz/ladder/scalars.hpp"
 #include "oracle/filter.hpp"
@@ -36,18 +37,20 @@ class Adaptive final : public Subject {
 
   void decide_some(std::span<const Query> queries, std::span<Verdict> verdicts) const {
     wang_->decide(queries, verdicts.first(queries.size()));
-    std::array<Query, at_once> reported;
-    std::array<std::size_t, at_once> where;
-    std::array<FilterStage, at_once> stages;
+    std::array<std::size_t, at_once> reported;
     std::size_t count = 0;
     for (std::size_t i = 0; i < queries.size(); ++i)
-      if (verdicts[i].hit) {
-        reported[count] = queries[i];
-        where[count++] = i;
-      }
-    filter(std::span(reported).first(count), stages);
-    for (std::size_t i = 0; i < count; ++i)
-      verdicts[where[i]] = decide_again(reported[i], stages[i], verdicts[where[i]].time);
+      if (verdicts[i].hit) reported[count++] = i;
+    if (count == 0) return;
+    std::vector<Query> again;  // of the size that it needs: to clear room for all would take longer than wang
+    again.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) again.push_back(queries[reported[i]]);
+    std::array<FilterStage, at_once> stages;
+    filter(again, stages);
+    for (std::size_t i = 0; i < count; ++i) {
+      Verdict& verdict = verdicts[reported[i]];
+      verdict = decide_again(again[i], stages[i], verdict.time);
+    }
   }
 
   [[nodiscard]] Verdict decide_again(const Query& query, FilterStage stage, double time) const {
