@@ -116,12 +116,18 @@ struct Timed {
   std::vector<std::uint64_t> each;  ///< each query's own; empty where they were not taken
 };
 
-/// Queries are timed together, which costs nothing; one batch in 16 once more, each query by itself.
-Timed decide_all(const Subject& subject, const Batch& batch) {
+/// Queries are timed together, which costs nothing; one batch in 16 once more, each query by itself. One of
+/// many subjects finds its code out of the caches when its turn comes, and begins with a few that do not count.
+Timed decide_all(const Subject& subject, const Batch& batch, bool is_one_of_many) {
   constexpr std::uint64_t one_in = 16;
+  constexpr std::size_t few = 8;
   Timed answers;
   answers.verdicts.resize(batch.queries.size());
   if (!subject.is_remote()) {
+    if (batch.timed && is_one_of_many) {
+      const auto first = std::span(batch.queries).first(std::min(few, batch.queries.size()));
+      subject.decide(first, std::span(answers.verdicts).first(first.size()));
+    }
     const auto start = std::chrono::steady_clock::now();
     subject.decide(batch.queries, answers.verdicts);
     const auto time = std::chrono::steady_clock::now() - start;
@@ -154,7 +160,7 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
   std::vector<Timed> answers;
   std::vector<Counts*> counts;
   for (const auto& subject : subjects) {
-    answers.push_back(decide_all(*subject, batch));
+    answers.push_back(decide_all(*subject, batch, subjects.size() > 4));
     counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
     if (!batch.timed) continue;
     counts.back()->timed_queries += batch.queries.size();
