@@ -9,7 +9,7 @@
 #include <set>
 
 #include "corpus/query_text.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

@@ -9,7 +9,7 @@
 
 #include "reports/family.hpp"
 #include "reports/funnel.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

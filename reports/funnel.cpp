@@ -8,7 +8,7 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/statistics.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

@@ -14,7 +14,7 @@
 #include "ccd/tight_tolerances.hpp"
 #include "reports/family.hpp"
 #include "reports/json.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

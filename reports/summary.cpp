@@ -8,26 +8,9 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/confidence.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
-
-std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t to_the_left) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += i < to_the_left ? fmt::format("{:<{}}  ", row[i], widths[i])
-                              : fmt::format("{:>{}}  ", row[i], widths[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
-}
-
-namespace {
 
 namespace {
 
@@ -47,32 +30,6 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
 }
 
 }  // namespace
-
-}  // namespace
-
-std::string with_separators(std::uint64_t number) {
-  std::string digits = fmt::format("{}", number);
-  for (auto i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
-    digits.insert(static_cast<std::size_t>(i), 1, ',');
-  return digits;
-}
-
-std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", with_separators(count), count == 1 ? one : many);
-}
-
-std::string percent(std::uint64_t part, std::uint64_t all) {
-  return all == 0 ? "" : fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
-}
-
-std::string fraction_of_bound(double ratio) {
-  std::string text;
-  for (int digits = 3; digits <= 17; ++digits) {
-    text = fmt::format("{:.{}g}", ratio, digits);
-    if (ratio >= 1 || text != "1") break;
-  }
-  return text;
-}
 
 bool found_anything(const Statistics& statistics) {
   return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

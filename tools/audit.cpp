@@ -7,7 +7,7 @@
 #include "corpus/file.hpp"
 #include "fuzz/audit/audit.hpp"
 #include "fuzz/audit/tolerance_table.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {

@@ -14,7 +14,7 @@
 #include "fuzz/power/power.hpp"
 #include "fuzz/search.hpp"
 #include "reports/power_table.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"

@@ -4,7 +4,7 @@
 #include "corpus/readers.hpp"
 #include "fuzz/trial_stream.hpp"
 #include "reports/shell.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"

@@ -14,7 +14,7 @@
 #include "fuzz/scenes/verify.hpp"
 #include "fuzz/subjects.hpp"
 #include "reports/shell.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/scene_subjects.hpp"

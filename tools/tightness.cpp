@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "fuzz/power/tightness.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"

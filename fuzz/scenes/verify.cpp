@@ -11,7 +11,7 @@
 #include "oracle/box.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/translation.hpp"
-#include "reports/summary.hpp"
+#include "reports/text.hpp"
 
 namespace nearmiss {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
@@ -13,6 +14,7 @@
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
 #include "reports/summary.hpp"
+#include "reports/text.hpp"
 #include "tests/queries.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -89,6 +91,7 @@ TEST(Summary, WhatIsBelowTheBoundIsNotRoundedToIt) {
   EXPECT_EQ(fraction_of_bound(0.1234), "0.123");
   EXPECT_EQ(fraction_of_bound(1), "1");
   EXPECT_EQ(fraction_of_bound(1.0001), "1");
+  EXPECT_EQ(fraction_of_bound(std::numeric_limits<double>::max()), "inf");
   EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
 }
 

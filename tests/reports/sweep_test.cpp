@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/json.hpp"
-#include "reports/summary.hpp"
 
 namespace nearmiss {
 namespace {
