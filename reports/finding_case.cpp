@@ -18,7 +18,7 @@ std::string subject_of(const Finding& finding) {
 
 Case to_case(const Finding& finding) {
   std::string why = fmt::format("{} of {}", name(finding.what), subject_of(finding));
-  if (finding.ratio > 0) why += fmt::format(", at {} of the bound", fraction_of_bound(finding.ratio));
+  if (finding.ratio > 0) why += fmt::format(", {}", times_the_bound(finding.ratio));
   Case result{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
   if (finding.what == Finding::What::false_negative) result.truth = true;
   if (finding.what == Finding::What::refuted_bound) result.truth = false;

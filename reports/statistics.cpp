@@ -46,7 +46,8 @@ std::size_t quantile_bin(const std::array<std::uint64_t, n>& bins, double part, 
 
 double Histogram::quantile(double part) const {
   const std::size_t i = quantile_bin(bins, part, bin_count);
-  return i == bin_count ? 0 : border(i + 1);
+  if (i == bin_count) return 0;
+  return i == bin_count - 1 ? std::numeric_limits<double>::max() : border(i + 1);
 }
 
 namespace {

@@ -34,7 +34,8 @@ struct Histogram {
   void merge(const Histogram& other);
   /// The lower border of bin i; that of bin_count is the upper border of the last one.
   static double border(std::size_t i);
-  /// What a part of all, in (0, 1], does not exceed: the upper border of its bin. 0 where there is none.
+  /// What a part of all, in (0, 1], does not exceed: the upper border of its bin, which is the largest double
+  /// for the last one. 0 where there is none.
   [[nodiscard]] double quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

@@ -55,12 +55,12 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics) {
       text += fmt::format(", NO ANSWER to {} ({})", counted(counts.faults_total(), "query", "queries"),
                           fmt::join(faults, ", "));
     if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
-    if (counts.false_positives > 0)
-      text += fmt::format(", {}, the farthest at {} of the bound",
-                          counted(counts.false_positives, "false positive", "false positives"),
-                          fraction_of_bound(counts.max_ratio()));
-    else
+    if (counts.false_positives == 0)
       text += ", no false positive";
+    else
+      text += fmt::format(", {}, the farthest {}",
+                          counted(counts.false_positives, "false positive", "false positives"),
+                          times_the_bound(counts.max_ratio()));
     verdicts.push_back({subject, !missed && !refuted && faults.empty(), std::move(text)});
   }
   return verdicts;

@@ -38,14 +38,25 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
   return all == 0 ? "" : fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(all));
 }
 
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::max();
+
+}  // namespace
+
 std::string fraction_of_bound(double ratio) {
-  if (ratio == std::numeric_limits<double>::max()) return "inf";
+  if (ratio == infinite) return "inf";
   std::string text;
   for (int digits = 3; digits <= 17; ++digits) {
     text = fmt::format("{:.{}g}", ratio, digits);
     if (ratio >= 1 || text != "1") break;
   }
   return text;
+}
+
+std::string times_the_bound(double ratio) {
+  return ratio == infinite ? "beyond a bound of 0"
+                           : fmt::format("at {} of the bound", fraction_of_bound(ratio));
 }
 
 }  // namespace nearmiss

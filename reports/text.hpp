@@ -22,6 +22,9 @@ std::string percent(std::uint64_t part, std::uint64_t all);
 /// stands for any distance where 0 is claimed.
 std::string fraction_of_bound(double ratio);
 
+/// "at 0.987 of the bound", or "beyond a bound of 0".
+std::string times_the_bound(double ratio);
+
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 

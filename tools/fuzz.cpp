@@ -45,8 +45,8 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
   for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
-  line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest at {} of the bound", rate,
-                      with_separators(statistics.false_negatives()), fraction_of_bound(farthest));
+  line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest {}", rate,
+                      with_separators(statistics.false_negatives()), times_the_bound(farthest));
   if (const auto faults = statistics.faults(); faults != 0)
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);

@@ -5,7 +5,7 @@ const style = getComputedStyle(document.documentElement);
 const color = (name) => style.getPropertyValue(name).trim();
 const words = { labelColor: color("--ink"), titleColor: color("--ink") };
 const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
-  legend: { orient: "bottom", columns: 8, symbolLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
+  legend: { orient: "bottom", columns: 8, symbolLimit: 0, labelLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
   axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
 
 const drawn = {};
@@ -36,19 +36,21 @@ const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 
-/** A logarithmic axis for values of which some may be 0: these stand at its lower end, which says so. */
-function logAxisWithZero(values) {
-  const positive = values.filter((v) => v > 0);
-  if (positive.length === 0) return { zero: 0.1, scale: { type: "log", domain: [0.1, 1] }, axis: { values: [0.1], labelExpr: "'0'" } };
-  const exponents = positive.map((v) => Math.log10(v));
+/** A logarithmic axis for values of which some may be 0 or infinite: these stand at its ends, which say so. `at` is the place of one. */
+function logAxis(values) {
+  const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
+  if (exponents.length === 0) exponents.push(0);
   const lowest = Math.floor(Math.min(...exponents));
   const highest = Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
   const step = Math.ceil((highest - lowest) / 7);
-  const decades = [];
-  for (let i = highest; i >= lowest; i -= step) decades.push(10 ** i);
-  const zero = values.some((v) => v === 0) ? 10 ** (lowest - step) : 10 ** lowest;
-  return { zero, scale: { type: "log", domain: [zero, 10 ** highest], nice: false },
-    axis: { values: [...decades, zero], labelExpr: `datum.value < ${10 ** (lowest - 0.5)} ? '0' : format(datum.value, '~g')` } };
+  const power = (i) => Math.min(10 ** i, Number.MAX_VALUE); // no scale ends at infinity
+  const bottom = power(values.includes(0) ? lowest - step : lowest);
+  const top = power(values.includes(Infinity) ? highest + step : highest);
+  const ticks = [];
+  for (let i = highest; i >= lowest; i -= step) if (Math.log10(top) - i >= step / 2) ticks.push(power(i));
+  const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : format(datum.value, '~g')`;
+  return { at: (v) => Math.min(Math.max(v, bottom), top), scale: { type: "log", domain: [bottom, top], nice: false },
+    axis: { values: [top, ...ticks, bottom], labelExpr: label } };
 }
 
 /** Rates of random families, but of no sweep; cases and scenes are no samples. */
@@ -184,7 +186,7 @@ function drawSweeps() {
     layer: [
       { mark: { type: "rect", color: color("--ground") },
         encoding: { x, y: names ? y : { ...y, axis: null }, tooltip } },
-      ...(values.every((v) => !(v[field] > 0)) ? [] : [{ transform: [{ filter: `datum.${field} > 0` }], mark: { type: "rect" },
+      ...(values.every((v) => !(v[field] > 0 && v[field] < Infinity)) ? [] : [{ transform: [{ filter: `datum.${field} > 0 && isFinite(datum.${field})` }], mark: { type: "rect" },
         encoding: { x, y: names ? y : { ...y, axis: null }, tooltip,
           color: { field, type: "quantitative", title: null, scale: { type: "log", scheme, reverse: isDark },
             legend: { orient: "bottom", format, gradientLength: 280, tickCount: 4 } } } }]),

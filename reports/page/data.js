@@ -1,7 +1,8 @@
 // The report's data, which the page has inside.
 "use strict";
 
-const report = JSON.parse(document.getElementById("report").textContent);
+/** The largest double stands for a distance over a bound of 0: JSON has no infinity. */
+const report = JSON.parse(document.getElementById("report").textContent, (_, value) => (value === Number.MAX_VALUE ? Infinity : value));
 
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
 function countRows(byFamily) {

@@ -7,10 +7,12 @@ const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: 
 
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
-/** A mark for each subject. */
+/** A mark for each subject; of many only the chosen ones have a colour and a shape of their own. */
 function drawErrorTimeOfEach() {
   const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
-  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
+  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, name: isChosen({ subject }) ? subject : "others", ...each }))
+    .sort((a, b) => isChosen(a) - isChosen(b));
+  const hue = chosenColor(color("--soft"));
   const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
     scale: { type: "log", nice: false, padding: 30 }, axis: { grid: true, tickCount: 6, format: "~s" } };
   const tooltip = [...errorTimeTooltip,
@@ -18,14 +20,14 @@ function drawErrorTimeOfEach() {
     { field: "q99_fp_distance_over_bound", title: "99 %", format: ".3~g" },
     { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
   const panel = (title, top, marks, front) => {
-    const axis = logAxisWithZero(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
+    const axis = logAxis(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
     const shown = rows.map((row) => {
-      const at = { ...row, top: Math.max(row[top], axis.zero) };
-      marks.forEach((field, i) => (at[`mark${i}`] = Math.max(row[field], axis.zero)));
+      const at = { ...row, top: axis.at(row[top]) };
+      marks.forEach((field, i) => (at[`mark${i}`] = axis.at(row[field])));
       return at;
     });
     const y = (field) => ({ field, type: "quantitative", title: null, scale: axis.scale, axis: axis.axis });
-    const own = { x, color: subjectColor, tooltip };
+    const own = { x, color: hue, tooltip };
     return {
       width: panelWidth(420), height: 280, title, data: { values: shown },
       layer: [
@@ -36,7 +38,7 @@ function drawErrorTimeOfEach() {
           ...marks.map((_, i) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width: i === 0 ? 8 : 14 },
             encoding: { ...own, y: y(`mark${i}`) } }))]),
         { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
-          encoding: { ...own, y: y("top"), shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjectNames } } } },
+          encoding: { ...own, y: y("top"), shape: { ...hue, scale: { domain: hue.scale.domain } } } },
         ...(rows.every((row) => row.false_negatives === 0) ? [] : [{ transform: [{ filter: "datum.false_negatives > 0" }],
           mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper") },
           encoding: { x, y: y("top"), tooltip } }]),
@@ -112,8 +114,8 @@ function drawErrorTimeOfLadder() {
   const [width, height] = [panelWidth(460), 360];
   const panel = (title, field, front, bounds, params) => {
     const known = rows.filter((row) => row[field] !== null);
-    const axis = logAxisWithZero([...known.map((row) => row[field]), ...bounds]);
-    const shown = known.map((row) => ({ ...row, y: Math.max(row[field], axis.zero), isFront: front.includes(row.subject) }));
+    const axis = logAxis([...known.map((row) => row[field]), ...bounds]);
+    const shown = known.map((row) => ({ ...row, y: axis.at(row[field]), isFront: front.includes(row.subject) }));
     const y = { field: "y", type: "quantitative", title: null, scale: axis.scale, axis: axis.axis };
     const [lowest, highest] = axis.scale.domain;
     const part = (value, from, to) => Math.log(value / from) / Math.log(to / from);

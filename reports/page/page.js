@@ -204,7 +204,7 @@ function drawTightness() {
 
 /** What failed, how often, and where it was found. */
 function drawWhat(finding) {
-  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, at ${fraction(finding.ratio)} of the bound` : "");
+  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio)}` : "");
   return made("div", [
     ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
     made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
@@ -246,7 +246,7 @@ function drawFarthest() {
   show("farthest-section");
   fillTable(element("farthest"), [
     picture("query"),
-    { title: "of", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", `${fraction(r.ratio)} of the bound`), made("div", `from ${r.provenance}`)]) },
+    { title: "of", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio)), made("div", `from ${r.provenance}`)]) },
     { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
   ], rows);
 }
@@ -307,8 +307,9 @@ function drawCharts(some) {
 }
 drawCharts(charts);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));
+const ofAll = charts.filter(([, chart]) => chart === drawErrorTime && !report.error_against_time.ladder);
 if (hasPicker && ofSubjects.length > 0)
   drawPicker(() => {
     element("by-subject").classList.toggle("empty", chosenNames().length === 0);
-    drawCharts(chosenNames().length === 0 ? [] : ofSubjects);
+    drawCharts(chosenNames().length === 0 ? ofAll : [...ofAll, ...ofSubjects]);
   });

@@ -48,13 +48,20 @@ choose(hasPicker ? firstChoice() : new Set(subjectNames));
 const isChosen = ({ subject }) => chosenColors.has(subject);
 const chosenNames = () => places.filter(isChosen).map((place) => place.subject);
 const paletteColor = (index) => palette[index % palette.length];
-const colorOf = (names, index) => ({ field: "subject", type: "nominal", title: "subject",
-  scale: { domain: names, range: names.map((name) => paletteColor(index(name))) } });
-const subjectColor = colorOf(subjectNames, (name) => subjectNames.indexOf(name));
-function chosenColor() {
+const subjectColor = { field: "subject", type: "nominal", title: "subject",
+  scale: { domain: subjectNames, range: subjectNames.map((_, i) => paletteColor(i)) } };
+
+/** Colours of the chosen, in a legend as wide as there is room. @param others a colour for all others together, in a field "name" */
+function chosenColor(others) {
   const names = chosenNames();
+  const colors = names.map((name) => paletteColor(chosenColors.get(name)));
+  if (others && names.length < subjectNames.length) {
+    names.push("others");
+    colors.push(others);
+  }
   const columns = Math.floor(element("how").clientWidth / (45 + 6 * Math.max(...names.map((name) => name.length))));
-  return { ...colorOf(names, (name) => chosenColors.get(name)), ...(hasPicker ? { legend: { columns: Math.max(2, Math.min(8, columns)) } } : {}) };
+  return { field: others ? "name" : "subject", type: "nominal", title: "subject", scale: { domain: names, range: colors },
+    legend: { columns: Math.max(1, Math.min(8, columns)) } };
 }
 
 /** Draws the picker. @param redraw is called after each change */

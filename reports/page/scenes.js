@@ -88,8 +88,8 @@ function drawSceneSteps() {
 /** One panel a scene, one mark a subject. */
 function drawSceneErrorTime() {
   const rows = summed(askedRows(), ["scene", "subject"]).map((r) => ({ ...r, ns_per_query: r.time / r.queries, rate: falsePositiveRate(r) }));
-  const axis = logAxisWithZero(rows.map((r) => r.rate));
-  for (const row of rows) row.shown = Math.max(row.rate, axis.zero);
+  const axis = logAxis(rows.map((r) => r.rate));
+  for (const row of rows) row.shown = axis.at(row.rate);
   return draw("scene-error-time", "For each scene and subject the run time of a query and the rate of false positives.", {
     data: { values: rows },
     facet: { field: "scene", type: "nominal", title: null }, columns: 4,

@@ -3,17 +3,14 @@
 
 const integer = (n) => n.toLocaleString("en-US");
 const short = (x) =>
-  x === null || x === undefined ? "–" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
-/**
- * Three digits, or as many as it takes to tell what is below 1 from 1; the largest double stands for any distance where 0
- * is claimed.
- */
+  x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
+/** Three digits, or as many as it takes to tell what is below 1 from 1. */
 function fraction(x) {
-  if (x === Number.MAX_VALUE) return "∞";
   for (let digits = 3; x > 0.9 && x < 1; ++digits)
     if (Number(x.toPrecision(digits)) < 1) return Number(x.toPrecision(digits)).toString();
   return short(x);
 }
+const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fraction(x)} of the bound`);
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 
@@ -166,6 +166,19 @@ async function showsSweeps(browser) {
 async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all 0 but the times
+  await page.close();
+}
+
+/** A false positive is infinitely many times as far as a claim of 0. */
+async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
+  const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
+  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,${plugin}`]));
+  const farthest = page.locator("#counts tbody tr:has-text('always') td:nth-child(9)");
+  assert.deepEqual(await farthest.allTextContents(), ["∞", "∞"]);
+  const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
+  assert.ok((await ends("error-time")).includes("∞"));
+  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 2);
+  assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
   await page.close();
 }
 
@@ -362,6 +375,26 @@ async function showsAChoiceOfManySubjects(browser) {
   await page.close();
 }
 
+async function drawsManySubjectsWithoutALadder(browser) {
+  const names = "wang,wang-eps,wang-plain,wang-tight,basic,basic-plain,exact,adaptive,defect:vv,defect:proximity".split(",");
+  const page = await open(browser, makeReport("plain", ["--cases", "500", "--subject", names.join(",")]));
+  const legend = async () => {
+    await page.waitForSelector("body[data-drawn]");
+    return page.locator("#error-time .role-legend-label text").allTextContents();
+  };
+  const points = () => count(page, "#error-time .concat_1_group .mark-symbol.role-mark path");
+  const all = await points();
+  assert.equal(new Set(await legend()).size, 9); // those that are chosen at first, and the others in one colour
+  assert.ok((await legend()).includes("others"));
+  await page.click("#picker summary");
+  for (const [button, labels] of [["none", ["others"]], ["all", names]]) {
+    await page.locator("#picker button", { hasText: new RegExp(`^${button}$`) }).click();
+    assert.deepEqual(new Set(await legend()), new Set(labels));
+    assert.equal(await points(), all);
+  }
+  await page.close();
+}
+
 async function showsThePowerOfDetection(browser) {
   run("power", "--subject", "defect:vv,defect:proximity", "--way", "families,search", "--time", "2s", "--json", "power.json");
   const page = await open(browser, makeReport("powerful", ["--cases", "10"], ["--power", "power.json"]));
@@ -407,11 +440,13 @@ try {
   await showsTheBaseline(browser);
   await showsSweeps(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
+  await showsAClaimOfNoDistanceThatIsRefuted(browser);
   await showsScenes(browser);
   await showsSceneStepsAndMeshes(browser);
   await showsTheLadderAndTheAudit(browser);
   await showsWhatDecides(browser);
   await showsAChoiceOfManySubjects(browser);
+  await drawsManySubjectsWithoutALadder(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await fitsEveryMedium(browser);

@@ -54,6 +54,8 @@ TEST(Counts, AQuantileOfDistancesIsNeverBeyondTheFarthest) {
   Counts counts;
   counts.add(false_positive(0.5), query, here);
   EXPECT_EQ(counts.ratio_quantile(0.5), 0.5);
+  counts.add(false_positive(1000), query, here);
+  EXPECT_EQ(counts.ratio_quantile(0.99), 1000);  // the last bin has no border above
 }
 
 TEST(Counts, EachOutcomeIsCountedOnce) {
