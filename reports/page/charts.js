@@ -145,24 +145,32 @@ function drawDistances() {
   });
 }
 
-function drawStages() {
+function stageValues() {
   const values = [];
-  for (const row of countRows(false).filter(isChosen))
+  for (const row of countRows(false))
     for (const [truth, field] of [["true positives", "true_positives_by_stage"], ["false positives", "false_positives_by_stage"]])
-      for (const [stage, n] of Object.entries(row[field])) values.push({ subject: `${row.subject} ${row.kind}`, truth, stage, count: n });
+      for (const [stage, n] of Object.entries(row[field])) values.push({ subject: row.subject, row: `${row.subject} ${row.kind}`, truth, stage, count: n });
+  return values;
+}
+
+/** Plug-ins do not say what accepts. */
+const hasStages = () => stageValues().some(({ stage, count }) => count > 0 && stage !== "unspecified");
+
+function drawStages() {
+  const values = stageValues().filter(isChosen);
   const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "filter", "exact", "unspecified"];
   return draw("stages", "For each subject and kind the share of the true and of the false positives that each test accepted.", {
     data: { values },
     facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
     spec: {
-      width: panelWidth(360, 210), height: { step: 20 },
+      width: panelWidth(360, 30 + 6 * Math.max(...values.map((value) => value.row.length))), height: { step: 20 },
       mark: "bar",
       encoding: {
-        y: { field: "subject", type: "nominal", title: null, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
+        y: { field: "row", type: "nominal", title: null, axis: { labelLimit: 0 }, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
         x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
         color: { field: "stage", type: "nominal", title: "accepted by", sort: order, scale: { domain: order, range: palette } },
         order: { field: "stage", sort: "ascending" },
-        tooltip: [{ field: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
+        tooltip: [{ field: "row", title: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
       },
     },
   });

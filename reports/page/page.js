@@ -286,7 +286,7 @@ const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
   ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
-  ["stages-section", drawStages, countRows(false).some((row) => row.false_positives > 0 || row.collisions > row.false_negatives)],
+  ["stages-section", drawStages, hasStages()],
   ["ladder-section", drawLadder, report.ladder !== undefined],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
   ["scene-steps", drawSceneSteps, funnelRows().some((row) => row.step > 0)],
