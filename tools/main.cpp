@@ -47,13 +47,12 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Before any thread begins: each takes its arithmetic from the one that made it.
-  if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty()) {
-    nearmiss::make_arithmetic_plain();
+  if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty())
     std::fprintf(stderr,
                  "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals: set so\n",
                  odd.c_str());
-  }
+  // Before any thread begins: each takes its arithmetic from the one that made it.
+  const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
