@@ -198,7 +198,7 @@ TEST(TradeOff, OfALadderDistancesCompareInUnitsOfB) {
   const double paper = 40.963 * 0x1p-13;
   EXPECT_NEAR(json["ladder"]["paper_bound"], paper, 1e-7);
   EXPECT_EQ(json["ladder"]["front_by_distance"],
-            nlohmann::json::array({"wang:float", "wang", "wang:p80", "exact"}));
+            nlohmann::ordered_json::array({"wang:float", "wang", "wang:p80", "exact"}));
   const auto& subjects = json["subjects"];
   EXPECT_NEAR(subjects["wang"]["farthest_over_B"], paper / 2, 1e-7);
   EXPECT_NEAR(subjects["basic:p40"]["farthest_over_B"], paper / 2, 1e-7);  // it claims no bound
