@@ -39,18 +39,17 @@ const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 /** A logarithmic axis for values of which some may be 0 or infinite: these stand at its ends, which say so. `at` is the place of one. */
 function logAxis(values) {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
-  if (exponents.length === 0) exponents.push(0);
-  const lowest = Math.floor(Math.min(...exponents));
-  const highest = Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
-  const step = Math.ceil((highest - lowest) / 7);
-  const power = (i) => Math.min(10 ** i, Number.MAX_VALUE); // no scale ends at infinity
+  const [lowest, highest] = exponents.length === 0 ? [0, 0]
+    : [Math.floor(Math.min(...exponents)), Math.max(Math.ceil(Math.max(...exponents)), Math.floor(Math.min(...exponents)) + 1)];
+  const step = Math.max(Math.ceil((highest - lowest) / 7), 1);
+  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // no scale ends at 0 or infinity
   const bottom = power(values.includes(0) ? lowest - step : lowest);
   const top = power(values.includes(Infinity) ? highest + step : highest);
-  const ticks = [];
-  for (let i = highest; i >= lowest; i -= step) if (Math.log10(top) - i >= step / 2) ticks.push(power(i));
+  const ticks = [bottom, top];
+  for (let i = highest; i >= lowest; i -= step) if (top === power(highest) || Math.log10(top) - i >= step / 2) ticks.push(power(i));
   const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : format(datum.value, '~g')`;
   return { at: (v) => Math.min(Math.max(v, bottom), top), scale: { type: "log", domain: [bottom, top], nice: false },
-    axis: { values: [top, ...ticks, bottom], labelExpr: label } };
+    axis: { values: ticks, labelExpr: label } };
 }
 
 /** Rates of random families, but of no sweep; cases and scenes are no samples. */

@@ -2,7 +2,8 @@
 "use strict";
 
 /** The largest double stands for a distance over a bound of 0: JSON has no infinity. */
-const report = JSON.parse(document.getElementById("report").textContent, (_, value) => (value === Number.MAX_VALUE ? Infinity : value));
+const report = JSON.parse(document.getElementById("report").textContent,
+  (key, value) => (value === Number.MAX_VALUE && /over_bound$|^ratio$/.test(key) ? Infinity : value));
 
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
 function countRows(byFamily) {
