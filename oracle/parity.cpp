@@ -209,7 +209,6 @@ Vector difference(const Query& query, int i, int j, int time) {
   return {Number(p.x()) - Number(q.x()), Number(p.y()) - Number(q.y()), Number(p.z()) - Number(q.z())};
 }
 
-/// The images of the faces. A triangle is a patch with a side of length 0.
 /// A power of two times which every coordinate is an integer: rationals are then quick, and no sign changes.
 Number integer_scale(const Query& query) {
   int exponent = 0;
@@ -220,6 +219,7 @@ Number integer_scale(const Query& query) {
   return power;
 }
 
+/// The images of the faces. A triangle is a patch with a side of length 0.
 std::vector<Patch> boundary(const Query& query) {
   const Number scale = integer_scale(query);
   const auto f = [&](int i, int j, int time) { return scale * difference(query, i, j, time); };
