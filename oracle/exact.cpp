@@ -18,7 +18,7 @@ namespace {
 /// How the figures meet at a time at which all four points are in one plane (see Predicates), if they do.
 std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const int side = t.sign_of(predicates.N(k));
+    const int side = t.sign_of(predicates.N()[k]);
     if (side == 0) continue;
     Meeting meeting;
     for (const Polynomial& weight : predicates.weights(k)) {
@@ -39,23 +39,15 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   return Meeting{vanishing_weights, true};
 }
 
-/// Whether one is a constant times the other; neither is zero.
-bool are_proportional(const Polynomial& p, const Polynomial& q) {
-  if (p.degree() != q.degree()) return false;
-  const auto& a = p.coefficients();
-  const auto& b = q.coefficients();
-  for (std::size_t i = 0; i + 1 < a.size(); ++i)
-    if (a[i] * q.leading() != b[i] * p.leading()) return false;
-  return true;
-}
-
 /// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any, where F is zero
 /// identically; or it is t = 0.
 ///
-/// They are all predicate polynomials. For the set of colliding times is closed, so it has a least element
-/// t*; were t* neither 0 nor a root of a predicate that is not identically zero, no predicate would change
-/// its sign in a neighbourhood of t*, and there would be collisions before t*. Of those with the same roots,
-/// as the three components of what stays in one plane, one is enough.
+/// Where a component N_k of the normal is not zero identically they are N_k and its weights. For the set of
+/// colliding times is closed, so it has a least element t*; were t* neither 0 nor a root of one of them that
+/// is not identically zero, N_k would not be zero and none of them would change its sign in a neighbourhood
+/// of t*, and there would be collisions before t*. Where N is zero identically, the same holds for what
+/// decides about the segments. Of those with the same roots, as the three components of what stays in one
+/// plane, one is enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {
@@ -63,8 +55,10 @@ std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
     if (p.degree() > 0 && std::none_of(deciding.begin(), deciding.end(), same)) deciding.push_back(p);
   };
   for (std::size_t k = 0; k < 3; ++k) {
-    add(predicates.N(k));
+    if (predicates.N()[k].is_zero()) continue;
+    add(predicates.N()[k]);
     for (const Polynomial& weight : predicates.weights(k)) add(weight);
+    return deciding;
   }
   for (const OnSegment& on : predicates.segments()) {
     for (const Polynomial& c : on.cross) add(c);

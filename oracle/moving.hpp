@@ -18,7 +18,8 @@ Polynomial dot(const Vector& a, const Vector& b);
 Polynomial cross(const Vector& a, const Vector& b, std::size_t k);
 Vector cross(const Vector& a, const Vector& b);
 
-/// A power of two by which the largest coordinate is about 1.
+/// A power of two by which coordinates are below 1/4: differences of four are below 1 and, as most products,
+/// have no more limbs than they need.
 Number unit(const Query& query);
 
 /// x0 .. x3 times `scale`: x(0) + t (x(1) - x(0)).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 
 namespace nearmiss::exact {
 
@@ -12,8 +13,9 @@ Polynomial::Polynomial(std::vector<Number> coefficients) : a_(std::move(coeffici
 }
 
 Number Polynomial::operator()(const Number& t) const {
-  Number value = 0;
-  for (std::size_t i = a_.size(); i > 0; --i) value = value * t + a_[i - 1];
+  if (is_zero()) return 0;
+  Number value = leading();
+  for (std::size_t i = a_.size() - 1; i > 0; --i) value = value * t + a_[i - 1];
   return value;
 }
 
@@ -24,25 +26,44 @@ Polynomial Polynomial::derivative() const {
 }
 
 Polynomial operator+(const Polynomial& p, const Polynomial& q) {
-  std::vector<Number> sum = p.a_;
-  sum.resize(std::max(p.a_.size(), q.a_.size()));
-  for (std::size_t i = 0; i < q.a_.size(); ++i) sum[i] = sum[i] + q.a_[i];
+  const auto& [longer, shorter] = p.degree() < q.degree() ? std::tie(q.a_, p.a_) : std::tie(p.a_, q.a_);
+  std::vector<Number> sum;
+  sum.reserve(longer.size());
+  for (std::size_t i = 0; i < longer.size(); ++i)
+    sum.push_back(i < shorter.size() ? longer[i] + shorter[i] : longer[i]);
   return Polynomial(std::move(sum));
 }
 
 Polynomial operator-(const Polynomial& p, const Polynomial& q) {
-  std::vector<Number> difference = p.a_;
-  difference.resize(std::max(p.a_.size(), q.a_.size()));
-  for (std::size_t i = 0; i < q.a_.size(); ++i) difference[i] = difference[i] - q.a_[i];
+  const std::size_t size = std::max(p.a_.size(), q.a_.size());
+  std::vector<Number> difference;
+  difference.reserve(size);
+  for (std::size_t i = 0; i < size; ++i)
+    difference.push_back(i >= q.a_.size() ? p.a_[i] : i >= p.a_.size() ? -q.a_[i] : p.a_[i] - q.a_[i]);
   return Polynomial(std::move(difference));
 }
 
 Polynomial operator*(const Polynomial& p, const Polynomial& q) {
   if (p.is_zero() || q.is_zero()) return {};
-  std::vector<Number> product(p.a_.size() + q.a_.size() - 1);
-  for (std::size_t i = 0; i < p.a_.size(); ++i)
-    for (std::size_t j = 0; j < q.a_.size(); ++j) product[i + j] = product[i + j] + p.a_[i] * q.a_[j];
+  const std::size_t size = p.a_.size() + q.a_.size() - 1;
+  std::vector<Number> product;
+  product.reserve(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t first = k < q.a_.size() ? 0 : k + 1 - q.a_.size();
+    Number sum = p.a_[first] * q.a_[k - first];
+    for (std::size_t i = first + 1; i < p.a_.size() && i <= k; ++i) sum = sum + p.a_[i] * q.a_[k - i];
+    product.push_back(std::move(sum));
+  }
   return Polynomial(std::move(product));
+}
+
+bool are_proportional(const Polynomial& p, const Polynomial& q) {
+  if (p.degree() != q.degree()) return false;
+  const auto& a = p.coefficients();
+  const auto& b = q.coefficients();
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    if (a[i] * q.leading() != b[i] * p.leading()) return false;
+  return true;
 }
 
 namespace {

@@ -38,6 +38,9 @@ class Polynomial {
   std::vector<Number> a_;
 };
 
+/// Whether one is a constant times the other; neither is zero.
+bool are_proportional(const Polynomial& p, const Polynomial& q);
+
 /// The quotient and the remainder of c p by q, q not zero, for c = |the leading coefficient of q|^steps.
 struct Division {
   Polynomial quotient, remainder;

@@ -15,15 +15,15 @@ OnSegment on_segment(const Vector& x, const Vector& a, const Vector& b) {
 Predicates::Predicates(const Query& query) : kind_(query.kind), x_(moving_points(query, unit(query))) {}
 
 const Polynomial& Predicates::F() {
-  if (!F_) F_ = dot(kind_ == Kind::vertex_triangle ? x_[0] - x_[1] : x_[2] - x_[0], {N(0), N(1), N(2)});
+  if (!F_) F_ = dot(kind_ == Kind::vertex_triangle ? x_[0] - x_[1] : x_[2] - x_[0], N());
   return *F_;
 }
 
-const Polynomial& Predicates::N(std::size_t k) {
-  if (!N_[k])
-    N_[k] = kind_ == Kind::vertex_triangle ? cross(x_[2] - x_[1], x_[3] - x_[1], k)
-                                           : cross(x_[1] - x_[0], x_[3] - x_[2], k);
-  return *N_[k];
+const Vector& Predicates::N() {
+  if (!N_)
+    N_ = kind_ == Kind::vertex_triangle ? cross(x_[2] - x_[1], x_[3] - x_[1])
+                                        : cross(x_[1] - x_[0], x_[3] - x_[2]);
+  return *N_;
 }
 
 const std::vector<Polynomial>& Predicates::weights(std::size_t k) {
@@ -44,7 +44,7 @@ std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
     return {cross(b, c, k), cross(c, a, k), cross(a, b, k)};
   }
   const Vector x20 = x_[2] - x_[0];
-  const Polynomial& normal = N(k);
+  const Polynomial& normal = N()[k];
   const Polynomial alpha = cross(x20, x_[3] - x_[2], k);
   const Polynomial beta = cross(x20, x_[1] - x_[0], k);
   return {alpha, normal - alpha, beta, normal - beta};

@@ -19,7 +19,7 @@ struct OnSegment {
 };
 
 /// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are first asked for.
-/// The coordinates are the query's, times one power of two that makes the largest about 1.
+/// The coordinates are the query's, times one power of two (`unit`).
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they
@@ -33,7 +33,7 @@ class Predicates {
   explicit Predicates(const Query& query);
 
   const Polynomial& F();
-  const Polynomial& N(std::size_t k);
+  const Vector& N();
   const std::vector<Polynomial>& weights(std::size_t k);
   const std::vector<OnSegment>& segments();
 
@@ -44,7 +44,7 @@ class Predicates {
   Kind kind_;
   std::array<Vector, 4> x_;
   std::optional<Polynomial> F_;
-  std::array<std::optional<Polynomial>, 3> N_;
+  std::optional<Vector> N_;
   std::array<std::vector<Polynomial>, 3> weights_;
   std::vector<OnSegment> segments_;
 };

@@ -1,7 +1,9 @@
 #include "oracle/root.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -13,17 +15,18 @@ namespace {
 constexpr double around = 0x1p-44;
 
 /// The numbers, not all zero, in double, times a power of two that brings the largest near 1.
-std::vector<double> in_proportion(std::vector<Number> numbers) {
-  std::vector<double> result(numbers.size());
-  for (;;) {
-    std::transform(numbers.begin(), numbers.end(), result.begin(),
-                   [](const Number& x) { return CGAL::to_double(x); });
-    double largest = 0;
-    for (const double x : result) largest = std::max(largest, std::abs(x));
-    if (largest > 0x1p-500 && largest < 0x1p500) return result;
-    const Number scale(largest < 1 ? 0x1p800 : 0x1p-800);
-    for (Number& x : numbers) x = x * scale;
+std::vector<double> in_proportion(const std::vector<Number>& numbers) {
+  std::vector<double> result;
+  result.reserve(numbers.size());
+  double largest = 0;
+  for (const Number& x : numbers) {
+    result.push_back(CGAL::to_double(x));
+    largest = std::max(largest, std::abs(result.back()));
   }
+  if (largest > 0x1p-500 && largest < 0x1p500) return result;
+  std::vector<Number> scaled;
+  for (const Number& x : numbers) scaled.push_back(x * Number(largest < 1 ? 0x1p800 : 0x1p-800));
+  return in_proportion(scaled);
 }
 
 /// Bernstein coefficients of those times binomial coefficients.
@@ -38,15 +41,23 @@ std::vector<double> bernstein(const std::vector<Number>& coefficients) {
   return b;
 }
 
-/// Value and slope of a polynomial at s, by its Bernstein coefficients.
-std::pair<double, double> value_and_slope(std::vector<double> b, double s) {
-  const auto degree = static_cast<double>(b.size() - 1);
-  double slope = 0;
-  for (std::size_t left = b.size() - 1; left > 0; --left) {
-    if (left == 1) slope = degree * (b[1] - b[0]);
-    for (std::size_t i = 0; i < left; ++i) b[i] += s * (b[i + 1] - b[i]);
+/// The Bernstein coefficients of a derivative, but for a factor.
+std::vector<double> differences(std::vector<double> b) {
+  for (std::size_t i = 0; i + 1 < b.size(); ++i) b[i] = b[i + 1] - b[i];
+  b.pop_back();
+  return b;
+}
+
+/// The value at s of a polynomial by its Bernstein coefficients, by Horner's scheme.
+double value_at(const std::vector<double>& b, double s) {
+  double value = b[0];
+  double factor = 1;  // a binomial coefficient times s^i
+  const auto n = static_cast<double>(b.size() - 1);
+  for (std::size_t i = 1; i < b.size(); ++i) {
+    factor *= s * (n - static_cast<double>(i - 1)) / static_cast<double>(i);
+    value = value * (1 - s) + factor * b[i];
   }
-  return {b[0], slope};
+  return value;
 }
 
 /// x / y, or a number whose size tells no more than that it is large.
@@ -57,6 +68,19 @@ double ratio(const Number& x, const Number& y) {
 
 /// lo + part (hi - lo).
 Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
+
+/// Guesses which number between two positive ones has the fewest bits: the higher one without those behind
+/// the first in which they differ, of 53. Else it is the higher one.
+double simplest_between(const Number& lower, const Number& higher) {
+  const double lo = CGAL::to_double(lower);
+  const double hi = CGAL::to_double(higher);
+  if (!(0 < lo && lo < hi)) return hi;
+  const int unit = std::ilogb(hi) - 52;
+  const auto a = static_cast<std::uint64_t>(std::ldexp(lo, -unit));
+  const auto b = static_cast<std::uint64_t>(std::ldexp(hi, -unit));
+  const std::uint64_t kept = a == b ? ~std::uint64_t{0} : ~(std::bit_floor(a ^ b) - 1);
+  return std::ldexp(static_cast<double>(b & kept), unit);
+}
 
 /// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero
 /// at 0 and 1.
@@ -122,20 +146,18 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
 OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
   // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
   // (1 + x)^(n - i).
-  std::vector<int> power{1};
-  for (std::size_t i = p.coefficients().size(); i > 0; --i) {
-    if (i < p.coefficients().size()) {
-      c_.emplace_back(0);
-      power.push_back(0);
-      for (std::size_t k = c_.size(); k > 0; --k) {
-        c_[k - 1] = c_[k - 1] * lo;
-        if (k > 1) c_[k - 1] = c_[k - 1] + c_[k - 2] * hi;
-        if (k > 1) power[k - 1] += power[k - 2];
-      }
-    } else {
-      c_.emplace_back(0);
+  c_.reserve(p.coefficients().size());
+  c_.push_back(p.leading());
+  for (auto i = static_cast<std::size_t>(p.degree()); i-- > 0;) {
+    const Number& a = p.coefficients()[i];
+    const std::size_t last = c_.size();
+    c_.push_back(c_.back() * hi + a);
+    std::size_t binomial = 1;
+    for (std::size_t k = last - 1; k > 0; --k) {
+      binomial = binomial * (k + 1) / (last - k);
+      c_[k] = c_[k] * lo + c_[k - 1] * hi + a * Number(binomial);
     }
-    for (std::size_t k = 0; k < c_.size(); ++k) c_[k] = c_[k] + p.coefficients()[i - 1] * Number(power[k]);
+    c_[0] = c_[0] * lo + a;
   }
 }
 
@@ -152,20 +174,20 @@ double OnInterval::guess_root(int sign_at_lo) const {
   double hi = 1;
   for (int i = 0; i < 52; ++i) {
     const double middle = 0.5 * (lo + hi);
-    const double value = value_and_slope(b, middle).first;
+    const double value = value_at(b, middle);
     ((value > 0) - (value < 0) == sign_at_lo ? lo : hi) = middle;
   }
   return 0.5 * (lo + hi);
 }
 
 double OnInterval::guess_extremum() const {
-  std::vector<double> slope = bernstein(c_);
-  for (std::size_t i = 0; i + 1 < slope.size(); ++i) slope[i] = slope[i + 1] - slope[i];
-  slope.pop_back();
+  const std::vector<double> slope = differences(bernstein(c_));
+  const std::vector<double> bend = differences(slope);
   double s = 0.5;
   // Newton's method, which comes nearer only by halves where two roots are close.
   for (int i = 0; i < 60; ++i) {
-    const auto [value, rise] = value_and_slope(slope, s);
+    const double value = value_at(slope, s);
+    const double rise = static_cast<double>(bend.size()) * value_at(bend, s);
     if (value == 0) break;
     const double next = std::clamp(s - value / rise, 0.0, 1.0);
     if (std::isnan(next)) return 0.5;
@@ -193,18 +215,21 @@ void Root::refine() {
   ++refinements_;
   const Number lo = lo_;
   const Number width = hi_ - lo_;
+  const OnInterval on(*p_, lo_, hi_);
   // In a small interval p is nearly linear: steps along the chord give the root's digits, some at a time.
-  Number guess = lo + Number(OnInterval(*p_, lo_, hi_).guess_root(sign_at_lo_)) * width;
+  Number guess = lo + Number(on.guess_root(sign_at_lo_)) * width;
   Number unit = width;
-  const Number rise = (*p_)(hi_) - (*p_)(lo_);
   Number magnifier = 1;
   for (int i = 1; i < chord_steps_; ++i) {
     unit = unit * Number(around);
     magnifier = magnifier * Number(1 / around);
-    guess = guess - unit * Number(ratio((*p_)(guess)*magnifier, rise));
+    guess = guess - unit * Number(ratio((*p_)(guess)*magnifier, on.rise()));
   }
   const Number radius = unit * Number(8 * around);
-  for (const Number& at : {guess - radius, guess + radius})
+  const Number below = guess - radius;
+  const Number above = guess + radius;
+  // Roots that are numbers of few bits are frequent, and signs at them are quick.
+  for (const Number& at : {Number(simplest_between(below, above)), below, above})
     if (!is_number() && lo_ < at && at < hi_) cut(at);
   const bool found = hi_ - lo_ <= Number(2) * radius;
   chord_steps_ = found ? std::min(2 * chord_steps_, 64) : 1;
@@ -223,6 +248,7 @@ int Root::sign_of(const Polynomial& q) {
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
+    if (can_be_zero && are_proportional(*p_, q)) return 0;
     if (can_be_zero && refinements_ >= patience) {
       if (is_root_of(q)) return 0;
       can_be_zero = false;

@@ -24,6 +24,9 @@ class OnInterval {
   /// The sign on the open interval, where the coefficients tell; else 0.
   [[nodiscard]] int only_sign() const;
 
+  /// The value at the upper end less that at the lower one.
+  [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
+
   /// Guesses where in [0, 1] of the interval the only root is, given the sign at the lower end.
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where in [0, 1] of the interval there may be an extremum.

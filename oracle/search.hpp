@@ -24,15 +24,11 @@ class Search {
  public:
   Search(Kind kind, const Patch<Real>& whole, const Patch<Real>& patch, const Bernstein<Real, 4>& F,
          int depth)
-      : kind_(kind), whole_(whole), patch_(patch), F_(F), depth_(depth) {
-    // The same cubic in powers of t: for guesses.
-    std::array<double, 4> f;
-    for (std::size_t i = 0; i < 4; ++i) f[i] = approximate(F.b[i]);
-    power_ = {f[3] - f[0] + 3 * (f[1] - f[2]), 3 * (f[0] + f[2] - 2 * f[1]), 3 * (f[1] - f[0]), f[0]};
-  }
+      : kind_(kind), whole_(whole), patch_(patch), F_(F), depth_(depth) {}
 
   /// weights (no collision in this part), sign_change (one), or undecided.
   FilterStage run() {
+    if (!(F_.error < HUGE_VAL)) return FilterStage::undecided;  // overflow
     push({0, 1});
     for (int budget = 64; count_ > 0; --budget) {
       if (budget == 0) return FilterStage::undecided;
@@ -61,29 +57,67 @@ class Search {
     if (agreement < 0) return FilterStage::weights;
     if (changes) {
       if (agreement > 0) return FilterStage::sign_change;
-      return look_around(interval, nearmiss::detail::refine_root(power_, lo, hi, f[0], f[3], F_.error), f[0],
-                         weights);
+      return look_around(interval, f, weights);
     }
 
-    // Where F is within its error everywhere, no smaller interval tells more.
-    if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= F_.error; }))
-      return zoom(interval);
     double split = guess;
-    if (!left_known && right_known) split = lo + (hi - lo) * beyond_error(f[1] - f[0]);
-    if (left_known && !right_known) split = hi - (hi - lo) * beyond_error(f[3] - f[2]);
+    if (left_known && right_known) {
+      split = extremum(interval, f);
+    } else {
+      // Where F is hardly above its error, no smaller interval tells much more.
+      if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= 2 * clear * F_.error; }))
+        return zoom(interval);
+      if (right_known) split = lo + (hi - lo) * beyond_error(f);
+      if (left_known) split = hi - (hi - lo) * beyond_error(backwards(f));
+    }
     if (!(lo < split && split < hi)) return FilterStage::undecided;
     return go_on_beside(interval, {split, split});
   }
 
-  /// The part of an interval behind which F exceeds its error, as the slope at its end has it.
-  [[nodiscard]] double beyond_error(double rise) const {
-    const double part = 8 * F_.error / std::abs(3 * rise);
+  /// F from the other end of an interval.
+  static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
+
+  /// In powers of the part of the interval that has passed, given the Bernstein coefficients.
+  static Cubic<double> in_powers(const std::array<double, 4>& f) {
+    return {f[3] - f[0] + 3 * (f[1] - f[2]), 3 * (f[0] + f[2] - 2 * f[1]), 3 * (f[1] - f[0]), f[0]};
+  }
+
+  /// The part of an interval behind which F is clear of its error, about, whatever makes it rise.
+  [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
+    const Cubic<double> F = in_powers(f);
+    const double rise = clear * F_.error;
+    const double part =
+        std::min({rise / std::abs(F.c), std::sqrt(rise / std::abs(F.b)), std::cbrt(rise / std::abs(F.a))});
     return part < 0.25 ? part : 0.5;
   }
 
-  /// F certainly changes its sign in the interval, near `root`.
-  FilterStage look_around(const Interval& interval, double root, double f_lo, const Weights<Real>& weights) {
-    double h = 4 * F_.error / std::abs(power_.slope(root)) + 0x1p-52 * root;
+  /// Where F has an extremum in an interval, about, else the middle, given its Bernstein coefficients. Where
+  /// it is at an end as far as double tells, a place near that end.
+  [[nodiscard]] static double extremum(const Interval& interval, const std::array<double, 4>& f) {
+    const auto [lo, hi] = interval;
+    const double d0 = f[1] - f[0];
+    const double d1 = f[2] - f[1];
+    const double d2 = f[3] - f[2];
+    const double root = std::sqrt(std::max(d1 * d1 - d0 * d2, 0.0));
+    const double part = d0 / (d0 - d1 + std::copysign(root, d0));
+    if (!(part > 0 && part < 1)) return lo + 0.5 * (hi - lo);
+    const double at = lo + part * (hi - lo);
+    constexpr double near = 0x1p-10;
+    return at <= lo ? lo + near * (hi - lo) : at >= hi ? hi - near * (hi - lo) : at;
+  }
+
+  /// F certainly changes its sign in the interval.
+  FilterStage look_around(const Interval& interval, const std::array<double, 4>& f,
+                          const Weights<Real>& weights) {
+    // The root as seen from the end where F is smaller: as precise as F is there.
+    const double f_lo = f[0];
+    const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
+    const Cubic<double> F = in_powers(from_lo ? f : backwards(f));
+    const double part = nearmiss::detail::refine_root(F, 0.0, 1.0, F.d, from_lo ? f[3] : f[0], F_.error);
+    const double length = interval.hi - interval.lo;
+    const double root = std::clamp(from_lo ? interval.lo + part * length : interval.hi - part * length,
+                                   interval.lo, interval.hi);
+    double h = 4 * F_.error / std::abs(F.slope(part)) * length + 0x1p-52 * root;
     for (int widening = 0; widening < 4; ++widening, h *= 8) {
       const Interval near{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
       const double left = f_lo < 0 ? -F_.at(near.lo) : F_.at(near.lo);
@@ -147,12 +181,13 @@ class Search {
     return true;
   }
 
+  static constexpr double clear = 8;  ///< so many times its error is clear of it
+
   Kind kind_;
   const Patch<Real>& whole_;
   const Patch<Real>& patch_;
   const Bernstein<Real, 4>& F_;
   int depth_;
-  Cubic<double> power_{};
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;
   std::array<Interval, 64> intervals_;

@@ -168,6 +168,37 @@ Query small_integers(std::mt19937_64& random, Kind kind) {
   return query;
 }
 
+/// The motion until t: exact for small integers and a t of few bits.
+Query until(const Query& query, double t) {
+  Query result = query;
+  for (std::size_t k = 0; k < 12; ++k) result.x[12 + k] = query.x[k] + t * (query.x[12 + k] - query.x[k]);
+  return result;
+}
+
+TEST(EarliestTime, IsThatBeforeWhichNothingCollides) {
+  constexpr double unit = 0x1p-40;
+  std::mt19937_64 random(7);
+  int planar = 0;
+  int later = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Query query = small_integers(random, kinds[static_cast<std::size_t>(i % 2)]);
+    const bool is_planar = i % 3 > 0;
+    if (is_planar)
+      for (std::size_t k = 2; k < 24; k += 3) query.x[k] = query.x[k - 1] - 2 * query.x[k - 2];
+    const auto time = earliest_time(query);
+    ASSERT_EQ(time.has_value(), collides(query)) << i;
+    if (!time) continue;
+    const double t = std::ceil(time->enclosure.hi / unit) * unit;
+    ASSERT_TRUE(collides(until(query, t))) << i;
+    const double before = (std::ceil(time->enclosure.lo / unit) - 1) * unit;
+    if (before < 0) continue;
+    ASSERT_FALSE(collides(until(query, before))) << i;
+    ++(is_planar ? planar : later);
+  }
+  EXPECT_GT(planar, 100);
+  EXPECT_GT(later, 100);
+}
+
 /// The same query with its vertices in another order, and times exchanged if asked.
 Query permuted(const Query& query, const std::array<int, 4>& order, bool reverse = false) {
   Query result{.kind = query.kind};

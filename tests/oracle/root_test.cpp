@@ -110,6 +110,23 @@ TEST(Root, BecomesAsNarrowAsOneLikes) {
   EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
 }
 
+TEST(Root, IsANumberWhereItHasFewBits) {
+  for (const double root : {0.625, 0x1.fp-3, 0x1.23456789abcdp-1, 0x1.23456789abcdfp-30}) {
+    auto roots = roots_in_step(polynomial({-root, 1}) * polynomial({0.3, -1, 1}));
+    ASSERT_EQ(roots.size(), 1);
+    for (int i = 0; i < 2; ++i) roots[0].refine();
+    EXPECT_EQ(roots[0].lo(), Number(root));
+    EXPECT_EQ(roots[0].hi(), Number(root));
+  }
+}
+
+TEST(Root, SeesThatAMultipleOfItsPolynomialIsZero) {
+  const Polynomial p = polynomial({-0.5, 0, 1});
+  auto roots = roots_in_step(p);
+  EXPECT_EQ(roots.at(0).sign_of(p * polynomial({-3})), 0);
+  EXPECT_FALSE(are_proportional(p, polynomial({-0.5, 0x1p-1000, 1})));
+}
+
 TEST(Root, ComparisonNarrowsOnlyTheWiderInterval) {
   auto narrow = roots_in_step(polynomial({-0.5, 0, 1})).at(0);
   for (int i = 0; i < 3; ++i) narrow.refine();
