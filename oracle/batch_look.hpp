@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "oracle/bernstein.hpp"
+#include "oracle/guess.hpp"
 #include "oracle/lanes.hpp"
 
 namespace nearmiss::certified {
@@ -73,15 +74,13 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
   const Mask known = (at_lo.positive | at_lo.negative) & (at_hi.positive | at_hi.negative);
 
   // F's root where it changes its sign, by Newton's method from the secant's: a guess.
-  const Real p3 = F.b[3] - F.b[0] + 3 * (F.b[1] - F.b[2]);
-  const Real p2 = 3 * (F.b[0] + F.b[2] - 2 * F.b[1]);
-  const Real p1 = 3 * (F.b[1] - F.b[0]);
+  const Cubic<Real> power = in_powers(F.b);
   Real t = lo + (hi - lo) * (f[0] / (f[0] - f[3]));
   Real step = 0;
   Real slope = 0;
   for (int i = 0; i < 4; ++i) {
-    slope = (3 * p3 * t + 2 * p2) * t + p1;
-    step = (((p3 * t + p2) * t + p1) * t + F.b[0]) / slope;
+    slope = power.slope(t);
+    step = power(t) / slope;
     t = min(max(t - step, lo), hi);
   }
   const Real h = 2 * abs(step) + 4 * F.error / abs(slope) + 0x1p-50;
@@ -94,13 +93,9 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
       agreement(weights, [&](const auto& w) { return certain_signs(std::array{w.at(t)}, w.error_near(h)); });
 
   // Else the part is divided where F has an extremum, about.
-  const Real d0 = f[1] - f[0];
-  const Real d1 = f[2] - f[1];
-  const Real d2 = f[3] - f[2];
-  const Real root = sqrt(max(d1 * d1 - d0 * d2, Real(0)));
-  const Real extremum = d0 / (d0 - d1 + select(d0 < 0, -root, root));
-  const Mask usable = (!changes) & (extremum > 0x1p-6) & (extremum < 1 - 0x1p-6);
-  const Real division = lo + (hi - lo) * select(usable, extremum, Real(0.5));
+  const Real turn = extremum(f);
+  const Mask usable = (!changes) & (turn > 0x1p-6) & (turn < 1 - 0x1p-6);
+  const Real division = lo + (hi - lo) * select(usable, turn, Real(0.5));
 
   Look<n> result;
   result.left = select(bracketed, before_root, division);

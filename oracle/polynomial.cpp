@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 
 namespace nearmiss::exact {
 
@@ -25,22 +24,29 @@ Polynomial Polynomial::derivative() const {
   return Polynomial(std::move(d));
 }
 
+namespace {
+
+/// Coefficient by coefficient, 0 behind the last one.
+template <class Combine>
+Polynomial by_coefficients(const Polynomial& p, const Polynomial& q, const Combine& combine) {
+  static const Number zero = 0;
+  const auto& a = p.coefficients();
+  const auto& b = q.coefficients();
+  std::vector<Number> result;
+  result.reserve(std::max(a.size(), b.size()));
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+    result.push_back(combine(i < a.size() ? a[i] : zero, i < b.size() ? b[i] : zero));
+  return Polynomial(std::move(result));
+}
+
+}  // namespace
+
 Polynomial operator+(const Polynomial& p, const Polynomial& q) {
-  const auto& [longer, shorter] = p.degree() < q.degree() ? std::tie(q.a_, p.a_) : std::tie(p.a_, q.a_);
-  std::vector<Number> sum;
-  sum.reserve(longer.size());
-  for (std::size_t i = 0; i < longer.size(); ++i)
-    sum.push_back(i < shorter.size() ? longer[i] + shorter[i] : longer[i]);
-  return Polynomial(std::move(sum));
+  return by_coefficients(p, q, [](const Number& x, const Number& y) { return x + y; });
 }
 
 Polynomial operator-(const Polynomial& p, const Polynomial& q) {
-  const std::size_t size = std::max(p.a_.size(), q.a_.size());
-  std::vector<Number> difference;
-  difference.reserve(size);
-  for (std::size_t i = 0; i < size; ++i)
-    difference.push_back(i >= q.a_.size() ? p.a_[i] : i >= p.a_.size() ? -q.a_[i] : p.a_[i] - q.a_[i]);
-  return Polynomial(std::move(difference));
+  return by_coefficients(p, q, [](const Number& x, const Number& y) { return x - y; });
 }
 
 Polynomial operator*(const Polynomial& p, const Polynomial& q) {

@@ -29,33 +29,23 @@ std::vector<double> in_proportion(const std::vector<Number>& numbers) {
   return in_proportion(scaled);
 }
 
-/// Bernstein coefficients of those times binomial coefficients.
-std::vector<double> bernstein(const std::vector<Number>& coefficients) {
-  std::vector<double> b = in_proportion(coefficients);
-  const auto n = static_cast<double>(b.size() - 1);
-  double binomial = 1;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    b[i] /= binomial;
-    binomial *= (n - static_cast<double>(i)) / static_cast<double>(i + 1);
-  }
-  return b;
+// Below, a polynomial in double is by its Bernstein coefficients times binomial coefficients, c_i of s^i (1 -
+// s)^(n - i), as OnInterval has it.
+
+std::vector<double> derivative(const std::vector<double>& c) {
+  const std::size_t n = c.size() - 1;
+  std::vector<double> d;
+  for (std::size_t i = 0; i < n; ++i)
+    d.push_back(static_cast<double>(i + 1) * c[i + 1] - static_cast<double>(n - i) * c[i]);
+  return d;
 }
 
-/// The Bernstein coefficients of a derivative, but for a factor.
-std::vector<double> differences(std::vector<double> b) {
-  for (std::size_t i = 0; i + 1 < b.size(); ++i) b[i] = b[i + 1] - b[i];
-  b.pop_back();
-  return b;
-}
-
-/// The value at s of a polynomial by its Bernstein coefficients, by Horner's scheme.
-double value_at(const std::vector<double>& b, double s) {
-  double value = b[0];
-  double factor = 1;  // a binomial coefficient times s^i
-  const auto n = static_cast<double>(b.size() - 1);
-  for (std::size_t i = 1; i < b.size(); ++i) {
-    factor *= s * (n - static_cast<double>(i - 1)) / static_cast<double>(i);
-    value = value * (1 - s) + factor * b[i];
+double value_at(const std::vector<double>& c, double s) {
+  double value = c[0];
+  double power = 1;
+  for (std::size_t i = 1; i < c.size(); ++i) {
+    power *= s;
+    value = value * (1 - s) + power * c[i];
   }
   return value;
 }
@@ -169,27 +159,26 @@ int OnInterval::only_sign() const {
 }
 
 double OnInterval::guess_root(int sign_at_lo) const {
-  const std::vector<double> b = bernstein(c_);
+  const std::vector<double> c = in_proportion(c_);
   double lo = 0;
   double hi = 1;
   for (int i = 0; i < 52; ++i) {
     const double middle = 0.5 * (lo + hi);
-    const double value = value_at(b, middle);
+    const double value = value_at(c, middle);
     ((value > 0) - (value < 0) == sign_at_lo ? lo : hi) = middle;
   }
   return 0.5 * (lo + hi);
 }
 
 double OnInterval::guess_extremum() const {
-  const std::vector<double> slope = differences(bernstein(c_));
-  const std::vector<double> bend = differences(slope);
+  const std::vector<double> slope = derivative(in_proportion(c_));
+  const std::vector<double> bend = derivative(slope);
   double s = 0.5;
   // Newton's method, which comes nearer only by halves where two roots are close.
   for (int i = 0; i < 60; ++i) {
     const double value = value_at(slope, s);
-    const double rise = static_cast<double>(bend.size()) * value_at(bend, s);
     if (value == 0) break;
-    const double next = std::clamp(s - value / rise, 0.0, 1.0);
+    const double next = std::clamp(s - value / value_at(bend, s), 0.0, 1.0);
     if (std::isnan(next)) return 0.5;
     const bool stands = std::abs(next - s) < 0x1p-48;
     s = next;
@@ -244,11 +233,11 @@ bool Root::is_root_of(const Polynomial& q) const {
 
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
+  if (!is_number() && are_proportional(*p_, q)) return 0;
   constexpr int patience = 2;  // of a sign that is not zero, twice 44 bits nearly always tell
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
-    if (can_be_zero && are_proportional(*p_, q)) return 0;
     if (can_be_zero && refinements_ >= patience) {
       if (is_root_of(q)) return 0;
       can_be_zero = false;

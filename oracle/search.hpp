@@ -8,6 +8,7 @@
 
 #include "ccd/cubic.hpp"
 #include "oracle/filter.hpp"
+#include "oracle/guess.hpp"
 #include "oracle/patch.hpp"
 
 namespace nearmiss::certified {
@@ -62,7 +63,7 @@ class Search {
 
     double split = guess;
     if (left_known && right_known) {
-      split = extremum(interval, f);
+      split = turn(interval, f);
     } else {
       // Where F is hardly above its error, no smaller interval tells much more.
       if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= 2 * clear * F_.error; }))
@@ -77,11 +78,6 @@ class Search {
   /// F from the other end of an interval.
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
-  /// In powers of the part of the interval that has passed, given the Bernstein coefficients.
-  static Cubic<double> in_powers(const std::array<double, 4>& f) {
-    return {f[3] - f[0] + 3 * (f[1] - f[2]), 3 * (f[0] + f[2] - 2 * f[1]), 3 * (f[1] - f[0]), f[0]};
-  }
-
   /// The part of an interval behind which F is clear of its error, about, whatever makes it rise.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Cubic<double> F = in_powers(f);
@@ -93,13 +89,9 @@ class Search {
 
   /// Where F has an extremum in an interval, about, else the middle, given its Bernstein coefficients. Where
   /// it is at an end as far as double tells, a place near that end.
-  [[nodiscard]] static double extremum(const Interval& interval, const std::array<double, 4>& f) {
+  [[nodiscard]] static double turn(const Interval& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
-    const double d0 = f[1] - f[0];
-    const double d1 = f[2] - f[1];
-    const double d2 = f[3] - f[2];
-    const double root = std::sqrt(std::max(d1 * d1 - d0 * d2, 0.0));
-    const double part = d0 / (d0 - d1 + std::copysign(root, d0));
+    const double part = extremum(f);
     if (!(part > 0 && part < 1)) return lo + 0.5 * (hi - lo);
     const double at = lo + part * (hi - lo);
     constexpr double near = 0x1p-10;

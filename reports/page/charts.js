@@ -39,8 +39,8 @@ const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 /** A logarithmic axis for values of which some may be 0 or infinite: these stand at its ends, which say so. `at` is the place of one. */
 function logAxis(values) {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
-  const [lowest, highest] = exponents.length === 0 ? [0, 0]
-    : [Math.floor(Math.min(...exponents)), Math.max(Math.ceil(Math.max(...exponents)), Math.floor(Math.min(...exponents)) + 1)];
+  const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
+  const highest = exponents.length === 0 ? 0 : Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
   const step = Math.max(Math.ceil((highest - lowest) / 7), 1);
   const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // no scale ends at 0 or infinity
   const bottom = power(values.includes(0) ? lowest - step : lowest);
