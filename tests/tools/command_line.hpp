@@ -22,6 +22,15 @@ class CommandLine : public testing::TemporaryFolder {
     std::string out, error;
   };
 
+  /// A vertex that falls through the triangle (0,0,0) (1,0,0) (0,1,0), from z = 1 to -1, and one that stays
+  /// above.
+  static inline const std::string hit =
+      "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0\n";
+  static inline const std::string miss =
+      "0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p0  0 0 0  1 0 0  0 1 0\n";
+
+  static std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+
   /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder; `before` is put in front, such as "ulimit -f
   /// 8;".
   [[nodiscard]] Answer run(const std::string& arguments, const std::string& before = "") const {

@@ -1,7 +1,5 @@
-// The command line from outside: answers, exit codes, and what it says to bad input.
+// The command line from outside: answers and exit codes.
 #include "tests/tools/command_line.hpp"
-
-#include <algorithm>
 
 namespace nearmiss {
 namespace {
@@ -11,15 +9,6 @@ using testing::CommandLine;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
-
-/// A vertex that falls through the triangle (0,0,0) (1,0,0) (0,1,0), from z = 1 to -1, and one that stays
-/// above.
-const std::string hit = "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0\n";
-const std::string miss = "0.25 0.25 2  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p0  0 0 0  1 0 0  0 1 0\n";
-
-std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
-
-// --- answers ----------------------------------------------------------------------------------------------
 
 TEST_F(CommandLine, OraclePrintsALineAQuery) {
   write("q.vt", "# two queries\n" + hit + "\n" + miss);
@@ -297,107 +286,6 @@ TEST_F(CommandLine, EverySubcommandHasHelp) {
   }
 }
 
-// --- bad input --------------------------------------------------------------------------------------------
-
-TEST_F(CommandLine, BadQueries) {
-  const std::string numbers = hit.substr(hit.find(' '));
-  write("nan.vt", "# a comment\nnan" + numbers);
-  write("inf.vt", hit + "inf" + numbers);
-  write("word.vt", "x" + numbers);
-  write("few.vt", "1 2 3\n");
-  write("many.vt", hit.substr(0, hit.size() - 1) + " 5\n");
-  write("empty.vt", "");
-  write("comments.vt", "# nothing\n");
-  for (const char* command :
-       {"oracle --kind vt ", "verdict --kind vt ", "replay --json new.json --db new.db "}) {
-    expect_refused(command + std::string("nan.vt"), {"nan.vt:2", "'nan'"});
-    expect_refused(command + std::string("inf.vt"), {"inf.vt:2", "'inf'"});
-    expect_refused(command + std::string("word.vt"), {"word.vt:1", "'x'"});
-    expect_refused(command + std::string("few.vt"), {"few.vt:1", "3", "24"});
-    expect_refused(command + std::string("many.vt"), {"many.vt:1", "24"});
-    expect_refused(command + std::string("empty.vt"), {"empty.vt"});
-    expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
-    expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});
-  }
-}
-
-TEST_F(CommandLine, BadShrinks) {
-  write("hit.vt", hit);
-  write("two.vt", hit + miss);
-  write("nan.vt", "nan" + hit.substr(hit.find(' ')));
-  const std::string never = " --subject " + plugin("never");
-  expect_refused("shrink hit.vt -o new", {"hit.vt:1", "wang does not fail", "expected a missed collision"});
-  expect_refused("shrink two.vt -o new" + never, {"two.vt: found 2 queries, expected one"});
-  expect_refused("shrink nan.vt -o new" + never, {"nan.vt:1", "'nan'"});
-  expect_refused("shrink absent.case -o new" + never, {"absent.case: cannot be read"});
-  expect_refused("shrink hit.vt -o new --subject wong", {"unknown subject 'wong'"});
-  expect_refused("verdict --kind vt hit.vt --subject " + plugin("error"), {"always: no answer: vt error -7"});
-  expect_refused("shrink hit.vt -o no/folder/new.case" + never, {"no/folder/new.case: cannot be written"});
-  expect_refused("shrink", {"CASE"});
-}
-
-TEST_F(CommandLine, BadNames) {
-  write("q.vt", hit);
-  expect_refused("replay q.vt --subject wong --db new.db", {"unknown subject 'wong'", "wang", "exact"});
-  expect_refused("replay q.vt --subject wang,wang --db new.db", {"two subjects named 'wang'"});
-  expect_refused("fuzz --cases 10 --family plantet --db new.db", {"unknown family 'plantet'", "planted"});
-  expect_refused("fuzz --cases 10 --family planted,all --db new.db", {"the family 'planted' twice"});
-  expect_refused("fuzz --cases 10 --family aspect@17 --db new.db", {"'aspect@17'", "from 0 to 16"});
-  expect_refused("fuzz --cases 10 --family mesh --db new.db", {"unknown family 'mesh'"});
-  expect_refused("fuzz --cases 10 --sweep aspekt --db new.db", {"unknown family 'aspekt'", "aspect"});
-  expect_refused("fuzz --cases 10 --sweep uniform --db new.db", {"'uniform'", "with a parameter"});
-  expect_refused("fuzz --cases 10 --sweep aspect,aspect --db new.db", {"'aspect@0' twice in --sweep"});
-  expect_refused("verdict --kind vt --subject wong q.vt", {"unknown subject 'wong'"});
-  expect_refused("oracle --kind vf q.vt", {"--kind", "vf"});
-}
-
-TEST_F(CommandLine, BadUsage) {
-  write("q.vt", hit);
-  expect_refused("", {"subcommand"});
-  expect_refused("fuzz --db new.db", {"--cases", "--time"});
-  expect_refused("fuzz --cases 0 --db new.db", {"--cases"});
-  expect_refused("fuzz --cases 10 --sweep aspect --steps 1 --db new.db", {"--steps"});
-  expect_refused("fuzz --cases 10 --steps 3 --db new.db", {"--steps", "--sweep"});
-  expect_refused("fuzz --cases 10 --sweep aspect --family aspect --db new.db", {"--sweep", "--family"});
-  expect_refused("fuzz --cases 10 --mesh a.obj --db new.db", {"--mesh"});
-  expect_refused("fuzz --time 3parsec --db new.db", {"--time: found '3parsec'", "30s"});
-  expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
-  expect_refused("replay q.vt --json no/folder/new.json", {"no/folder"});
-  expect_refused("replay q.vt --db no/folder/new.db", {"no/folder/new.db"});
-  expect_refused("replay", {"PATH"});
-}
-
-TEST_F(CommandLine, BadPlugins) {
-  write("q.vt", hit);
-  const auto refused = [&](const std::string& name, const std::vector<std::string>& words) {
-    expect_refused("replay q.vt --db new.db --json new.json --subject " + plugin(name), words);
-  };
-  refused("no_function", {"no_function.so", "nearmiss_get_subject"});
-  refused("other_abi", {"other_abi.so", "abi 99", "expected 1"});
-  refused("absent", {"absent.so", "cannot load"});
-}
-
-TEST_F(CommandLine, BadMeshes) {
-  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-  write("good.obj", square + "f 1 2 3\n");
-  write("other.obj", square + "f 1 2 4\n");
-  write("five.obj", square + "v 0 0 0\nf 1 2 3\n");
-  write("far.obj", square + "f 1 2 9\n");
-  write("nan.obj", "v 0 nan 0\n" + square + "f 1 2 3\n");
-  write("empty.obj", "");
-  const auto refused = [&](const std::string& end, const std::vector<std::string>& words) {
-    expect_refused("scene good.obj " + end + " --db new.db --json new.json", words);
-  };
-  refused("other.obj", {"other.obj", "1 2 4", "1 2 3"});
-  refused("five.obj", {"five.obj", "5 vertices", "4"});
-  refused("far.obj", {"far.obj:5", "vertex 9"});
-  refused("nan.obj", {"nan.obj:1", "'nan'"});
-  refused("empty.obj", {"empty.obj"});
-  refused("absent.obj", {"absent.obj: cannot be read"});
-  expect_refused("fuzz --cases 10 --mesh good.obj five.obj --db new.db", {"five.obj", "5 vertices"});
-  expect_refused("fuzz --cases 10 --mesh good.obj good.obj --db new.db", {"no ee pair in the mesh"});
-}
-
 TEST_F(CommandLine, TheLadderIsACampaign) {
   const std::string ladder = "ladder --scalar float,p60 --family uniform --cases 80 --db ladder.db";
   EXPECT_EQ(run(ladder).code, 0);
@@ -416,85 +304,6 @@ TEST_F(CommandLine, TheAuditNamesWhatIsTooSmall) {
   write("other.json", "{\"constants\": []}");
   EXPECT_THAT(run("report a.db -o report --audit other.json").error,
               HasSubstr("expected what nearmiss audit --json keeps"));
-}
-
-TEST_F(CommandLine, BadStores) {
-  write("text.db", "no database, but long enough to look like one if nobody looks at it closely");
-  write("taken.db", "precious");
-  expect_refused("report text.db -o new", {"text.db", "not a database"});
-  expect_refused("report absent.db -o new", {"absent.db: no such file"});
-  EXPECT_EQ(run("fuzz --cases 10 --db good.db").code, 0);
-  expect_refused("report good.db -o new --power text.db",
-                 {"text.db", "expected what nearmiss power --json keeps"});
-  expect_refused("report good.db -o new --environments text.db",
-                 {"text.db", "expected the table of tools/environments"});
-  expect_refused("report good.db -o new --baseline text.db", {"text.db", "not a database"});
-  expect_refused("merge new.db absent.db", {"absent.db: no such file"});
-  expect_refused("fuzz --cases 10 --db taken.db", {"taken.db: exists already"});
-  EXPECT_EQ(read("taken.db"), "precious");
-}
-
-TEST_F(CommandLine, HostileArithmeticIsSetRightAndSaid) {
-  write("q.vt", hit + "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p-1074  0 0 0  1 0 0  0 1 0\n");
-  const std::string before = "LD_PRELOAD=" + plugin("hostile");
-  const std::string says =
-      "nearmiss: found arithmetic that rounds upward, flushes subnormals to zero, takes subnormals for zero, "
-      "expected rounding to nearest with subnormals: set so\n";
-  const Answer answer = run("oracle --kind vt --distance q.vt", before);
-  EXPECT_EQ(answer.error, says);
-  EXPECT_EQ(answer.out, run("oracle --kind vt --distance q.vt").out);
-  // The threads of a campaign, and the processes of its plug-ins, are as the command is.
-  const auto positives = [&](const std::string& preload, const std::string& error) {
-    EXPECT_EQ(run("fuzz --family scale@-1070,planted --cases 2000 --quiet --json new.json --subject wang," +
-                      plugin("hostile"),
-                  preload)
-                  .error,
-              error);
-    const json subjects = read_json("new.json")["subjects"];
-    EXPECT_EQ(subjects["hostile"]["vt"]["positives"], 0);
-    return subjects["wang"]["vt"]["positives"].get<int>();
-  };
-  EXPECT_EQ(positives(before, says), positives("", ""));
-}
-
-// --- what goes wrong while it works -----------------------------------------------------------------------
-
-TEST_F(CommandLine, AnInterruptSavesEverything) {
-  const Answer answer =
-      run("fuzz --family uniform --time 60s --db a.db", "timeout --preserve-status -s INT 5");
-  EXPECT_EQ(answer.code, 130) << answer.error;
-  EXPECT_THAT(answer.out, HasSubstr("no miss in"));
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
-}
-
-TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
-  const Answer answer = run("fuzz --family uniform --time 60s --db a.db", "timeout -s KILL 8");
-  EXPECT_EQ(answer.code, 137);
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
-}
-
-TEST_F(CommandLine, AFullDiskIsSaidAndLosesNothingThatWasSaved) {
-  // A limit on the size of files stands for the full disk.
-  const Answer answer =
-      run("fuzz --time 60s --subject basic --family planted --db a.db", "ulimit -f 300; trap '' XFSZ;");
-  EXPECT_EQ(answer.code, 2);
-  EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1) << answer.error;
-  EXPECT_THAT(answer.error, HasSubstr("a.db: "));
-  EXPECT_EQ(run("merge b.db a.db").code, 0);
-  write("q.vt", hit);
-  const Answer no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
-  EXPECT_EQ(no_room.code, 2);
-  EXPECT_FALSE(std::filesystem::exists(file("new.json")));
-  EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
-}
-
-TEST_F(CommandLine, ADeviceIsWrittenToAndNotReplaced) {
-  write("q.vt", hit);
-  const Answer answer = run("replay q.vt --json /dev/stdout | cat");
-  EXPECT_THAT(answer.out, HasSubstr("\"false_negatives\": 0"));
-  EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
 }
 
 }  // namespace
