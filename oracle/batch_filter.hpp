@@ -9,12 +9,12 @@
 #include <cstring>
 #include <utility>
 
-#include "ccd/plane_culling.hpp"
 #include "oracle/batch.hpp"
 #include "oracle/batch_look.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/lanes.hpp"
 #include "oracle/patch.hpp"
+#include "oracle/planes.hpp"
 
 namespace nearmiss::certified {
 
@@ -111,8 +111,7 @@ class BatchFilter {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       for (std::size_t l = 0; l < n; ++l) fetch(ahead_[rows[i + l]]);
       const Points x = points(rows.pack(i));
-      const Mask apart = nearmiss::detail::separated_across_axis<kind>(x) |
-                         nearmiss::detail::separated_across_diagonal<kind>(x);
+      const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
       // Four sums at a time, for additions wait for each other; finite only where all coordinates are.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)

@@ -74,13 +74,13 @@ Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n
   const Mask known = (at_lo.positive | at_lo.negative) & (at_hi.positive | at_hi.negative);
 
   // F's root where it changes its sign, by Newton's method from the secant's: a guess.
-  const Cubic<Real> power = in_powers(F.b);
+  const Powers<Real> power = in_powers(F.b);
   Real t = lo + (hi - lo) * (f[0] / (f[0] - f[3]));
   Real step = 0;
   Real slope = 0;
   for (int i = 0; i < 4; ++i) {
     slope = power.slope(t);
-    step = power(t) / slope;
+    step = power.at(t) / slope;
     t = min(max(t - step, lo), hi);
   }
   const Real h = 2 * abs(step) + 4 * F.error / abs(slope) + 0x1p-50;

@@ -3,14 +3,19 @@
 #include <cmath>
 
 #include "ccd/arithmetic.hpp"
-#include "ccd/plane_culling.hpp"
 #include "oracle/end_contact.hpp"
+#include "oracle/planes.hpp"
 #include "oracle/search.hpp"
 
 namespace nearmiss {
 
 namespace certified {
 namespace {
+
+template <Kind kind, class Points>
+bool separated_by_a_plane(const Points& x) {
+  return separated_across_axes<kind>(x) || separated_across_diagonals<kind>(x);
+}
 
 template <class Real>
 FilterStage search(const Query& query, const Bernstein<Real, 4>& F, const Patch<Real>& whole) {
@@ -40,11 +45,10 @@ FilterStage filter(const Query& query) {
   using namespace certified;
   const PlainArithmetic guard;
   if (!is_finite(query)) return FilterStage::undecided;
-  const bool separated = query.kind == Kind::vertex_triangle
-                             ? separated_by_plane<Kind::vertex_triangle>(query)
-                             : separated_by_plane<Kind::edge_edge>(query);
-  if (separated) return FilterStage::planes;
   const auto x = coordinates(query);
+  if (query.kind == Kind::vertex_triangle ? separated_by_a_plane<Kind::vertex_triangle>(x)
+                                          : separated_by_a_plane<Kind::edge_edge>(x))
+    return FilterStage::planes;
   Patch<double> whole{
       0, 1, difference<double>(x, 1, 0), difference<double>(x, 2, 0), difference<double>(x, 3, 0), {}, {}};
   const auto F = coplanarity(whole.a, whole.b, whole.c);

@@ -5,17 +5,51 @@
 #include <array>
 #include <cmath>
 
-#include "ccd/cubic.hpp"
-
 namespace nearmiss::certified {
 
 /// a where it is true, else b, as Lanes have it.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
+/// c[0] + c[1] t + c[2] t² + c[3] t³.
+template <class Real>
+struct Powers {
+  std::array<Real, 4> c;
+
+  [[nodiscard]] Real at(const Real& t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+  [[nodiscard]] Real slope(const Real& t) const { return c[1] + t * (2 * c[2] + t * (3 * c[3])); }
+};
+
 /// The same cubic in powers.
 template <class Real>
-Cubic<Real> in_powers(const std::array<Real, 4>& b) {
-  return {b[3] - b[0] + 3 * (b[1] - b[2]), 3 * (b[0] + b[2] - 2 * b[1]), 3 * (b[1] - b[0]), b[0]};
+Powers<Real> in_powers(const std::array<Real, 4>& b) {
+  return {{b[0], 3 * (b[1] - b[0]), 3 * (b[0] + b[2] - 2 * b[1]), b[3] - b[0] + 3 * (b[1] - b[2])}};
+}
+
+/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1, as good as |F| <= small or as doubles
+/// allow: Newton's method, and bisection after a step that leaves the bracket or is more than half as long as
+/// the one before.
+inline double root_between(const Powers<double>& F, double F_0, double F_1, double small) {
+  double left = 0;
+  double right = 1;
+  double last_step = 1;
+  double t = F_0 / (F_0 - F_1);
+  const auto in_bracket = [&] { return left < t && t < right; };
+  constexpr int most_steps = 200;
+  for (int i = 0; i < most_steps; ++i) {
+    if (!in_bracket()) {
+      t = left + (right - left) / 2;
+      last_step = right - left;
+      if (!in_bracket()) break;  // no double is left between
+    }
+    const double value = F.at(t);
+    if (std::abs(value) <= small) break;
+    ((value < 0) == (F_0 < 0) ? left : right) = t;
+    const double step = value / F.slope(t);
+    if (t - step == t) break;
+    t = 2 * std::abs(step) <= last_step ? t - step : 2;
+    last_step = std::abs(step);
+  }
+  return std::clamp(t, 0.0, 1.0);
 }
 
 /// Where in (0, 1) it has an extremum, the first of two; any other number, or NaN, where it has none there.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "ccd/cubic.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/guess.hpp"
 #include "oracle/patch.hpp"
@@ -80,10 +79,10 @@ class Search {
 
   /// The part of an interval behind which F is clear of its error, about, whatever makes it rise.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
-    const Cubic<double> F = in_powers(f);
+    const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
-    const double part =
-        std::min({rise / std::abs(F.c), std::sqrt(rise / std::abs(F.b)), std::cbrt(rise / std::abs(F.a))});
+    const double part = std::min(
+        {rise / std::abs(F.c[1]), std::sqrt(rise / std::abs(F.c[2])), std::cbrt(rise / std::abs(F.c[3]))});
     return part < 0.25 ? part : 0.5;
   }
 
@@ -104,8 +103,9 @@ class Search {
     // The root as seen from the end where F is smaller: as precise as F is there.
     const double f_lo = f[0];
     const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
-    const Cubic<double> F = in_powers(from_lo ? f : backwards(f));
-    const double part = nearmiss::detail::refine_root(F, 0.0, 1.0, F.d, from_lo ? f[3] : f[0], F_.error);
+    const auto seen = from_lo ? f : backwards(f);
+    const Powers<double> F = in_powers(seen);
+    const double part = root_between(F, seen[0], seen[3], F_.error);
     const double length = interval.hi - interval.lo;
     const double root = std::clamp(from_lo ? interval.lo + part * length : interval.hi - part * length,
                                    interval.lo, interval.hi);

@@ -1,0 +1,55 @@
+// The two plane tests, the judge's and the accused's, written apart: they say the same on every family.
+#include <gtest/gtest.h>
+
+#include "ccd/plane_culling.hpp"
+#include "fuzz/families/families.hpp"
+#include "oracle/planes.hpp"
+
+namespace nearmiss {
+namespace {
+
+template <Kind kind>
+void expect_same(const Query& query, const std::string& provenance) {
+  const auto x = coordinates(query);
+  EXPECT_EQ(certified::separated_across_axes<kind>(x), detail::separated_across_axis<kind>(x, AllSteps{}))
+      << provenance;
+  EXPECT_EQ(certified::separated_across_diagonals<kind>(x),
+            detail::separated_across_diagonal<kind>(x, AllSteps{}))
+      << provenance;
+}
+
+TEST(Planes, AreThoseOfTheAccusedOnEveryFamily) {
+  constexpr std::uint64_t seed = 11;
+  for (const Family& family : families()) {
+    for (std::uint64_t i = 0; i < 20000; ++i) {
+      const Query query = make_query(family, seed, i);
+      const std::string provenance = family.name + ":" + std::to_string(seed) + ":" + std::to_string(i);
+      if (query.kind == Kind::vertex_triangle)
+        expect_same<Kind::vertex_triangle>(query, provenance);
+      else
+        expect_same<Kind::edge_edge>(query, provenance);
+      ASSERT_FALSE(::testing::Test::HasFailure());
+    }
+  }
+}
+
+/// A vertex that goes from one height to another, above a triangle at rest in the plane z = 0.
+Query above(double height, double later) {
+  Query query{.kind = Kind::vertex_triangle};
+  query.x[2] = height;
+  query.x[14] = later;
+  for (const std::size_t time : {0U, 12U}) query.x[time + 6] = query.x[time + 10] = 1;
+  return query;
+}
+
+TEST(Planes, TouchingIsNotSeparate) {
+  const Query touching = above(0, 1);
+  EXPECT_FALSE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(touching)));
+  const Query apart = above(0x1p-1074, 1);
+  EXPECT_TRUE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(apart)));
+  const Query through = above(1, -1);
+  EXPECT_FALSE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(through)));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,70 @@
+// The judge owes nothing to the accused: what each folder includes, read from the sources.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace nearmiss {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = NEARMISS_SOURCE;
+
+/// The project's own headers that a file includes, as "folder/file.hpp".
+std::set<std::string> includes(const fs::path& file) {
+  static const std::regex line("^\\s*#\\s*include \"([^\"]+)\".*");
+  std::set<std::string> found;
+  std::ifstream in(file);
+  for (std::string text; std::getline(in, text);)
+    if (std::smatch match; std::regex_match(text, match, line)) found.insert(match[1]);
+  return found;
+}
+
+/// All C and C++ files below a folder.
+std::vector<fs::path> code(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
+    const std::string ending = entry.path().extension();
+    if (ending == ".cpp" || ending == ".hpp" || ending == ".h" || ending == ".c") files.push_back(entry);
+  }
+  return files;
+}
+
+/// What a header includes, itself and all that these include.
+void follow(const std::string& header, std::set<std::string>& seen) {
+  if (!seen.insert(header).second) return;
+  for (const std::string& each : includes(source / header)) follow(each, seen);
+}
+
+TEST(Independence, TheOracleUsesOfTheAccusedTheirInterfaceAlone) {
+  std::set<std::string> borrowed;
+  for (const fs::path& file : code("oracle"))
+    for (const std::string& header : includes(file))
+      if (header.starts_with("ccd/")) follow(header, borrowed);
+  EXPECT_THAT(borrowed,
+              ::testing::UnorderedElementsAre("ccd/query.hpp", "ccd/arithmetic.hpp", "ccd/subject.hpp"));
+}
+
+TEST(Independence, AFolderIncludesFromThoseBeforeItAlone) {
+  const std::vector<std::string> floors{"ccd", "oracle", "corpus", "reports", "fuzz", "tools"};
+  for (std::size_t floor = 0; floor < floors.size(); ++floor) {
+    const auto files = code(floors[floor]);
+    ASSERT_FALSE(files.empty()) << floors[floor];
+    for (const fs::path& file : files)
+      for (const std::string& header : includes(file)) {
+        const std::string folder = header.substr(0, header.find('/'));
+        const auto from = std::find(floors.begin(), floors.end(), folder);
+        EXPECT_LE(from - floors.begin(), static_cast<std::ptrdiff_t>(floor))
+            << file << " includes " << header;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss
