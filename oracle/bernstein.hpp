@@ -18,6 +18,17 @@ inline constexpr double roundoff = 0x1p-53;
 template <>
 inline constexpr double roundoff<DoubleWord> = 0x1p-103;
 
+/// The smallest positive double; what is below 2^-1022 is a multiple of it.
+inline constexpr double smallest = 0x1p-1074;
+
+/// What underflow adds to the error of a product, in units of `smallest`. Rounding a double to a multiple of it
+/// costs at most a half. A product of double words has six products, whose errors pass through five sums; each
+/// sum may add as much as it is given, since it would be exact without them.
+template <class Real>
+inline constexpr double product_underflow = 0.5;
+template <>
+inline constexpr double product_underflow<DoubleWord> = 8;
+
 /// What bounds, magnitudes and times are computed in: double, or a double for each of many lanes.
 template <class Real>
 struct BoundOf {
@@ -43,6 +54,12 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
   }
   return positive ? 1 : negative ? -1 : 0;
 }
+
+// Constants of Bernstein::error_near.
+inline constexpr double spread_growth = 1.01;
+inline constexpr double slope_errors = 3;
+inline constexpr double end_rounding = 0x1p-54;  ///< half the distance of doubles below 1
+inline constexpr double upper_halves = 0x1p-52;  ///< a difference of upper halves by that of double words
 
 /// A polynomial of degree n - 1 by its Bernstein coefficients, each within `error` of exact, and so is every
 /// value and every coefficient on a part of [0, 1] that the functions below compute.
@@ -98,19 +115,28 @@ struct Bernstein {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// What the value at t has to exceed for that. The ends of [t - h, t + h] in [0, 1] may have been rounded:
-  /// 2^-53 more.
+  /// What the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
+  /// rounded, by at most `end_rounding`. A slope is exact to `slope_errors` errors of coefficients; their two would do, but
+  /// for rounding, which `spread_growth` is for too.
   [[nodiscard]] Bound error_near(const Bound& h) const {
     using std::abs;
     using std::max;
     Bound steepest = abs(approximate(b[1]) - approximate(b[0]));
     for (std::size_t i = 1; i + 1 < n; ++i)
       steepest = max(steepest, Bound(abs(approximate(b[i + 1]) - approximate(b[i]))));
-    const Bound spread = 1.01 * (n - 1) * (h + 0x1p-53) * (steepest + 3 * error);
-    return 1.01 * (error + spread);
+    if constexpr (std::is_same_v<Real, DoubleWord>) steepest += upper_halves * largest();
+    const Bound spread = spread_growth * (n - 1) * (h + end_rounding) * (steepest + slope_errors * error);
+    return spread_growth * (error + spread);
   }
 
  private:
+  /// The largest magnitude of a coefficient's upper half.
+  [[nodiscard]] double largest() const {
+    double all = 0;
+    for (const Real& x : b) all = std::max(all, std::abs(approximate(x)));
+    return all;
+  }
+
   /// A step of de Casteljau at a time: s = 1 - t, products, sum.
   struct Step {
     Real t, s;

@@ -41,7 +41,7 @@ bool collides_exactly(const Query& query);
 
 /// When two primitives first share a point.
 struct ContactTime {
-  Enclosure enclosure;   ///< one number where the time is a double
+  Enclosure enclosure;   ///< one number where the time is a double and no `width` was allowed
   std::string rational;  ///< the time itself, "p/q" or "p" in lowest terms, where it is rational; else empty
 };
 

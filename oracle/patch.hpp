@@ -22,7 +22,8 @@
 //
 // Rounding errors, in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. A
 // vector v comes with V, the largest magnitudes of its components as computed, and e_v, bounds of their
-// errors.
+// errors. tests/proofs/ derives each constant below again from this code, has Gappa prove it, and shows how
+// near to it an error can come.
 //
 // - A product x y of two components misses by at most X e_y + Y e_x + e_x e_y because of its factors.
 //
@@ -41,15 +42,31 @@
 // - w, l, M and L are computed in double and may be too small by 12 · 2^-53 of themselves: far less than what
 //   is taken too much.
 //
-// - Underflow: a product misses by at most 2^-1070 more, halving too, and there are few of them: for W
-//   2^-1060 is enough, for F 2^-1060 (1 + Σ A_k).
+// - Underflow: a product misses by at most H more, `product_underflow` of the smallest double; halving and
+//   dividing by 3 too; sums are exact down there. W: 2 H or, in the middle, 3 H, and 2 H for each of two levels: 7
+//   H. The bound's own products may lose 8 H. F: the products of b and c 2 H Σ A_k, all others 9 H; L loses
+//   less than 8 H Σ (A_k + e_k), the rest of the bound 4 H. Taken: 16 H, and 16 H (1 + Σ (A_k + e_k)).
 //
-// - Overflow makes w or M infinite or NaN, since they are sums of the largest magnitudes (in double words a
-//   coefficient may be NaN before that): then no comparison holds.
+// - Overflow: sums of products are at most 2 w in W, and 3 M in F, but for rounding. The bounds are computed
+//   from 4 w and 4 M (`headroom`): if anything overflows on the way to a coefficient, or in what `Bernstein`
+//   makes of it, then these are infinite or NaN, and so is the error, which no comparison with it survives.
+//   (Differences of coordinates that overflow have infinite magnitudes. In double words a coefficient may be
+//   NaN before that.)
 
 namespace nearmiss::certified {
 
-inline constexpr double underflow = 0x1p-1060;
+inline constexpr double weight_rounding = 10;     ///< of U w
+inline constexpr double F_rounding = 20;          ///< of U M
+inline constexpr double two_leaves = 2.01;        ///< of U w, in l: both factors rounded once
+inline constexpr double three_leaves = 3.02;      ///< of U M, in L: all three
+inline constexpr double leaf_growth = 1.01;       ///< of l and L: what later roundings make of them
+inline constexpr double part_rounding = 4;        ///< of U V: a vector on a part of the step
+inline constexpr double underflow_products = 16;  ///< of H
+inline constexpr double headroom = 4;
+
+/// What is added for underflow.
+template <class Real>
+inline constexpr double underflow = underflow_products* product_underflow<Real>* smallest;
 
 template <class Real>
 using Vec = std::array<Real, 3>;
@@ -110,28 +127,29 @@ Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
   part.rounded_once = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const double error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
-    part.error[k] = 1.01 * error + 4 * roundoff<Real> * whole.magnitude[k] + underflow;
+    part.error[k] =
+        leaf_growth * error + part_rounding * roundoff<Real> * whole.magnitude[k] + underflow<Real>;
   }
   return part;
 }
 
-/// The sum of the magnitudes of both products in component k of p × q, and what their factors' errors add to
-/// it.
+/// `headroom` times the sum of the magnitudes of both products in component k of p × q, and what their
+/// factors' errors add to it.
 template <class Real>
 struct CrossBound {
-  Bound<Real> w, l;
+  Bound<Real> w4, l;
 };
 
 template <class Real>
 CrossBound<Real> cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
   const std::size_t i = (k + 1) % 3;
   const std::size_t j = (k + 2) % 3;
-  const Bound<Real> w = p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i];
-  if (p.rounded_once && q.rounded_once) return {w, 2.01 * roundoff<Real> * w};
+  const Bound<Real> w4 = headroom * (p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i]);
+  if (p.rounded_once && q.rounded_once) return {w4, two_leaves / headroom * roundoff<Real> * w4};
   const auto miss = [&](std::size_t m, std::size_t n) {
     return p.magnitude[m] * q.error[n] + q.magnitude[n] * p.error[m] + p.error[m] * q.error[n];
   };
-  return {w, miss(i, j) + miss(j, i)};
+  return {w4, miss(i, j) + miss(j, i)};
 }
 
 template <class Real>
@@ -148,7 +166,7 @@ Bernstein<Real, 3> cross_component(const Motion<Real>& p, const Motion<Real>& q,
   return {{cross_component(p.start, q.start, k),
            Real(0.5) * (cross_component(p.start, q.end, k) + cross_component(p.end, q.start, k)),
            cross_component(p.end, q.end, k)},
-          10 * roundoff<Real> * bound.w + 1.01 * bound.l + underflow};
+          weight_rounding / headroom * roundoff<Real> * bound.w4 + leaf_growth * bound.l + underflow<Real>};
 }
 
 template <class Real>
@@ -173,19 +191,21 @@ Bernstein<Real, 4> coplanarity(const Motion<Real>& a, const Motion<Real>& b, con
   const auto dot = [](const Vec<Real>& v, const Vec<Real>& w) {
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
   };
-  Bound<Real> M = 0;
+  Bound<Real> M4 = 0;
   Bound<Real> L = 0;
-  Bound<Real> A = 0;
+  Bound<Real> reach = 0;  // Σ (A_k + e_k)
   for (std::size_t k = 0; k < 3; ++k) {
     const CrossBound<Real> bound = cross_bound(b, c, k);
-    M += a.magnitude[k] * bound.w;
-    if (!a.rounded_once) L += a.magnitude[k] * bound.l + a.error[k] * (bound.w + bound.l);
-    A += a.magnitude[k];
+    M4 += a.magnitude[k] * bound.w4;
+    reach += a.magnitude[k];
+    if (a.rounded_once) continue;
+    L += a.magnitude[k] * bound.l + a.error[k] * (bound.w4 / headroom + bound.l);
+    reach += a.error[k];
   }
-  if (a.rounded_once) L = 3.02 * roundoff<Real> * M;
+  if (a.rounded_once) L = three_leaves / headroom * roundoff<Real> * M4;
   return {{dot(a.start, w0), third(dot(a.end, w0) + dot(a.start, w1)),
            third(dot(a.end, w1) + dot(a.start, w2)), dot(a.end, w2)},
-          20 * roundoff<Real> * M + 1.01 * L + underflow * (1 + A)};
+          F_rounding / headroom * roundoff<Real> * M4 + leaf_growth * L + underflow<Real> * (1 + reach)};
 }
 
 /// A query over the part [begin, end] of the step.
