@@ -61,7 +61,7 @@ inline constexpr double two_leaves = 2.01;        ///< of U w, in l: both factor
 inline constexpr double three_leaves = 3.02;      ///< of U M, in L: all three
 inline constexpr double leaf_growth = 1.01;       ///< of l and L: what later roundings make of them
 inline constexpr double part_rounding = 4;        ///< of U V: a vector on a part of the step
-inline constexpr double underflow_products = 16;  ///< of H
+inline constexpr double underflow_products = 32;  ///< of H
 inline constexpr double headroom = 4;
 
 /// What is added for underflow.
@@ -112,9 +112,9 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
 
 /// The motion over [lo, hi] of its part of the step: 1 - t, products, sum: 3 roundings.
 template <class Real>
-Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
+Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
-  const auto at = [&](double t) {
+  const auto at = [&](const Bound<Real>& t) {
     const Real late(t);
     const Real early = Real(1) - late;
     Vec<Real> v;
@@ -126,7 +126,7 @@ Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
   part.magnitude = larger_magnitude(part.start, part.end);
   part.rounded_once = false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
+    const Bound<Real> error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
     part.error[k] =
         leaf_growth * error + part_rounding * roundoff<Real> * whole.magnitude[k] + underflow<Real>;
   }
