@@ -56,8 +56,12 @@ class Expander {
         return product_of(one);
       case Operation::divide:
         return quotient_of(one);
+      case Operation::absolute:
+        return magnitude_of_difference(one);
+      case Operation::largest:
+        return largest_magnitude(one);
       default:
-        throw std::logic_error("found an operation that has no expansion");
+        throw std::logic_error("found an operation that has no expansion: a minimum or a root");
     }
   }
 
@@ -98,6 +102,24 @@ class Expander {
     }
     if (terms.empty()) return terms;  // times 0
     return with_underflow(rounded(std::move(terms), 1));
+  }
+
+  /// |x - y| of two inputs.
+  [[nodiscard]] Expansion magnitude_of_difference(const Instruction& one) const {
+    const Instruction& inside = at(one.left);
+    const bool is_plain = inside.operation == Operation::subtract &&
+                          at(inside.left).operation == Operation::input &&
+                          at(inside.right).operation == Operation::input;
+    if (!is_plain) throw std::logic_error("found a magnitude of what is not a difference of inputs");
+    return {{1, {{steepest, 1}}, 1, 0}};
+  }
+  /// The largest of these is one of them.
+  Expansion largest_magnitude(const Instruction& one) {
+    const Expansion a = of(one.left);
+    const Expansion b = of(one.right);
+    if (a.size() != 1 || b.size() != 1 || a[0].monomial != b[0].monomial)
+      throw std::logic_error("found a maximum of what are not magnitudes of differences");
+    return a[0].roundings >= b[0].roundings ? a : b;
   }
 
   Expansion quotient_of(const Instruction& one) {
@@ -166,6 +188,10 @@ std::string complement(const std::string& t) { return "1-" + t; }
 Expansion expand(const Traced& expression, const Roundings& arithmetic) {
   Program program;
   const int result = program.add(expression);
+  return expand(program, result, arithmetic);
+}
+
+Expansion expand(const Program& program, int result, const Roundings& arithmetic) {
   return Expander(program, arithmetic).of(result);
 }
 

@@ -1,17 +1,15 @@
 // What an expression computes, multiplied out: products of inputs, and how often each was rounded.
 #pragma once
 
-#include <boost/multiprecision/gmp.hpp>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "tests/proofs/numbers.hpp"
 #include "tests/proofs/program.hpp"
 
 namespace nearmiss::proofs {
-
-using Rational = boost::multiprecision::mpq_rational;
 
 /// Inputs by name, with their powers.
 using Monomial = std::map<std::string, int>;
@@ -39,6 +37,9 @@ inline constexpr Roundings in_double_words{.quotient = 2};
 /// The name that 1 - t has in monomials, where t is an input in [0, 1].
 std::string complement(const std::string& t);
 
+/// The name of the largest |x - y| of several pairs of inputs.
+inline const std::string steepest = "steepest";
+
 /// The expansion of an expression made of sums, differences, products, and quotients by constants; throws
 /// std::logic_error where there is another operation.
 ///
@@ -46,6 +47,8 @@ std::string complement(const std::string& t);
 /// a term for underflow, but for products with 1 and powers of two above it. Sums do not underflow: they are exact
 /// where their result is below 2^-1022. The same δ may be in several terms, and in one more than once.
 Expansion expand(const Traced& expression, const Roundings& arithmetic = in_double);
+/// The same of one result of a program.
+Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
 /// A bound of |terms| of one sort: coefficient · monomial, with the most roundings that one of them has.
 struct Share {

@@ -10,6 +10,8 @@
 #include <regex>
 #include <stdexcept>
 
+#include "tests/proofs/numbers.hpp"
+
 namespace nearmiss::proofs {
 
 namespace {
@@ -66,9 +68,11 @@ double proven_upper_end(const std::string& script) {
   std::smatch match;
   if (answer.status != 0 || !std::regex_search(answer.text, match, upper))
     throw std::runtime_error("gappa proves no bound: " + answer.text + "\n" + script);
-  const double mantissa = std::strtod(match[1].str().c_str(), nullptr);
+  Rational end(boost::multiprecision::mpz_int(match[1].str()));
   const int exponent = match[2].matched ? std::stoi(match[2].str()) : 0;
-  return std::nextafter(std::ldexp(mantissa, exponent), HUGE_VAL);
+  for (int i = 0; i < std::abs(exponent); ++i) end *= exponent > 0 ? Rational(2) : Rational(1, 2);
+  const auto near = end.convert_to<double>();
+  return Rational(near) < end ? std::nextafter(near, HUGE_VAL) : near;
 }
 
 }  // namespace nearmiss::proofs

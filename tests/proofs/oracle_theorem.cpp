@@ -4,32 +4,11 @@
 
 #include <set>
 
+#include "tests/proofs/factors.hpp"
+
 namespace nearmiss::proofs {
 
 namespace {
-
-std::string text_of(const Rational& x) {
-  return fmt::format("({} / {})", numerator(x).str(), denominator(x).str());
-}
-
-/// Π (1 + δ) over some fresh variables, each at most `size` in magnitude.
-class Factors {
- public:
-  std::string product(int count, double size) {
-    std::string text = "1";
-    for (int i = 0; i < count; ++i) {
-      const std::string name = fmt::format("d{}", count_++);
-      text += fmt::format(" * (1 + {})", name);
-      ranges_ += fmt::format("{}{} in [{:a}, {:a}]", ranges_.empty() ? "" : " /\\ ", name, -size, size);
-    }
-    return text;
-  }
-  [[nodiscard]] const std::string& ranges() const { return ranges_; }
-
- private:
-  int count_ = 0;
-  std::string ranges_;
-};
 
 int degree(const Monomial& monomial) {
   int sum = 0;
@@ -97,27 +76,29 @@ std::vector<std::string> scripts_of(const Bounded& bounded, const Precision& pre
   std::vector<std::string> scripts;
   for (const Monomial& monomial : monomials) {
     Factors factors;
-    const auto times = [&](const Share& s, double size, double scale) {
-      return fmt::format("{} * {:a} * {}", text_of(s.coefficient), scale, factors.product(s.roundings, size));
+    const auto times = [&](const Share& s, double size) {
+      return fmt::format("{} * {}", script_text(s.coefficient), factors.product(s.roundings, size));
+    };
+    // Written as products: half of the smallest double is none.
+    const auto underflow = [&](const Share& s, double size, double of_smallest) {
+      return fmt::format("{} * {:a} * {:a}", times(s, size), of_smallest, certified::smallest);
     };
     const Share value = share(needs.values, monomial);
     const int leaves = bounded.leaves == Leaves::rounded_once ? degree(monomial) : 0;
-    const std::string roundings = fmt::format("{} * ({} - {})", text_of(value.coefficient),
+    const std::string roundings = fmt::format("{} * ({} - {})", script_text(value.coefficient),
                                               factors.product(value.roundings, precision.roundoff),
                                               factors.product(leaves, precision.roundoff));
     // What is computed in double words is within (1 + u) of its upper half, which magnitudes are of.
     const std::string halves = factors.product(precision.is_double_word ? degree(monomial) : 0, u);
-    const double smallest = certified::smallest;
     const std::string others = fmt::format(
-        "{} + {} + {}", times(share(needs.leaves, monomial), 0, 1),
-        times(share(needs.underflows, monomial), precision.roundoff, precision.underflow * smallest),
-        times(share(needs.bound_underflows, monomial), u, 0.5 * smallest));
-    const std::string offered = times(share(needs.bound, monomial), u, 1);
+        "{} + {} + {}", times(share(needs.leaves, monomial), 0),
+        underflow(share(needs.underflows, monomial), precision.roundoff, precision.underflow),
+        underflow(share(needs.bound_underflows, monomial), u, certified::product_underflow<double>));
+    const std::string offered = times(share(needs.bound, monomial), u);
     const auto goal = [&](const char* sign) {
       return fmt::format("({}{}) * ({}) + {} - {} <= 0", sign, roundings, halves, others, offered);
     };
-    const std::string assumed = factors.ranges().empty() ? "" : factors.ranges() + " -> ";
-    scripts.push_back(fmt::format("{{ {}{} /\\ {} }}\n", assumed, goal(""), goal("-")));
+    scripts.push_back(factors.script(goal("") + " /\\ " + goal("-")));
   }
   return scripts;
 }

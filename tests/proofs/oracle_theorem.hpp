@@ -12,7 +12,7 @@ namespace nearmiss::proofs {
 /// The arithmetic of values; bounds are computed in double.
 struct Precision {
   double roundoff;   ///< U
-  double underflow;  ///< H, what a product that underflows may miss by
+  double underflow;  ///< H, what a product that underflows may miss by, of the smallest double
   Roundings roundings;
   bool is_double_word;  ///< magnitudes are those of upper halves
 };
