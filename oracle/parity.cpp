@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -203,26 +204,48 @@ Crossings cross_patch(const Patch& patch, const Position& position, const Direct
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-Vector difference(const Query& query, int i, int j, int time) {
-  const auto p = time == 0 ? query.start(i) : query.end(i);
-  const auto q = time == 0 ? query.start(j) : query.end(j);
-  return {Number(p.x()) - Number(q.x()), Number(p.y()) - Number(q.y()), Number(p.z()) - Number(q.z())};
+/// Powers of two, one for each axis, by which every coordinate is an integer without needless bits: rationals
+/// are then quick, and scaling an axis changes no answer.
+using Scale = std::array<int, 3>;
+
+Scale integer_scale(const Query& query) {
+  Scale scale;
+  scale.fill(std::numeric_limits<int>::min());
+  for (std::size_t i = 0; i < query.x.size(); ++i) {
+    double c = query.x[i];
+    if (c == 0) continue;
+    int exponent = std::ilogb(c);
+    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c: 1 to 2^53
+    scale[i % 3] = std::max(scale[i % 3], -exponent);
+  }
+  return scale;
 }
 
-/// A power of two times which every coordinate is an integer: rationals are then quick, and no sign changes.
-Number integer_scale(const Query& query) {
-  int exponent = 0;
-  for (const double c : query.x)
-    if (c != 0) exponent = std::max(exponent, 52 - std::ilogb(c));
-  CGAL::Gmpz power = 1;
-  power <<= static_cast<unsigned long>(exponent);
-  return power;
+Number scaled(double coordinate, int exponent) {
+  if (coordinate == 0) return 0;
+  const int own = std::ilogb(coordinate) - 52;
+  CGAL::Gmpz integer(static_cast<long>(std::ldexp(coordinate, -own)));
+  if (own + exponent >= 0)
+    integer <<= static_cast<unsigned long>(own + exponent);
+  else
+    integer >>= static_cast<unsigned long>(-own - exponent);  // bits that are zero
+  return integer;
+}
+
+Vector difference(const Query& query, int i, int j, int time, const Scale& scale) {
+  const auto p = time == 0 ? query.start(i) : query.end(i);
+  const auto q = time == 0 ? query.start(j) : query.end(j);
+  const auto along = [&](int k) {
+    const int exponent = scale[static_cast<std::size_t>(k)];
+    return scaled(p[k], exponent) - scaled(q[k], exponent);
+  };
+  return {along(0), along(1), along(2)};
 }
 
 /// The images of the faces. A triangle is a patch with a side of length 0.
 std::vector<Patch> boundary(const Query& query) {
-  const Number scale = integer_scale(query);
-  const auto f = [&](int i, int j, int time) { return scale * difference(query, i, j, time); };
+  const Scale scale = integer_scale(query);
+  const auto f = [&](int i, int j, int time) { return difference(query, i, j, time, scale); };
   std::vector<Patch> faces;
   const auto add_side = [&](int i, int j, int k,
                             int l) {  // the difference x_i - x_j moves to x_k - x_l along the side

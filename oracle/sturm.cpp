@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -24,28 +25,45 @@ Vector cross(const Vector& v, const Vector& w) {
   return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
 }
 
-/// x_i in units of 2^exponent, of which every coordinate of the query is a multiple.
-Vector moving_point(const Query& query, int i, int exponent) {
-  const auto integer = [&](double coordinate) {
-    int own = 0;
-    const double fraction = std::frexp(coordinate, &own);
-    const Integer significand(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
-    return coordinate == 0 ? Integer(0) : Integer(significand << static_cast<unsigned>(own - 53 - exponent));
+/// A coordinate other than zero as an odd integer times a power of two.
+struct OddMultiple {
+  std::int64_t odd;
+  int exponent;
+
+  explicit OddMultiple(double coordinate) {
+    const double fraction = std::frexp(coordinate, &exponent);
+    odd = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(odd));
+    odd >>= zeros;
+    exponent += zeros - 53;
+  }
+};
+
+/// For each axis the largest power of two of which every coordinate along it is a multiple: scaling an axis
+/// changes no answer.
+std::array<int, 3> exponents_of_units(const Query& query) {
+  std::array<int, 3> smallest;
+  smallest.fill(std::numeric_limits<int>::max());
+  for (std::size_t i = 0; i < query.x.size(); ++i)
+    if (query.x[i] != 0) smallest[i % 3] = std::min(smallest[i % 3], OddMultiple(query.x[i]).exponent);
+  return smallest;
+}
+
+/// x_i in these units.
+Vector moving_point(const Query& query, int i, const std::array<int, 3>& units) {
+  const auto integer = [](double coordinate, int unit) {
+    if (coordinate == 0) return Integer(0);
+    const OddMultiple number(coordinate);
+    return Integer(Integer(number.odd) << static_cast<unsigned>(number.exponent - unit));
   };
   Vector x;
   for (int k = 0; k < 3; ++k) {
-    const Integer start = integer(query.start(i)[k]);
-    const Integer end = integer(query.end(i)[k]);
+    const int unit = units[static_cast<std::size_t>(k)];
+    const Integer start = integer(query.start(i)[k], unit);
+    const Integer end = integer(query.end(i)[k], unit);
     x[static_cast<std::size_t>(k)] = Polynomial({start, end - start});
   }
   return x;
-}
-
-int common_exponent(const Query& query) {
-  int smallest = std::numeric_limits<int>::max();
-  for (const double c : query.x)
-    if (c != 0) smallest = std::min(smallest, std::ilogb(c) - 52);
-  return smallest;
 }
 
 /// x lies on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is not
@@ -69,11 +87,11 @@ struct Figures {
   std::vector<OnSegment> segments;
 
   explicit Figures(const Query& query) {
-    const int unit = common_exponent(query);
-    const Vector x0 = moving_point(query, 0, unit);
-    const Vector x1 = moving_point(query, 1, unit);
-    const Vector x2 = moving_point(query, 2, unit);
-    const Vector x3 = moving_point(query, 3, unit);
+    const auto units = exponents_of_units(query);
+    const Vector x0 = moving_point(query, 0, units);
+    const Vector x1 = moving_point(query, 1, units);
+    const Vector x2 = moving_point(query, 2, units);
+    const Vector x3 = moving_point(query, 3, units);
     if (query.kind == Kind::vertex_triangle) {
       const Vector N = cross(x2 - x1, x3 - x1);
       area = dot(N, N);
