@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "ccd/proven.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -34,35 +35,29 @@ constexpr RoundingErrors<Number> printed_errors(const Number& eps) {
 }
 
 /// With all that the paper leaves out, rounding to nearest (u = ε/2): the rounding of the relative vectors
-/// themselves (§5); what is of second order in ε; end points of edges that are within 2B, not B.
+/// themselves (§5); what is of second order in ε; end points of edges that are within 2B, not B. For every ε
+/// <= 2^-10: proven by Gappa (proven.hpp), but for `residual`.
 ///
-/// Theorem 4.1 with these leaves: a position has one u; a velocity is off by the positions' and its own
-/// rounding, within B 3u, within 2B (x_0i of edges) 5u, within 2B at one end only (p of edges) 4u. So x + t v
-/// (audited.hpp) has k = 6, of x_0i 8, of p 7. tests/fuzz/ derives the first lines again from ccd/:
-///   N 2, k 14; edge times η: r - q 2, k 8, an edge of its own 1, k 7;
-///   weights: triangle, sum of two, 24, k 32; edges, p × r 4, k 15, again 24, k 32; N·N 12, k 31;
-///   squared length 3, k 15; weight x_0i·x_ji 6, k 17; F_0ij 12 + S, k 19;
-///   F: a 6, k 15; b 18, k 15; c 18, k 12; d 6, k 8: 624; Horner 288; solver 270 (`cubic_error`);
-///   δ: the time 2 · 3 · 2 (18 + 9 + 1) = 336, the evaluation 84, the motion, which is 7u off, 2 · 2√3 · 7√3.
+/// That is by Theorem 4.1. A position has one u; a velocity is off by the positions' and its own rounding,
+/// within B 3u, of edges' p, which is within 2B at one end, 4u. F: a 6, k 15; b 18, k 15; c 18, k 12; d 6, k
+/// 8: 624; Horner 288; solver 270 (`cubic_error`).
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S) {
   const Number u = eps / 2;
   // c((1 + u)^k - 1) <= c k u / (1 - k u/2) for k u < 2, since e^x - 1 <= x / (1 - x/2).
   const auto error = [&u](const Number& c, int k) { return c * k * u / (1 - u * k / 2); };
   const auto number = [](int c) { return Number(c); };
-  const Number area = error(number(2), 14);
-  const Number NN = error(number(12), 31);
-  const Number length2 = error(number(3), 15);
-  return {area,
-          area + error(number(2), 8),
-          area + error(number(1), 7),
-          error(number(24), 32) + NN,
-          error(number(24), 32) + NN,
-          length2,
-          error(number(6), 17) + length2,
-          error(S + 12, 19),
+  const auto times = [&eps](double factor) { return eps * Number(factor); };
+  return {times(proven::normal),
+          times(proven::height_vt),
+          times(proven::height_ee),
+          times(proven::inside_vt),
+          times(proven::inside_ee_far),
+          times(proven::length2),
+          times(proven::inside_ve_far),
+          times(proven::F_ve_far_without_S) + times(proven::F_ve_of_S) * S,
           error(number(1182), 1) / (1 - u * 20),
-          error(number(504), 1) / (1 - u * 60)};
+          times(proven::delta_far)};
 }
 
 /// One inequality: `more` must be at least `less`.

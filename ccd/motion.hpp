@@ -111,6 +111,10 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   }
 }
 
+/// B is larger than E + W by this, in units of ε relatively, and needs to be by that.
+inline constexpr int bound_margin = 64;
+inline constexpr int bound_needs = 40;
+
 namespace detail {
 
 // B = (E + W)(1 + 64 ε), where E bounds the edges at t = 0 and W is the extent of the box of all velocities
@@ -121,7 +125,7 @@ namespace detail {
 //   of EE are within B* + 2E* <= 3B* of each other (some pair is within B*, and the edges are within E*)
 //   at t = 0, and within 4B* at t = 1. A computed velocity misses by u(|start| + |end|) + u|v| <= 8uB*;
 //   a sum of two (v30 = v20 + v32) by 17uB*; an extent is the difference of two: by 34uB* + u; an edge
-//   (x32 = x31 - x21) by 4uB*; the sum E + W adds u: together below 40uB* = 20 ε B*.
+//   (x32 = x31 - x21) by 4uB*; the sum E + W adds u: together below 40uB* = 20 ε B* (17 are proven).
 // 64 ε leaves room for the product's own rounding: B >= B*(1 + 40ε).
 template <Kind kind, class T, class Steps = AllSteps>
 void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
@@ -142,7 +146,8 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
   pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
   pair.W = largest(extent, 3);
-  pair.B = (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + 64 * epsilon<T>());
+  pair.B =
+      (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + bound_margin * epsilon<T>());
 }
 
 }  // namespace detail

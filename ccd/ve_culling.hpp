@@ -24,19 +24,21 @@ enum class VeCulling : std::uint8_t {
 /// is B((1 + ε)² - 1): k = 2. Then x × v: 2 + 2 + 1 (product) + 1 (difference) = 6; a sum of two of them 7; a
 /// product with a third leaf 7 + 2 + 1 = 10 and two additions 12, one more 13: b and c have B_f = 18 B³, k =
 /// 13; a and d 6 B³ and k = 11. Horner: a t: 12; + b: 24 B³, 14; t: 15; + c: 42 B³, 16; t: 17; + d: 48 B³, k
-/// = 18. 48 ((1 + ε)^18 - 1) <= 865 ε for ε <= 2^-15. Critical points (see solve_cubic) add 576.
-inline constexpr int evaluation_error = 865 + 576;
+/// = 18. 48 ((1 + ε)^18 - 1) <= 865 ε for ε <= 2^-15. To nearest 334 are proven (proven.hpp).
+inline constexpr int value_error = 865;
+/// Critical points (see solve_cubic) add 576.
+inline constexpr int evaluation_error = value_error + 576;
 
 /// |ŵ - w| / (B⁴ε) for a weight or its comparison with N·N, by Theorem 4.1: x + t v has k = 4 (leaf 2,
 /// product 3, sum 4) and stays within B; N and p × q: 4 + 4 + 1 + 1 = 10, B_f = 2 B²; their dot product 10 +
 /// 10 + 1 + 2 = 23 with B_f = 12 B⁴; a sum of two weights 24 B⁴, k = 24; against N·N another 12 B⁴, k = 23:
-/// 24 ((1 + ε)^24 - 1) + 12 ((1 + ε)^23 - 1) <= 853 ε for ε <= 2^-15.
+/// 24 ((1 + ε)^24 - 1) + 12 ((1 + ε)^23 - 1) <= 853 ε for ε <= 2^-15. To nearest 423 are proven.
 inline constexpr int weight_error = 853;
 
 /// |computed - exact| / (B⁴ε) of ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h for h <= 1, with ‖N‖₁ <= 6 B², both edges together
 /// <= 6 B: N misses by 3 · 2 B² · 10 ε = 60 B²ε: 60 · 6 √3 <= 624; the edges by 6 · 4 Bε: 24 · 6 √3 <= 250; W
 /// by 17 εB (see form_bound): 17 · 36 √3 <= 1061; the product itself, of about ten roundings: 10 · 36 √3 <=
-/// 624.
+/// 624. To nearest 1427 are proven, and 1906 for it and the weight together.
 inline constexpr int spread_error = 2559;
 
 namespace detail {

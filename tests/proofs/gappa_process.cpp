@@ -1,14 +1,16 @@
 #include "tests/proofs/gappa_process.hpp"
 
-#include <sys/wait.h>
+#include <fmt/format.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <filesystem>
 #include <regex>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/proofs/numbers.hpp"
 
@@ -16,57 +18,60 @@ namespace nearmiss::proofs {
 
 namespace {
 
-struct Answer {
-  int status;
-  std::string text;
-};
-
-/// A file for as long as Gappa reads it.
+/// A file with a text, gone at the end.
 class ScriptFile {
  public:
-  explicit ScriptFile(const std::string& script) {
+  explicit ScriptFile(const std::string& text) {
     const int file = mkstemp(path_.data());
-    if (file < 0 || write(file, script.data(), script.size()) != static_cast<ssize_t>(script.size()))
-      throw std::runtime_error("found no room for a script in " + path_);
+    if (file < 0) throw std::runtime_error("no temporary file for gappa");
+    const bool all = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
     close(file);
+    if (!all) throw std::runtime_error("a temporary file for gappa cannot be written");
   }
-  ~ScriptFile() { unlink(path_.c_str()); }
+  ~ScriptFile() { std::filesystem::remove(path_); }
   ScriptFile(const ScriptFile&) = delete;
   ScriptFile& operator=(const ScriptFile&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  std::string path_ = "/tmp/nearmiss-gappa-XXXXXX";
+  std::string path_ = std::filesystem::temp_directory_path() / "gappa-XXXXXX";
 };
 
-/// Precision is what Gappa's own interval bounds are rounded to, in bits: finer than a double word's errors.
-Answer run(const std::string& script) {
-  const ScriptFile file(script);
-  const std::string command = "gappa -Eprecision=400 " + file.path() + " 2>&1";
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("gappa does not start");
-  Answer answer{};
-  std::array<char, 4096> some{};
-  for (std::size_t count = 0; (count = fread(some.data(), 1, some.size(), pipe)) > 0;)
-    answer.text.append(some.data(), count);
-  answer.status = pclose(pipe);
-  const bool is_readable = answer.text.find("syntax error") == std::string::npos;
-  if (!WIFEXITED(answer.status) || WEXITSTATUS(answer.status) > 1 || !is_readable)
-    throw std::runtime_error("gappa: " + answer.text + "\n" + script);
-  return answer;
+/// What a command prints, and its exit status.
+std::pair<std::string, int> output_of(const std::string& command) {
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("gappa does not run");
+  std::string output;
+  std::array<char, 4096> part{};
+  while (const std::size_t size = fread(part.data(), 1, part.size(), pipe)) output.append(part.data(), size);
+  return {output, pclose(pipe)};
 }
+
+/// Of Gappa's own interval bounds, in bits.
+constexpr auto fine = "-Eprecision=400";
 
 }  // namespace
 
-bool is_proven(const std::string& script) { return run(script).status == 0; }
+GappaAnswer run_gappa(const std::string& script, const std::string& options) {
+  const ScriptFile file(script);
+  const auto [output, status] = output_of(fmt::format("{} {} {} 2>&1", NEARMISS_GAPPA, options, file.path()));
+  // A warning may be that Gappa takes a hint on trust.
+  const bool warns = output.find("Warning") != std::string::npos;
+  const bool unproven = output.find("some properties were not satisfied") != std::string::npos;
+  if (warns || (status != 0 && !unproven))
+    throw std::runtime_error("gappa says: " + output + "\nof this script:\n" + script);
+  return {output, status == 0};
+}
+
+bool is_proven(const std::string& script) { return run_gappa(script, fine).proven; }
 
 double proven_upper_end(const std::string& script) {
-  const Answer answer = run(script);
+  const GappaAnswer answer = run_gappa(script, fine);
   // ... in [0, 774619135907725313b-112 {1.49186e-16, 2^(-52.5737)}]
   static const std::regex upper("in \\[[^,]*(?:\\{[^}]*\\})?, (-?[0-9]+)(?:b(-?[0-9]+))?[ \\]]");
   std::smatch match;
-  if (answer.status != 0 || !std::regex_search(answer.text, match, upper))
+  if (!answer.proven || !std::regex_search(answer.text, match, upper))
     throw std::runtime_error("gappa proves no bound: " + answer.text + "\n" + script);
   Rational end(boost::multiprecision::mpz_int(match[1].str()));
   const int exponent = match[2].matched ? std::stoi(match[2].str()) : 0;

@@ -5,11 +5,21 @@
 
 namespace nearmiss::proofs {
 
-/// Whether Gappa proves all goals of a script. Throws std::runtime_error where it does not run or cannot read
-/// the script.
-bool is_proven(const std::string& script);
+/// What Gappa prints for a script, and whether it proves all of its goals.
+struct GappaAnswer {
+  std::string text;
+  bool proven;
+};
 
-/// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward.
+/// Throws std::runtime_error where Gappa does not run, does not understand the script, or warns: of a hint that it
+/// takes on trust, for instance.
+GappaAnswer run_gappa(const std::string& script, const std::string& options = "");
+
+/// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward. Its own
+/// interval bounds are finer than the errors of double words.
 double proven_upper_end(const std::string& script);
+
+/// Whether it proves all goals, likewise.
+bool is_proven(const std::string& script);
 
 }  // namespace nearmiss::proofs

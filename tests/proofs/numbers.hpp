@@ -1,4 +1,4 @@
-// Numbers in which programs are evaluated, beside double: exact ones, and the oracle's double words.
+// Numbers in which programs are evaluated, beside double: rational ones, and the oracle's double words.
 #pragma once
 
 #include <boost/multiprecision/gmp.hpp>
@@ -9,35 +9,9 @@
 
 namespace nearmiss::proofs {
 
-using Rational = boost::multiprecision::mpq_rational;
-
-/// A rational number; a root of one is refused.
-struct ExactNumber {
-  Rational x;
-
-  ExactNumber() = default;
-  explicit ExactNumber(double value) : x(value) {}
-  explicit ExactNumber(Rational value) : x(std::move(value)) {}
-
-  friend ExactNumber operator-(const ExactNumber& a) { return ExactNumber(Rational(-a.x)); }
-  friend ExactNumber operator+(const ExactNumber& a, const ExactNumber& b) {
-    return ExactNumber(Rational(a.x + b.x));
-  }
-  friend ExactNumber operator-(const ExactNumber& a, const ExactNumber& b) {
-    return ExactNumber(Rational(a.x - b.x));
-  }
-  friend ExactNumber operator*(const ExactNumber& a, const ExactNumber& b) {
-    return ExactNumber(Rational(a.x * b.x));
-  }
-  friend ExactNumber operator/(const ExactNumber& a, const ExactNumber& b) {
-    return ExactNumber(Rational(a.x / b.x));
-  }
-  friend bool operator<(const ExactNumber& a, const ExactNumber& b) { return a.x < b.x; }
-  friend ExactNumber abs(const ExactNumber& a) { return a.x < 0 ? -a : a; }
-  friend ExactNumber sqrt(const ExactNumber& /*a*/) {
-    throw std::logic_error("found a square root, which has no exact value here");
-  }
-};
+/// An exact number.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
 /// A double word; its quotients are by 3 alone, as in `third`.
 struct WordNumber {
@@ -57,13 +31,9 @@ struct WordNumber {
   }
   friend bool operator<(const WordNumber& a, const WordNumber& b) { return a.x.hi < b.x.hi; }
   friend WordNumber abs(const WordNumber& a) { return a.x.hi < 0 ? -a : a; }
-  friend WordNumber sqrt(const WordNumber& /*a*/) {
-    throw std::logic_error("found a square root, which double words do not have");
-  }
 };
 
 inline Rational exactly(double x) { return Rational(x); }
-inline Rational exactly(const ExactNumber& x) { return x.x; }
 inline Rational exactly(const WordNumber& x) { return Rational(x.x.hi) + Rational(x.x.lo); }
 
 }  // namespace nearmiss::proofs

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "oracle/search.hpp"
-#include "tests/proofs/claim.hpp"
+#include "tests/proofs/oracle_claim.hpp"
 #include "tests/proofs/oracle_errors.hpp"
 #include "tests/proofs/oracle_proofs.hpp"
 #include "tests/proofs/oracle_seen.hpp"
@@ -16,8 +16,8 @@ using namespace certified;
 
 /// A claim about the roundings of results, in units of U and w or M.
 template <class Real, class Number>
-Claim rounding(std::string name, double claimed, Results results, const std::string& vectors,
-               Rational (*size)(const Inputs&)) {
+OracleClaim rounding(std::string name, double claimed, Results results, const std::string& vectors,
+                     Rational (*size)(const Inputs&)) {
   constexpr bool words = std::is_same_v<Number, WordNumber>;
   const ResultsAt<Number> at(results);
   const std::string unit = vectors.size() == 3 ? "U M" : "U w";
@@ -83,8 +83,8 @@ constexpr auto patch = "oracle/patch.hpp";
 constexpr auto bernstein = "oracle/bernstein.hpp";
 constexpr auto gappa = "Gappa";
 
-void add_polynomials(std::vector<Claim>& claims) {
-  const auto add = [&](Claim claim) { claims.push_back(std::move(claim)); };
+void add_polynomials(std::vector<OracleClaim>& claims) {
+  const auto add = [&](OracleClaim claim) { claims.push_back(std::move(claim)); };
   add(rounding<Traced, double>("weight_rounding", weight_rounding, weight_results<Traced>, "bc", w_of));
   add(rounding<TracedWord, WordNumber>("weight_rounding", weight_rounding, weight_results<TracedWord>, "bc",
                                        w_of));
@@ -115,8 +115,8 @@ void add_polynomials(std::vector<Claim>& claims) {
        [](Random& random) { return draw_signs(random, "abc"); }});
 }
 
-void add_others(std::vector<Claim>& claims) {
-  const auto add = [&](Claim claim) { claims.push_back(std::move(claim)); };
+void add_others(std::vector<OracleClaim>& claims) {
+  const auto add = [&](OracleClaim claim) { claims.push_back(std::move(claim)); };
   add({"spread_growth", bernstein, "error + spread", spread_growth, gappa, proven_spread_growth, seen_spread,
        draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"b2", {-1, 1}}, {"h", {0, 1}}})});
   add({"slope_errors", bernstein, "error", slope_errors, gappa, proven_slope_errors, seen_slope,
@@ -141,8 +141,8 @@ void add_others(std::vector<Claim>& claims) {
 
 }  // namespace
 
-std::vector<Claim> oracle_claims() {
-  std::vector<Claim> claims;
+std::vector<OracleClaim> oracle_claims() {
+  std::vector<OracleClaim> claims;
   add_polynomials(claims);
   add_others(claims);
   return claims;

@@ -18,8 +18,8 @@ WordNumber number(double hi, double lo) {
   return WordNumber(certified::DoubleWord(hi, lo));
 }
 template <>
-ExactNumber number(double hi, double lo) {
-  return ExactNumber(Rational(Rational(hi) + Rational(lo)));
+Rational number(double hi, double lo) {
+  return Rational(hi) + Rational(lo);
 }
 
 bool is_lower_half(const std::string& name) { return name.ends_with(".lo"); }
@@ -33,6 +33,12 @@ std::map<std::string, Number> as_numbers(const Inputs& inputs) {
     numbers.emplace(name, number<Number>(value, lower == inputs.end() ? 0.0 : lower->second));
   }
   return numbers;
+}
+
+/// Whether both times are in [0, 1].
+bool are_in_step(const Inputs& inputs) {
+  const auto is_in_step = [&](const char* time) { return inputs.at(time) >= 0 && inputs.at(time) <= 1; };
+  return is_in_step("t") && is_in_step("s");
 }
 
 /// 0 where there is nothing to compare with.
@@ -54,26 +60,26 @@ ResultsAt<Number>::ResultsAt(Results results) {
 
 template <class Number>
 double ResultsAt<Number>::error(const Inputs& inputs, const Rational& unit) const {
-  for (const char* time : {"t", "s"})
-    if (const double t = inputs.at(time); !(t >= 0 && t <= 1)) return 0;
+  if (!are_in_step(inputs)) return 0;
   const auto computed = evaluate(program_, as_numbers<Number>(inputs), Number(0.0));
-  const auto exact = evaluate(program_, as_numbers<ExactNumber>(inputs), ExactNumber(0.0));
+  const auto exact = evaluate(program_, as_numbers<Rational>(inputs), Rational(0));
   double worst = 0;
   for (const int result : results_) {
     const auto i = static_cast<std::size_t>(result);
-    worst = std::max(worst, ratio(abs(exactly(computed[i]) - exact[i].x), unit));
+    worst = std::max(worst, ratio(abs(exactly(computed[i]) - exact[i]), unit));
   }
   return worst;
 }
 
 template <class Number>
 double ResultsAt<Number>::reach(const Inputs& inputs, const Rational& unit) const {
-  const auto all = evaluate(program_, as_numbers<ExactNumber>(inputs), ExactNumber(0.0));
+  if (!are_in_step(inputs)) return 0;
+  const auto all = evaluate(program_, as_numbers<Rational>(inputs), Rational(0));
   int highest = 0;
   for (const int result : results_) highest = std::max(highest, degree(result));
   double largest = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (degree(static_cast<int>(i)) == highest) largest = std::max(largest, ratio(abs(all[i].x), unit));
+    if (degree(static_cast<int>(i)) == highest) largest = std::max(largest, ratio(abs(all[i]), unit));
   return largest;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/proofs/claim.hpp"
+#include "tests/proofs/oracle_claim.hpp"
 #include "tests/proofs/oracle_proofs.hpp"
 
 namespace nearmiss::proofs {

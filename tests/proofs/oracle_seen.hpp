@@ -1,8 +1,8 @@
 // The errors that inputs show, exactly: what the rounding constants of oracle/ are compared with.
 #pragma once
 
-#include "tests/proofs/claim.hpp"
 #include "tests/proofs/numbers.hpp"
+#include "tests/proofs/oracle_claim.hpp"
 
 namespace nearmiss::proofs {
 

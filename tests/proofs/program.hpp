@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -89,18 +90,21 @@ Number result_of(const Instruction& one, const std::vector<Number>& results,
     case Operation::root:
       break;
   }
-  return sqrt(operand(one.left));
+  if constexpr (requires(const Number& x) { sqrt(x); }) return sqrt(operand(one.left));
+  throw std::domain_error("no exact square root");
 }
 
 /// The results of all instructions with `Number`'s arithmetic: rounded for a floating-point number, exact for
-/// a rational one.
+/// a rational one. Those of `given` instructions are given.
 template <class Number>
 std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
-                             const Number& epsilon) {
+                             const Number& epsilon, const std::map<int, Number>& given = {}) {
   std::vector<Number> results;
   results.reserve(program.size());
-  for (int i = 0; i < static_cast<int>(program.size()); ++i)
-    results.push_back(result_of(program[i], results, inputs, epsilon));
+  for (int i = 0; i < static_cast<int>(program.size()); ++i) {
+    const auto known = given.find(i);
+    results.push_back(known != given.end() ? known->second : result_of(program[i], results, inputs, epsilon));
+  }
   return results;
 }
 

@@ -3,104 +3,210 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace nearmiss::proofs {
 
-namespace {
-
-double parse(const std::string& text, const std::string& line) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0')
-    throw std::runtime_error("found '" + text + "', expected a number: " + line);
-  return value;
-}
-
-/// One input changed.
-Inputs changed(Inputs inputs, const Claim& claim, Random& random) {
-  const auto name = std::next(inputs.begin(), random.integer(0, static_cast<int>(inputs.size()) - 1));
-  double& value = name->second;
-  switch (random.integer(0, 3)) {
-    case 0:
-      value = claim.draw(random)[name->first];
-      break;
-    case 1:
-      value *= 1 + std::ldexp(random.uniform(-1, 1), -random.integer(0, 50));
-      break;
-    case 2:
-      for (int i = random.integer(1, 4); i > 0; --i)
-        value = std::nextafter(value, random.one_in(2) ? 1e300 : -1e300);
-      break;
-    default:
-      value = std::ldexp(std::round(std::ldexp(value, 8)), -8);  // few bits
-  }
-  return inputs;
-}
-
-/// Whether lower halves of double words are within half an ulp of the upper ones.
-bool are_double_words(const Inputs& inputs) {
-  return std::all_of(inputs.begin(), inputs.end(), [&](const auto& input) {
-    const auto& [name, value] = input;
-    if (!name.ends_with(".lo")) return true;
-    const double upper = inputs.at(name.substr(0, name.size() - 3));
-    return upper + value == upper;
-  });
-}
-
-}  // namespace
-
 std::map<std::string, Witness> read_witnesses(const std::filesystem::path& file) {
-  std::map<std::string, Witness> witnesses;
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("found no file " + file.string());
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) throw std::runtime_error("found no ':' in " + line);
-    Witness& witness = witnesses[line.substr(0, colon)];
-    std::istringstream words(line.substr(colon + 1));
-    std::string word;
-    words >> word;
-    witness.seen = parse(word, line);
-    while (words >> word) {
-      const std::size_t equals = word.find('=');
-      if (equals == std::string::npos) throw std::runtime_error("found no '=' in " + word + ": " + line);
-      witness.inputs[word.substr(0, equals)] = parse(word.substr(equals + 1), line);
+  std::map<std::string, Witness> all;
+  std::ifstream lines(file);
+  if (!lines) throw std::runtime_error(file.string() + " cannot be read");
+  for (std::string line; std::getline(lines, line);) {
+    const auto equals = line.find(" = ");
+    const auto colon = line.find(" : ");
+    if (equals == std::string::npos || colon == std::string::npos)
+      throw std::runtime_error(file.string() + ": not a witness: " + line);
+    Witness& witness = all[line.substr(0, equals)];
+    witness.error = std::strtod(line.c_str() + equals + 3, nullptr);
+    std::istringstream inputs(line.substr(colon + 3));
+    for (std::string input; inputs >> input;) {
+      const auto sign = input.find('=');
+      witness.inputs[input.substr(0, sign)] = std::strtod(input.c_str() + sign + 1, nullptr);
     }
   }
-  return witnesses;
+  return all;
 }
 
 void write_witnesses(const std::filesystem::path& file, const std::map<std::string, Witness>& witnesses) {
-  std::ofstream out(file);
-  out << "# Inputs that come nearest to the bound of each constant: its name, the error, the inputs.\n";
-  for (const auto& [name, witness] : witnesses) {
-    out << fmt::format("{}: {:a}", name, witness.seen);
-    for (const auto& [input, value] : witness.inputs) out << fmt::format(" {}={:a}", input, value);
-    out << '\n';
+  std::ofstream lines(file);
+  for (const auto& [claim, witness] : witnesses) {
+    lines << fmt::format("{} = {:a} :", claim, witness.error);
+    for (const auto& [name, value] : witness.inputs) lines << fmt::format(" {}={:a}", name, value);
+    lines << '\n';
   }
-  if (!out.flush()) throw std::runtime_error("found no room for " + file.string());
+  if (!lines.flush()) throw std::runtime_error(file.string() + " cannot be written");
 }
 
-Witness find_witness(const Claim& claim, Random& random, int steps) {
-  Witness best;
-  Witness here;
-  const int climb = std::max(100, steps / 8);
-  for (int i = 0; i < steps; ++i) {
-    const bool begins = i % climb < climb / 10 || here.inputs.empty();
-    if (i % climb == 0) here = {-1, {}};
-    const Inputs next = begins ? claim.draw(random) : changed(here.inputs, claim, random);
-    if (!are_double_words(next)) continue;
-    const double seen = claim.seen(next);
-    if (seen < here.seen) continue;
-    here = {seen, next};
-    if (seen > best.seen || best.inputs.empty()) best = here;
+Measure::Measure(const Claim& claim) : vectors_alone_(claim.vectors_alone) {
+  const Problem problem = claim.problem();
+  left_ = program_.add(problem.left);
+  right_ = program_.add(problem.right);
+  degree_ = problem.degree;
+  for (const Motion& motion : problem.motions) {
+    const double most[] = {motion.start, motion.end, motion.velocity};
+    for (int i = 0; i < 3; ++i) {
+      const Traced& x = motion.vector.xv[i];
+      const Traced& v = motion.vector.xv[i + 3];
+      vectors_.insert(vectors_.end(), {program_.add(x), program_.add(v)});
+      limit(x, -most[0], most[0], 1);
+      limit(x + v, -most[1], most[1], 1);
+      limit(v, -most[2], most[2], 1);
+    }
+  }
+  for (const auto* ranges : {&problem.inputs, &problem.facts})
+    for (const Range& each : *ranges) limit(each.expression, each.lowest, each.highest, each.degree);
+  for (const Range& input : problem.inputs) {
+    const int index = program_.add(input.expression);
+    if (program_[index].operation != Operation::input) given_[index] = "given";
+  }
+  if (!given_.empty()) names_.emplace_back("given");
+  for (int i = 0; i < static_cast<int>(program_.size()); ++i)
+    if (program_[i].operation == Operation::input) names_.push_back(program_[i].name);
+}
+
+void Measure::limit(const Traced& expression, double lowest, double highest, int degree) {
+  limits_.push_back({program_.add(expression), lowest, highest, degree});
+}
+
+template <class Number>
+std::vector<Number> Measure::results(const Inputs& inputs) const {
+  std::map<std::string, Number> values;
+  for (const auto& [name, value] : inputs) values.emplace(name, value);
+  std::map<int, Number> given;
+  for (const auto& [index, name] : given_) given.emplace(index, Number(inputs.at(name)));
+  return evaluate<Number>(program_, values, Number(0x1p-52), given);
+}
+
+// From what is of the first degree; the others are only held against it.
+template <class Number>
+Number Measure::smallest_bound(const std::vector<Number>& exact) const {
+  Number B = 0;
+  for (const Limit& each : limits_) {
+    if (each.degree != 1) continue;
+    const Number& value = exact[static_cast<std::size_t>(each.index)];
+    const Number needed = Number(value < 0 ? -value : value) / Number(each.highest);
+    if (B < needed) B = needed;
+  }
+  return B;
+}
+
+template <class Number>
+std::optional<double> Measure::measured(const Inputs& inputs) const {
+  const auto exact = results<Number>(inputs);
+  const auto rounded = results<double>(inputs);
+  const Number B = smallest_bound(exact);
+  const auto power = [&B](int degree) {
+    Number product = 1;
+    for (int i = 0; i < degree; ++i) product *= B;
+    return product;
+  };
+  for (const Limit& each : limits_) {
+    const Number& value = exact[static_cast<std::size_t>(each.index)];
+    const Number unit = power(each.degree);
+    if (value < Number(each.lowest) * unit || Number(each.highest) * unit < value) return std::nullopt;
+  }
+  const auto at = [](const auto& all, int index) { return Number(all[static_cast<std::size_t>(index)]); };
+  Number computed = at(rounded, left_) - at(rounded, right_);
+  if (vectors_alone_) {
+    std::map<std::string, Number> values;
+    for (const auto& [name, value] : inputs) values.emplace(name, value);
+    std::map<int, Number> given;
+    for (const int index : vectors_) given.emplace(index, at(rounded, index));
+    for (const auto& [index, name] : given_) given.emplace(index, Number(inputs.at(name)));
+    const auto mixed = evaluate<Number>(program_, values, Number(0x1p-52), given);
+    computed = at(mixed, left_) - at(mixed, right_);
+  }
+  const Number error = computed - (at(exact, left_) - at(exact, right_));
+  const Number unit = power(degree_) * Number(0x1p-52);
+  if (unit == 0) return std::nullopt;
+  return static_cast<double>(Number(error < 0 ? -error : error) / unit);
+}
+
+double Measure::draw(Random& random, const std::string& name) const {
+  const bool is_part = name == "t" || name == "eta" || name == "S" || name == "given";
+  const double sign = is_part || random.one_in(2) ? 1 : -1;
+  if (is_part && random.one_in(3)) return 1 - random.log_uniform(1e-17, 1);
+  switch (random.integer(0, 4)) {
+    case 0:
+      return sign * (1 - random.log_uniform(1e-17, 1));
+    case 1:
+      return is_part ? random.uniform() : sign * (1 + random.log_uniform(1e-16, 1));
+    case 2:
+      return sign * random.log_uniform(1e-6, 1);
+    case 3:
+      return is_part ? 1 : 0;
+    default:
+      return sign * random.uniform();
+  }
+}
+
+// An input B is to be the smallest bound, or hardly more.
+void Measure::choose_bound(Inputs& inputs) const {
+  const auto B = inputs.find("B");
+  if (B == inputs.end()) return;
+  B->second = 0;
+  B->second = static_cast<double>(smallest_bound(results<long double>(inputs))) * (1 + 0x1p-52);
+}
+
+Inputs Measure::drawn(Random& random) const {
+  Inputs inputs;
+  for (const std::string& name : names_) inputs[name] = draw(random, name);
+  choose_bound(inputs);
+  return inputs;
+}
+
+Inputs Measure::changed(Random& random, const Inputs& inputs) const {
+  Inputs next = inputs;
+  for (int count = random.integer(1, 3); count > 0; --count) {
+    const auto which = static_cast<std::size_t>(random.integer(0, static_cast<int>(names_.size()) - 1));
+    double& value = next.at(names_[which]);
+    const auto other = static_cast<std::size_t>(random.integer(0, static_cast<int>(names_.size()) - 1));
+    switch (random.integer(0, 5)) {
+      case 0:
+        value = draw(random, names_[which]);
+        break;
+      case 1:
+        std::swap(value, next.at(names_[other]));
+        break;
+      case 2:
+        value = -value;
+        break;
+      default:
+        value *= 1 + random.uniform(-1, 1) * random.log_uniform(1e-16, 1e-1);
+    }
+  }
+  choose_bound(next);
+  return next;
+}
+
+Witness search(const Claim& claim, const std::optional<Witness>& start, double seconds, std::uint64_t seed) {
+  using Clock = std::chrono::steady_clock;
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const Measure measure(claim);
+  Witness best = start.value_or(Witness{});
+  for (std::uint64_t climb = 0; Clock::now() < end; ++climb) {
+    Random random(seed, 0, climb);
+    const bool from_best = !best.inputs.empty() && climb % 2 == 0;
+    Inputs inputs = from_best ? best.inputs : measure.drawn(random);
+    double height = measure.estimate(inputs).value_or(-1);
+    for (int idle = 0; idle < 2000 && Clock::now() < end; ++idle) {
+      const Inputs next = height < 0 ? measure.drawn(random) : measure.changed(random, inputs);
+      const double there = measure.estimate(next).value_or(-1);
+      if (there < height) continue;
+      if (there > height) idle = 0;
+      inputs = next;
+      height = there;
+    }
+    if (height <= best.error) continue;
+    const auto error = measure.error(inputs);
+    if (error && *error > best.error) best = {*error, inputs};
   }
   return best;
 }

@@ -2,20 +2,18 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "fuzz/random.hpp"
+#include "tests/proofs/witness.hpp"
 
 namespace nearmiss::proofs {
 
-/// The inputs of a witness by name.
-using Inputs = std::map<std::string, double>;
-
 /// One row of the table of bounds. Numbers are in units of `unit`.
-struct Claim {
-  std::string name;  ///< the constant's, in `file`; with more behind it where it is claimed of several things
+struct OracleClaim {
+  std::string
+      name;  ///< the constant's, in `file`; behind a comma, what it is claimed of where there are several
   std::string file;
   std::string unit;
   double claimed;
@@ -26,9 +24,12 @@ struct Claim {
   std::function<double(const Inputs&)> seen;
   /// Inputs with which a search for a witness begins.
   std::function<Inputs(Random&)> draw;
+
+  /// The constant's identifier.
+  [[nodiscard]] std::string constant() const { return name.substr(0, name.find(',')); }
 };
 
 /// The constants of oracle/: of each, half is not enough.
-std::vector<Claim> oracle_claims();
+std::vector<OracleClaim> oracle_claims();
 
 }  // namespace nearmiss::proofs

@@ -1,0 +1,336 @@
+#include "tests/proofs/ccd_problems.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "ccd/cubic.hpp"
+#include "ccd/proximity.hpp"
+#include "ccd/ve_culling.hpp"
+#include "ccd/vertex_edge.hpp"
+#include "ccd/vertex_vertex.hpp"
+
+namespace nearmiss::proofs {
+
+namespace {
+
+constexpr Kind vt = Kind::vertex_triangle;
+constexpr Kind ee = Kind::edge_edge;
+using Comparisons = std::vector<std::pair<Traced, Traced>>;
+
+/// The coordinates of four vertices at both times.
+struct Points {
+  std::array<Traced, 24> x;
+};
+
+/// The samples of a vertex that falls through a triangle, and of an edge that falls through another one: a
+/// simple root of F with a long way to go on both sides, which `excludes_collision` looks at to its end.
+constexpr std::array<double, 24> falling_vertex{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
+                                                0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+constexpr std::array<double, 24> falling_edge{-1, 0, 1,  1, 0, 1,  0, -1, 0, 0, 1, 0,
+                                              -1, 0, -1, 1, 0, -1, 0, -1, 0, 0, 1, 0};
+
+Points points(Trace& trace, Kind kind) {
+  Points all;
+  const auto& samples = kind == vt ? falling_vertex : falling_edge;
+  for (std::size_t i = 0; i < 24; ++i) {
+    const std::string name{'x', static_cast<char>('0' + i / 3 % 4), i < 12 ? 's' : 'e',
+                           static_cast<char>('x' + i % 3)};
+    all.x[i] = trace.input(name, samples[i]);
+  }
+  return all;
+}
+
+/// A problem with a time, which is nothing more yet.
+Problem begun() {
+  Problem problem;
+  problem.trace = std::make_shared<Trace>();
+  problem.time = problem.trace->input("t", 0.5);
+  problem.inputs.push_back({problem.time, 0, 1, 0});
+  return problem;
+}
+
+Traced threshold(Problem& problem, const char* name) {
+  const Traced input = problem.trace->input(name, 1);
+  problem.inputs.push_back({input, 0, 1, 1});
+  return input;
+}
+
+/// A moving vector that is an input.
+Moving<Traced> exact_vector(Trace& trace, char name) {
+  Moving<Traced> vector;
+  for (int i = 0; i < 6; ++i)
+    vector.xv[i] = trace.input({name, i < 3 ? 'x' : 'v', static_cast<char>('x' + i % 3)}, 0.5);
+  return vector;
+}
+
+/// A pair from coordinates.
+template <Kind kind>
+Pair<kind, Traced> pair_of(Problem& problem, Reach reach) {
+  Pair<kind, Traced> pair;
+  form_vectors(points(*problem.trace, kind), pair);
+  problem.motions = {{pair.p, 1, reach == Reach::far ? 2.0 : 1.0}, {pair.q}, {pair.r}};
+  return pair;
+}
+
+template <Kind kind>
+Problem figure(Reach reach, FigurePart part) {
+  Problem problem = begun();
+  const auto pair = pair_of<kind>(problem, reach);
+  const Figure figure(pair, problem.time);
+  if (part == FigurePart::normal || part == FigurePart::weight) {
+    problem.left = part == FigurePart::normal ? figure.N[0] : figure.weights[0];
+    problem.degree = part == FigurePart::normal ? 2 : 4;
+    return problem;
+  }
+  Comparisons kept;
+  const KeptComparisons log(kept);
+  Tolerances<Traced> tol{};
+  if (part == FigurePart::height) {
+    tol.eta = threshold(problem, "eta");
+    std::ignore = figure.well_shaped(tol, log);
+    // The third edge of a triangle is within B too.
+    if (kind == vt)
+      for (int i = 0; i < 3; ++i) problem.facts.push_back({figure.r[i] - figure.q[i], -1, 1, 1});
+    problem.degree = 2;
+  } else {
+    std::ignore = figure.inside(log);
+    problem.degree = 4;
+  }
+  // Of the weights of a triangle the third is the sum of the others, and the last.
+  std::tie(problem.left, problem.right) = kept.back();
+  return problem;
+}
+
+/// A determinant of order 3 with elements within 1 is within 4: it is linear in each, so that it is largest
+/// where all are 1 or -1; there it is a multiple of 4, and at most 3√3 by Hadamard's inequality.
+constexpr double determinant = 4;
+
+void know_coefficients(Problem& problem, const Cubic<Traced>& F, double p) {
+  const auto know = [&](const Traced& of, double most) { problem.facts.push_back({of, -most, most, 3}); };
+  know(F.a, determinant);
+  know(F.b, 3 * determinant);  // three determinants
+  know(F.c, 3 * determinant);
+  know(F.d, determinant);
+  know(F(problem.time), p * determinant);
+}
+
+void choose(Problem& problem, const Cubic<Traced>& F, CubicPart part) {
+  const std::array all{F.a, F.b, F.c, F.d, F(problem.time)};
+  problem.left = all.at(static_cast<std::size_t>(part));
+  problem.degree = 3;
+}
+
+template <Kind kind>
+Problem cubic(CubicPart part) {
+  Problem problem = begun();
+  const auto F = coplanarity(pair_of<kind>(problem, kind == ee ? Reach::far : Reach::near));
+  know_coefficients(problem, F, kind == ee ? 2 : 1);
+  choose(problem, F, part);
+  return problem;
+}
+
+/// Coefficients that are inputs, with B³ as the unit in place of B. Computed ones are at most as large as they are here: they differ from exact
+/// ones by far less than the half that is left.
+Cubic<Traced> exact_coefficients(Problem& problem) {
+  Cubic<Traced> F;
+  for (const auto& [coefficient, name, most] :
+       {std::tuple{&F.a, "a", 4.5}, {&F.b, "b", 12.5}, {&F.c, "c", 12.5}, {&F.d, "d", 4.5}}) {
+    *coefficient = problem.trace->input(name, 1);
+    problem.inputs.push_back({*coefficient, -most, most, 1});
+  }
+  problem.degree = 1;
+  return F;
+}
+
+/// The vectors of a pair in any order of end points: of two edges, some pair of which is within B*, any two
+/// end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp). B* = E + W = 1.
+template <Kind kind>
+Pair<kind, Traced> pair_with_bound(Problem& problem) {
+  auto pair = pair_of<kind>(problem, Reach::near);
+  if (kind == ee) {
+    problem.motions[0].start = 3;
+    problem.motions[0].end = 4;
+  }
+  detail::form_bound(pair);
+  problem.facts = {{pair.E, 0, 1, 1}, {pair.W, 0, 1, 1}, {pair.E + pair.W, 1, 1, 1}};
+  problem.degree = 1;
+  return pair;
+}
+
+/// The slack of `excludes_collision` and its last comparison, w > N·N + slack, with the interval h around the
+/// root as a given number in [0, 1]; it is what both the slack and the brackets are computed with.
+struct Culling {
+  Problem problem;
+  Traced slack;
+};
+
+template <Kind kind>
+Culling culling() {
+  Problem problem = begun();
+  auto pair = pair_with_bound<kind>(problem);
+  problem.motions[0] = {pair.p, 1, kind == ee ? 2.0 : 1.0};
+  problem.facts = {{pair.W, 0, 1, 1}};
+  problem.degree = 4;
+  pair.B = problem.trace->input("B", 4);
+  problem.inputs.push_back({pair.B, 1, 1, 1});
+  const Figure figure(pair, problem.time);
+  Tolerances<Traced> tol{};
+  if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), figure, problem.time, tol))
+    throw std::runtime_error("the sample of a collision is taken for none");
+  // Decisions end with h > 1, then w < -slack and N·N + slack < w for each weight.
+  const auto& decisions = problem.trace->decisions();
+  const auto last = decisions.size() - 1;
+  const Decision& h_above_1 = decisions.at(last - 2 * figure.weights.size());
+  if (h_above_1.left->operation != Operation::constant || h_above_1.left->value != 1)
+    throw std::runtime_error("the last comparison but those of weights is not with 1");
+  problem.inputs.push_back({Traced(h_above_1.right), 0, 1, 0});
+  problem.left = Traced(decisions[last].right);
+  problem.right = Traced(decisions[last].left);
+  return {problem, Traced(decisions[last].left->right)};
+}
+
+Problem spread_of(Culling culling) {
+  culling.problem.left = Traced(culling.slack.node()->left);
+  culling.problem.right = 0;
+  return culling.problem;
+}
+
+Problem near_edge(Reach reach, bool F) {
+  Problem problem = begun();
+  const Points x = points(*problem.trace, vt);
+  const VertexEdge<Traced> ve{relative_motion<Traced>(x, 0, 1), relative_motion<Traced>(x, 2, 1), {}};
+  const double most = reach == Reach::far ? 2 : 1;
+  problem.motions = {{ve.x0i, most, most}, {ve.xji}};
+  problem.degree = 2;
+  Tolerances<Traced> tol{};
+  if (F) tol.S = threshold(problem, "S");
+  Comparisons kept;
+  detail::near_edge(ve, problem.time, tol, KeptComparisons(kept));
+  std::tie(problem.left, problem.right) = kept.at(F ? 3 : 2);
+  return problem;
+}
+
+/// The squared distance of two vertices, at a time that is given in place of the computed one.
+Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
+  Comparisons kept;
+  problem.time = *vertex_vertex(ji, Tolerances<Traced>{}, KeptComparisons(kept));
+  problem.inputs = {{problem.time, 0, 1, 0}};
+  problem.left = kept.at(0).first;
+  problem.degree = 2;
+  return problem;
+}
+
+}  // namespace
+
+Problem figure(Kind kind, Reach reach, FigurePart part) {
+  return kind == vt ? figure<vt>(reach, part) : figure<ee>(reach, part);
+}
+
+Problem cubic(Kind kind, CubicPart part) { return kind == vt ? cubic<vt>(part) : cubic<ee>(part); }
+
+Problem exact_cubic(CubicPart part) {
+  Problem problem = begun();
+  Pair<vt, Traced> pair;
+  pair.p = exact_vector(*problem.trace, 'p');
+  pair.q = exact_vector(*problem.trace, 'q');
+  pair.r = exact_vector(*problem.trace, 'r');
+  problem.motions = {{pair.p}, {pair.q}, {pair.r}};
+  const auto F = coplanarity(pair);
+  know_coefficients(problem, F, 1);
+  choose(problem, F, part);
+  return problem;
+}
+
+Problem horner() {
+  Problem problem = begun();
+  problem.left = exact_coefficients(problem)(problem.time);
+  return problem;
+}
+
+Problem clearance_of_exact() {
+  Problem problem = begun();
+  problem.left = clearance(exact_coefficients(problem));
+  return problem;
+}
+
+Problem bound(Kind kind) {
+  Problem problem = begun();
+  problem.left = kind == vt ? pair_with_bound<vt>(problem).B : pair_with_bound<ee>(problem).B;
+  return problem;
+}
+
+Problem extents(Kind kind) {
+  Problem problem = bound(kind);
+  problem.left = Traced(problem.left.node()->left);
+  return problem;
+}
+
+Problem spread(Kind kind) { return spread_of(kind == vt ? culling<vt>() : culling<ee>()); }
+
+Problem culling(Kind kind) { return (kind == vt ? culling<vt>() : culling<ee>()).problem; }
+
+Problem vertex_edge(Reach reach, EdgePart part) {
+  const bool F = part == EdgePart::F || part == EdgePart::F_without_S || part == EdgePart::F_of_S;
+  Problem problem = near_edge(reach, F);
+  const Node& difference = *problem.left.node();
+  switch (part) {
+    case EdgePart::length2:
+      problem.left = problem.right;
+      [[fallthrough]];
+    case EdgePart::weight:
+      [[fallthrough]];
+    case EdgePart::F:
+      problem.right = 0;
+      break;
+    case EdgePart::inside:
+      break;
+    // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ): each part with a last rounding, which adding 0 stands for.
+    case EdgePart::F_without_S:
+      problem.left = Traced(difference.left) + 0;
+      problem.right = 0;
+      break;
+    case EdgePart::F_of_S:
+      problem.left = Traced(difference.right) + 0;
+      problem.right = 0;
+      break;
+  }
+  return problem;
+}
+
+Problem exact_vertices(Reach reach, VertexPart part) {
+  Problem problem = begun();
+  const auto ji = exact_vector(*problem.trace, 'x');
+  // Vectors that stand for exact ones within these bounds are a little longer, by at most 5u <= 2^-8.
+  constexpr double longer = 1 + 0x1p-8;
+  const double most = (reach == Reach::far ? 2 : 1) * longer;
+  problem.motions = {{ji, most, most, longer}};
+  problem = squared_distance(problem, ji);
+  if (part == VertexPart::squared_distance) return problem;
+  // t = min(max(-x·v / v·v, 0), 1)
+  const Traced quotient(problem.time.node()->left->left);
+  const Traced vv(quotient.node()->right);
+  problem.inputs.clear();
+  problem.motions = {{ji, most / longer, most / longer}};
+  if (part == VertexPart::xv) problem.left = Traced(quotient.node()->left);
+  if (part == VertexPart::vv) problem.left = vv;
+  if (part == VertexPart::time) {
+    problem.left = quotient;
+    // A component of v is 1. The quotient is at most ‖x‖/‖v‖ <= √3 ‖x‖∞.
+    const double steepest = 1.7320508076 * most / longer;
+    problem.facts = {{vv, 1, 3, 2}, {quotient, -steepest, steepest, 0}};
+    problem.degree = 0;
+  }
+  return problem;
+}
+
+Problem vertices(Reach reach) {
+  Problem problem = begun();
+  const auto ji = relative_motion<Traced>(points(*problem.trace, vt), 0, 1);
+  const double most = reach == Reach::far ? 2 : 1;
+  problem.motions = {{ji, most, most}};
+  return squared_distance(problem, ji);
+}
+
+}  // namespace nearmiss::proofs

@@ -1,0 +1,226 @@
+#include "tests/proofs/lemmas.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace nearmiss::proofs {
+
+namespace {
+
+/// A number as Gappa prints it, not below it: an integer of at most 60 bits, and maybe a power of two.
+double at_least(const std::string& text) {
+  char* end = nullptr;
+  const auto mantissa = static_cast<long double>(std::strtoll(text.c_str(), &end, 10));
+  const long exponent = *end == 'b' ? std::strtol(end + 1, nullptr, 10) : 0;
+  const long double exact = std::ldexp(mantissa, static_cast<int>(exponent));
+  const auto near = static_cast<double>(exact);
+  return near < exact ? std::nextafter(near, std::numeric_limits<double>::infinity()) : near;
+}
+
+double at_most(std::string text) {
+  text = text.starts_with('-') ? text.substr(1) : fmt::format("-{}", text);
+  return -at_least(text);
+}
+
+bool is_extreme(Operation operation) {
+  return operation == Operation::absolute || operation == Operation::largest ||
+         operation == Operation::smallest;
+}
+
+/// Lemmas on a position X = D + t V between D and E. It is a convex combination of its ends, and within
+/// `reach` as they are. So is k, the error that it has from the errors of its ends. Interval arithmetic sees
+/// that of reach - X and reach + X, which are sums of products of numbers that are not negative.
+std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
+  return fmt::format(
+      "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"
+      "{0} -> ((1 - t) * ({1} + {3}) + t * ({2} + {3})) - {3};\n",
+      combination, start, end, dyadic(reach));
+}
+
+/// The script on a motion.
+class MotionScript {
+ public:
+  MotionScript(const Motion& motion, const Arithmetic& arithmetic)
+      : arithmetic_(arithmetic),
+        ranges_(fmt::format("D in {} /\\ E in {} /\\ V in {} /\\ t in [0, 1]",
+                            interval(-motion.start, motion.start), interval(-motion.end, motion.end),
+                            interval(-motion.velocity, motion.velocity))),
+        reach_(std::max(motion.start, motion.end)) {
+    if (!arithmetic.underflow) return;
+    const double most = std::ldexp(1, *arithmetic.underflow);
+    ranges_ += " /\\ w - m in " + interval(-most, most);
+  }
+
+  /// Of exact x = D and v = V.
+  [[nodiscard]] std::string exact() const {
+    return fmt::format(
+        "X = D + t * V;\nE = D + V;\n{}{{ {} ->\nX in ? /\\ x - X in ? }}\n{}"
+        "x - X -> (x - (D + w)) + (w - t * V);\n",
+        moved("D", "V"), ranges_, convex_hints("X", "D", "E", reach_));
+  }
+
+  /// Of rounded ends d and e, and their difference v.
+  [[nodiscard]] std::string rounded() const {
+    const double u = std::ldexp(1, -arithmetic_.bits);
+    return fmt::format(
+               "V = E - D;\nX = D + t * V;\nv = sub_rel<{}>(e, d);\n{}k = (d + t * (e - d)) - X;\n"
+               "{{ {} /\\ d -/ D in {} /\\ e -/ E in {} ->\nX in ? /\\ v - V in ? /\\ x - X in ? }}\n",
+               arithmetic_.bits, moved("d", "v"), ranges_, interval(-u, u), interval(-u, u)) +
+           convex_hints("X", "D", "E", reach_) + convex_hints("k", "(d - D)", "(e - E)", u * reach_) +
+           "x - X -> (x - (d + w)) + ((w - t * v) + t * (v - (e - d)) + k);\n"
+           "d + w -> X + ((w - t * v) + t * (v - (e - d)) + k);\n";
+  }
+
+ private:
+  [[nodiscard]] std::string moved(const char* d, const char* v) const {
+    if (arithmetic_.vectors_alone) return fmt::format("w = t * {};\nx = {} + w;\n", v, d);
+    return fmt::format("{0} = mul_rel<{1}>(t, {2});\nx = add_rel<{1}>({3}, w);\n",
+                       arithmetic_.underflow ? "m" : "w", arithmetic_.bits, v, d);
+  }
+
+  Arithmetic arithmetic_;
+  std::string ranges_;
+  double reach_;
+};
+
+}  // namespace
+
+std::map<std::string, Enclosure> bounds_in(const std::string& output) {
+  std::map<std::string, Enclosure> bounds;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto in = line.find(" in [");
+    if (in == std::string::npos) continue;
+    const auto name = line.find_first_not_of(' ');
+    const std::string lowest = line.substr(in + 5);
+    const auto comma = line.find(", ", line.find('}', in) < line.rfind('{') ? line.find('}', in) : in);
+    bounds[line.substr(name, in - name)] = {at_most(lowest), at_least(line.substr(comma + 2))};
+  }
+  return bounds;
+}
+
+Lemmas::Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic)
+    : prover_(prover),
+      arithmetic_(arithmetic),
+      left_(program_.add(problem.left)),
+      right_(program_.add(problem.right)) {
+  for (const Range& input : problem.inputs)
+    leaves_[program_.add(input.expression)] = {input.lowest, input.highest};
+  for (const Range& fact : problem.facts) facts_[program_.add(fact.expression)] = {fact.lowest, fact.highest};
+  for (const Motion& motion : problem.motions) know_motion(motion, problem.time);
+  know_extremes();
+}
+
+void Lemmas::know_motion(const Motion& motion, const Traced& time) {
+  const double u = std::ldexp(1, -arithmetic_.bits);
+  const double reach = std::max(motion.start, motion.end);
+  const auto at = motion.vector.at(time);
+  const int t = program_.add(time);
+  for (int i = 0; i < 3; ++i) {
+    const int x = program_.add(motion.vector.xv[i]);
+    const int v = program_.add(motion.vector.xv[i + 3]);
+    const int moved = program_.add(at[i]);
+    const Instruction& sum = program_[moved];
+    const Instruction& change = program_[sum.right];
+    if (sum.operation != Operation::add || sum.left != x || change.operation != Operation::multiply ||
+        change.left != t || change.right != v)
+      throw std::runtime_error("a position at a time is not x + t v any more");
+    const bool rounded = program_[x].operation == Operation::subtract;
+    const MotionScript script(motion, arithmetic_);
+    const auto found = bounds_in(prover_.run(rounded ? script.rounded() : script.exact()).text);
+    const auto error = rounded ? Leaf::Error::absolute : Leaf::Error::none;
+    leaves_[x] = {-motion.start, motion.start, rounded ? Leaf::Error::relative : Leaf::Error::none, u};
+    leaves_[v] = {-motion.velocity, motion.velocity, error, rounded ? found.at("v - V").magnitude() : 0};
+    leaves_[moved] = {-reach, reach, Leaf::Error::absolute, found.at("x - X").magnitude()};
+  }
+}
+
+std::set<int> Lemmas::needed() {
+  std::set<int> all;
+  std::vector<int> open{left_, right_};
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    if (index < 0 || !all.insert(index).second || leaves_.contains(index)) continue;
+    open.push_back(program_[index].left);
+    open.push_back(program_[index].right);
+  }
+  return all;
+}
+
+// An extreme is a leaf where something else than an extreme uses it. Operands come first in a program.
+void Lemmas::know_extremes() {
+  const std::set<int> all = needed();
+  std::set<int> used{left_, right_};
+  for (const int index : all) {
+    if (is_extreme(program_[index].operation) || leaves_.contains(index)) continue;
+    used.insert(program_[index].left);
+    used.insert(program_[index].right);
+  }
+  for (const int index : all)
+    if (used.contains(index) && is_extreme(program_[index].operation)) know_extreme(index);
+}
+
+void Lemmas::operands(int index, std::set<int>& found) {
+  if (leaves_.contains(index) || !is_extreme(program_[index].operation)) {
+    found.insert(index);
+    return;
+  }
+  operands(program_[index].left, found);
+  if (program_[index].right >= 0) operands(program_[index].right, found);
+}
+
+Enclosure Lemmas::range(int index, const std::map<int, Enclosure>& known) {
+  if (const auto operand = known.find(index); operand != known.end()) return operand->second;
+  const Instruction& one = program_[index];
+  const Enclosure a = range(one.left, known);
+  if (one.operation == Operation::absolute) return {0, a.magnitude()};
+  const Enclosure b = range(one.right, known);
+  if (one.operation == Operation::largest)
+    return {std::max(a.lowest, b.lowest), std::max(a.highest, b.highest)};
+  return {std::min(a.lowest, b.lowest), std::min(a.highest, b.highest)};
+}
+
+void Lemmas::know_extreme(int index) {
+  std::set<int> found;
+  operands(index, found);
+  Script lemma = script();
+  std::vector<std::string> goals;
+  for (const int each : found) {
+    lemma.write(each);
+    if (program_[each].operation == Operation::constant) continue;
+    goals.push_back(fmt::format("{} in ?", Script::exact(each)));
+    if (lemma.computed(each) != Script::exact(each))
+      goals.push_back(fmt::format("{} - {} in ?", lemma.computed(each), Script::exact(each)));
+  }
+  const auto bounds = bounds_in(prover_.run(lemma.text(goals)).text);
+  std::map<int, Enclosure> ranges;
+  double error = 0;
+  for (const int each : found) {
+    const Instruction& one = program_[each];
+    const bool constant = one.operation == Operation::constant;
+    ranges[each] = constant ? Enclosure{one.constant, one.constant} : bounds.at(Script::exact(each));
+    const auto difference = bounds.find(fmt::format("{} - {}", lemma.computed(each), Script::exact(each)));
+    if (difference != bounds.end()) error = std::max(error, difference->second.magnitude());
+  }
+  Enclosure all = range(index, ranges);
+  if (const auto fact = facts_.find(index); fact != facts_.end())
+    all = {std::max(all.lowest, fact->second.lowest), std::min(all.highest, fact->second.highest)};
+  leaves_[index] = {all.lowest, all.highest, error == 0 ? Leaf::Error::none : Leaf::Error::absolute, error};
+}
+
+std::string Lemmas::last_script(const std::string& goal) {
+  Script last = script();
+  last.write(left_);
+  last.write(right_);
+  last.difference(left_, right_);
+  return last.text({"d in " + goal});
+}
+
+}  // namespace nearmiss::proofs

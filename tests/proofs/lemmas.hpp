@@ -1,0 +1,46 @@
+// The lemmas that a proof by Gappa begins with.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "tests/proofs/gappa.hpp"
+#include "tests/proofs/script.hpp"
+
+namespace nearmiss::proofs {
+
+/// What Gappa found: lowest and highest value, rounded outwards to double.
+struct Enclosure {
+  double lowest, highest;
+  [[nodiscard]] double magnitude() const { return std::max(-lowest, highest); }
+};
+
+/// The enclosures that Gappa printed, by expression.
+std::map<std::string, Enclosure> bounds_in(const std::string& output);
+
+/// The lemmas of one problem, proven as they are made.
+class Lemmas {
+ public:
+  Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
+
+  /// The script with all that is not in a lemma; its goal is the error, named d.
+  std::string last_script(const std::string& goal);
+
+ private:
+  void know_motion(const Motion& motion, const Traced& time);
+  void know_extremes();
+  void know_extreme(int index);
+  std::set<int> needed();
+  void operands(int index, std::set<int>& found);
+  Enclosure range(int index, const std::map<int, Enclosure>& operands);
+  [[nodiscard]] Script script() const { return {program_, arithmetic_, leaves_, facts_}; }
+
+  Prover& prover_;
+  Arithmetic arithmetic_;
+  Program program_;
+  int left_, right_;
+  std::map<int, Leaf> leaves_, facts_;
+};
+
+}  // namespace nearmiss::proofs

@@ -1,0 +1,88 @@
+// proofs_table: the table of claims about rounding errors; looks for witnesses anew.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "tests/proofs/check.hpp"
+#include "tests/proofs/oracle_witness.hpp"
+
+using namespace nearmiss::proofs;
+
+namespace {
+
+/// Looks for a larger error of each claim, from the witness that is known.
+void search_all(const std::vector<Claim>& claims, std::map<std::string, Witness>& witnesses, double seconds,
+                std::uint64_t seed) {
+  for (const Claim& claim : claims) {
+    Witness& known = witnesses[std::string(claim.name)];
+    const bool holds = !known.inputs.empty() && Measure(claim).error(known.inputs) == known.error;
+    known = search(claim, holds ? std::optional(known) : std::nullopt, seconds, seed);
+    fmt::print(stderr, "{}: {:.4g}\n", claim.name, known.error);
+  }
+}
+
+/// The same for oracle/, in steps.
+void search_all(const std::vector<OracleClaim>& claims, std::map<std::string, Witness>& witnesses, int steps,
+                std::uint64_t seed) {
+  std::uint64_t stream = 0;
+  for (const OracleClaim& claim : claims) {
+    nearmiss::Random random(seed, stream++, 0);
+    const Witness found = find_witness(claim, random, steps);
+    Witness& known = witnesses[claim.name];
+    const bool holds = !known.inputs.empty() && claim.seen(known.inputs) == known.error;
+    if (!holds || known.error < found.error) known = found;
+    fmt::print(stderr, "{}: {:.4g}\n", claim.name, known.error);
+  }
+}
+
+/// Those of a file; none where it is not there yet.
+std::map<std::string, Witness> known_witnesses(const std::string& file) {
+  if (!std::filesystem::exists(file)) return {};
+  return read_witnesses(file);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The table of claims about rounding errors: what is claimed, proven, and seen");
+  double seconds = 0;
+  std::uint64_t seed = 0;
+  std::string name;
+  int steps = 0;
+  app.add_option("--search", seconds,
+                 "Search for larger errors in ccd/ for this many seconds each, and keep them");
+  app.add_option("--search-oracle", steps,
+                 "Search for larger errors in oracle/ in this many steps each, and keep them");
+  app.add_option("--seed", seed, "Seed of the search");
+  app.add_option("--script", name, "Print the last script for Gappa of this claim, in double");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const std::string file = NEARMISS_WITNESSES "/ccd.txt";
+    const std::string oracle_file = NEARMISS_WITNESSES "/oracle.txt";
+    const auto claims = ccd_claims();
+    auto witnesses = known_witnesses(file);
+    auto oracle_witnesses = known_witnesses(oracle_file);
+    for (const Claim& claim : claims)
+      if (claim.name == name)
+        fmt::print("{}",
+                   Prover().script(claim.problem(), {53, {}, claim.vectors_alone}, claim.proven * 0x1p-52));
+    if (!name.empty()) return 0;
+    if (seconds > 0) {
+      search_all(claims, witnesses, seconds, seed);
+      write_witnesses(file, witnesses);
+    }
+    if (steps > 0) {
+      search_all(oracle_claims(), oracle_witnesses, steps, seed);
+      write_witnesses(oracle_file, oracle_witnesses);
+    }
+    auto rows = rows_of(oracle_claims(), oracle_witnesses);
+    const auto of_ccd = rows_of(claims, witnesses);
+    rows.insert(rows.end(), of_ccd.begin(), of_ccd.end());
+    fmt::print("{}", table_of(rows));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

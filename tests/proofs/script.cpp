@@ -1,0 +1,167 @@
+#include "tests/proofs/script.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace nearmiss::proofs {
+
+std::string dyadic(double number) {
+  if (number == 0) return "0";
+  int exponent = 0;
+  auto mantissa = static_cast<long long>(std::ldexp(std::frexp(number, &exponent), 53));
+  for (exponent -= 53; mantissa % 2 == 0; ++exponent) mantissa /= 2;
+  if (exponent == 0) return fmt::format("{}", mantissa);
+  return fmt::format("{}b{}", mantissa, exponent);
+}
+
+std::string interval(double lowest, double highest) {
+  return fmt::format("[{}, {}]", dyadic(lowest), dyadic(highest));
+}
+
+std::string Script::computed(int index) const {
+  return fmt::format("{}{}", inexact_.contains(index) ? "c" : "e", index);
+}
+
+std::string Script::exact(int index) { return fmt::format("e{}", index); }
+
+void Script::suppose(const std::string& expression, double lowest, double highest) {
+  hypotheses_.push_back(fmt::format("{} in {}", expression, interval(lowest, highest)));
+}
+
+void Script::define(const std::string& name, const std::string& expression) {
+  definitions_.push_back(fmt::format("{} = {};", name, expression));
+}
+
+void Script::write(int index) {
+  if (!written_.insert(index).second) return;
+  if (const auto leaf = leaves_.find(index); leaf != leaves_.end()) {
+    write_leaf(index, leaf->second);
+    return;
+  }
+  const Instruction& one = program_[index];
+  if (one.left >= 0) write(one.left);
+  if (one.right >= 0) write(one.right);
+  if (one.operation == Operation::constant) {
+    write_constant(index, one.constant);
+  } else if (one.operation == Operation::epsilon) {
+    write_constant(index, std::ldexp(1, 1 - arithmetic_.bits));
+  } else {
+    write_operation(index);
+    if (const auto fact = facts_.find(index); fact != facts_.end())
+      suppose(exact(index), fact->second.lowest, fact->second.highest);
+  }
+}
+
+void Script::write_leaf(int index, const Leaf& leaf) {
+  suppose(exact(index), leaf.lowest, leaf.highest);
+  if (leaf.kind == Leaf::Error::none) return;
+  inexact_.insert(index);
+  const char* compared = leaf.kind == Leaf::Error::relative ? "-/" : "-";
+  suppose(fmt::format("{} {} {}", computed(index), compared, exact(index)), -leaf.error, leaf.error);
+}
+
+// A constant with more bits than the arithmetic has is rounded once.
+void Script::write_constant(int index, double value) {
+  define(exact(index), dyadic(value));
+  int exponent = 0;
+  const double bits = std::ldexp(std::frexp(value, &exponent), std::min(arithmetic_.bits, 53));
+  if (bits == std::floor(bits)) return;
+  inexact_.insert(index);
+  suppose(fmt::format("{} -/ {}", computed(index), exact(index)), -std::ldexp(1, -arithmetic_.bits),
+          std::ldexp(1, -arithmetic_.bits));
+}
+
+// The result of an operation: rounded, and off by what underflow may add.
+void Script::rounded(int index, const std::string& operation, const std::string& result) {
+  inexact_.insert(index);
+  const bool may_underflow = operation != "add" && operation != "sub" && arithmetic_.underflow;
+  if (may_underflow) {
+    const std::string normal = fmt::format("m{}", index);
+    if (result != normal) define(normal, result);
+    const double most = std::ldexp(1, *arithmetic_.underflow);
+    suppose(fmt::format("{} - {}", computed(index), normal), -most, most);
+    hints_.push_back(fmt::format("{} ~ {};", computed(index), exact(index)));
+  } else if (result != computed(index)) {
+    define(computed(index), result);
+  }
+}
+
+// The result of an operation that is exact.
+void Script::unrounded(int index, const std::string& result) {
+  const auto is_exact = [&](int operand) { return operand < 0 || !inexact_.contains(operand); };
+  if (is_exact(program_[index].left) && is_exact(program_[index].right)) return;
+  inexact_.insert(index);
+  define(computed(index), result);
+}
+
+namespace {
+
+bool is_power_of_two(const Instruction& one) {
+  int exponent = 0;
+  return one.operation == Operation::constant && std::abs(std::frexp(one.constant, &exponent)) == 0.5;
+}
+
+}  // namespace
+
+void Script::write_operation(int index) {
+  const Instruction& one = program_[index];
+  const std::string e = exact(one.left);
+  const std::string c = computed(one.left);
+  if (one.operation == Operation::negate) {
+    define(exact(index), fmt::format("-{}", e));
+    return unrounded(index, fmt::format("-{}", c));
+  }
+  if (one.right < 0) throw std::runtime_error("this expression needs a lemma");
+  const std::string e2 = exact(one.right);
+  const std::string c2 = computed(one.right);
+  const auto two = [&](const char* name, char sign) {
+    define(exact(index), fmt::format("{} {} {}", e, sign, e2));
+    if (arithmetic_.vectors_alone) return unrounded(index, fmt::format("{} {} {}", c, sign, c2));
+    rounded(index, name, fmt::format("{}_rel<{}>({}, {})", name, arithmetic_.bits, c, c2));
+  };
+  switch (one.operation) {
+    case Operation::add:
+      return two("add", '+');
+    case Operation::subtract:
+      return two("sub", '-');
+    case Operation::multiply:
+      if (!is_power_of_two(program_[one.left]) && !is_power_of_two(program_[one.right]))
+        return two("mul", '*');
+      define(exact(index), fmt::format("{} * {}", e, e2));
+      return unrounded(index, fmt::format("{} * {}", c, c2));
+    case Operation::divide:
+      break;
+    default:
+      throw std::runtime_error("this expression needs a lemma");
+  }
+  // Gappa has no quotient with a relative error: a new number stands for it.
+  define(exact(index), fmt::format("{} / {}", e, e2));
+  const std::string quotient = fmt::format("{} / {}", c, c2);
+  if (arithmetic_.vectors_alone) return unrounded(index, quotient);
+  const double u = std::ldexp(1, -arithmetic_.bits);
+  const std::string name = fmt::format("{}{}", arithmetic_.underflow ? "m" : "c", index);
+  suppose(fmt::format("{} -/ ({})", name, quotient), -u, u);
+  rounded(index, "div", name);
+  if (!inexact_.contains(one.right)) return;
+  hints_.push_back(fmt::format(
+      "{0} / {1} - {2} / {3} -> (({0} - {2}) - ({1} - {3}) * ({2} / {3})) / {1} {{ {1} <> 0, {3} <> 0 }};", c,
+      c2, e, e2));
+}
+
+void Script::difference(int left, int right) {
+  if (program_[right].operation == Operation::constant && program_[right].constant == 0)
+    return define("d", fmt::format("{} - {}", computed(left), exact(left)));
+  define("cd", fmt::format("{} - {}", computed(left), computed(right)));
+  define("ed", fmt::format("{} - {}", exact(left), exact(right)));
+  define("d", "cd - ed");
+}
+
+std::string Script::text(const std::vector<std::string>& goals) const {
+  return fmt::format("{}\n{{ {}\n->\n{} }}\n{}\n", fmt::join(definitions_, "\n"),
+                     fmt::join(hypotheses_, " /\\\n  "), fmt::join(goals, " /\\\n  "),
+                     fmt::join(hints_, "\n"));
+}
+
+}  // namespace nearmiss::proofs

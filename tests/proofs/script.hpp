@@ -1,0 +1,60 @@
+// The text of one Gappa script.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/proofs/gappa.hpp"
+
+namespace nearmiss::proofs {
+
+/// A number as Gappa reads it, exactly: 3 is "3b0".
+std::string dyadic(double number);
+/// "[lowest, highest]".
+std::string interval(double lowest, double highest);
+
+/// What a script knows of a number that it does not compute.
+struct Leaf {
+  double lowest, highest;  ///< of the exact value
+  enum class Error : std::uint8_t { none, relative, absolute } kind = Error::none;
+  double error = 0;  ///< at most this
+};
+
+/// The instructions of a program as Gappa sees them: the exact value of instruction 7 is e7, the computed one
+/// c7 (or e7 where it is exact).
+class Script {
+ public:
+  Script(const Program& program, const Arithmetic& arithmetic, std::map<int, Leaf> leaves,
+         std::map<int, Leaf> facts)
+      : program_(program), arithmetic_(arithmetic), leaves_(std::move(leaves)), facts_(std::move(facts)) {}
+
+  /// Writes an instruction and all that it needs, down to the leaves.
+  void write(int index);
+  /// Calls d the error of the difference of two instructions that are written; the subtraction is exact.
+  void difference(int left, int right);
+
+  [[nodiscard]] std::string computed(int index) const;
+  static std::string exact(int index);
+
+  /// The whole, with its goals.
+  [[nodiscard]] std::string text(const std::vector<std::string>& goals) const;
+
+ private:
+  void write_leaf(int index, const Leaf& leaf);
+  void write_constant(int index, double value);
+  void write_operation(int index);
+  void rounded(int index, const std::string& operation, const std::string& result);
+  void unrounded(int index, const std::string& result);
+  void suppose(const std::string& expression, double lowest, double highest);
+  void define(const std::string& name, const std::string& expression);
+
+  const Program& program_;
+  Arithmetic arithmetic_;
+  std::map<int, Leaf> leaves_, facts_;
+  std::set<int> written_, inexact_;
+  std::vector<std::string> definitions_, hypotheses_, hints_;
+};
+
+}  // namespace nearmiss::proofs
