@@ -58,8 +58,10 @@ inline constexpr double delta = delta_of(squared_distance, distance_of_vectors, 
 inline constexpr double delta_far = delta_of(squared_distance_far, distance_of_vectors_far, time_far);
 
 // cubic.hpp
-inline constexpr double coefficient_ad = 43.15;  ///< of F; for edges, whose p is far
-inline constexpr double coefficient_bc = 123.4;
+inline constexpr double coefficient_a = 43.15;  ///< of F; for edges, whose p is far
+inline constexpr double coefficient_b = 123.4;
+inline constexpr double coefficient_c = 102.3;
+inline constexpr double coefficient_d = 22.04;
 inline constexpr double exact_coefficient_ad = 13.02;  ///< the vectors taken as exact
 inline constexpr double exact_coefficient_bc = 54.08;
 inline constexpr double horner = 65.81;    ///< F(t), the coefficients taken as exact
@@ -68,11 +70,15 @@ inline constexpr double value_ee = 333.5;
 inline constexpr double clearance = 40.27;  ///< the coefficients taken as exact
 
 // motion.hpp
-inline constexpr double extents = 16.53;  ///< E + W
-inline constexpr double bound = 18.64;    ///< (E + W)(1 + 64ε)
+inline constexpr double extents_vt = 6.53;  ///< E + W
+inline constexpr double extents_ee = 16.53;
+inline constexpr double bound_vt = 7.99;  ///< (E + W)(1 + 64ε)
+inline constexpr double bound_ee = 18.64;
 
 // ve_culling.hpp
-inline constexpr double spread = 1427;   ///< how far a weight may move
-inline constexpr double culling = 1906;  ///< a weight against N·N and all that is added to it
+inline constexpr double spread_vt = 984.1;  ///< how far a weight may move
+inline constexpr double spread_ee = 1427;
+inline constexpr double culling_vt = 1488;  ///< a weight against N·N and all that is added to it
+inline constexpr double culling_ee = 1906;
 
 }  // namespace nearmiss::proven

@@ -151,7 +151,7 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
 /// Failure-proof for every scalar of 11 to 256 bits, where `paper_tolerances` are not for ε above 2^-37, as
 /// far as the paper's μ >= 33492 B³ε and ψ = 725 B²ε^½ are (fuzz/audit/ derives less for both), and for
 /// queries whose coordinates the scalar has: a narrower one rounds them first. The distance bound is the
-/// smallest that the constraints give: 37.3 B e for double and finer, 48.3 B e for float.
+/// smallest that the constraints give: 36.5 B e for double and finer, 48.3 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);

@@ -38,7 +38,7 @@ inline constexpr int weight_error = 853;
 /// |computed - exact| / (B⁴ε) of ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h for h <= 1, with ‖N‖₁ <= 6 B², both edges together
 /// <= 6 B: N misses by 3 · 2 B² · 10 ε = 60 B²ε: 60 · 6 √3 <= 624; the edges by 6 · 4 Bε: 24 · 6 √3 <= 250; W
 /// by 17 εB (see form_bound): 17 · 36 √3 <= 1061; the product itself, of about ten roundings: 10 · 36 √3 <=
-/// 624. To nearest 1427 are proven, and 1906 for it and the weight together.
+/// 624. To nearest 1427 are proven, and 1906 for it and the weight together (proven.hpp).
 inline constexpr int spread_error = 2559;
 
 namespace detail {

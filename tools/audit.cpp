@@ -30,9 +30,11 @@ ordered_json json_of(const std::vector<AuditRow>& constants, const std::vector<T
                                  {"unit", row.unit},
                                  {"quoted", or_null(row.quoted)},
                                  {"derived", or_null(row.derived)},
+                                 {"proven", or_null(row.proven)},
                                  {"seen", or_null(row.seen)},
                                  {"slack", or_null(row.slack())},
                                  {"too_small", row.is_finding()},
+                                 {"needs_proof", row.needs_proof()},
                                  {"note", row.note}});
   for (const ToleranceRow& row : tolerances)
     json["tolerances"].push_back({{"epsilon", std::exp2(row.exponent)},
@@ -53,13 +55,13 @@ ordered_json json_of(const std::vector<AuditRow>& constants, const std::vector<T
 
 std::string table_of(const std::vector<AuditRow>& constants) {
   std::vector<std::vector<std::string>> rows{
-      {"constant", "section", "unit", "quoted", "derived", "seen", "slack", ""}};
+      {"constant", "section", "unit", "quoted", "derived", "proven", "seen", "slack", ""}};
   for (const AuditRow& row : constants) {
-    std::string says = row.is_finding() ? "TOO SMALL" : "";
+    std::string says = row.is_finding() ? "TOO SMALL" : row.needs_proof() ? "not proven by Theorem 4.1" : "";
     if (!row.note.empty()) says += (says.empty() ? "" : ": ") + std::string(row.note);
     rows.push_back({std::string(row.name), std::string(row.section), std::string(row.unit),
-                    number(row.quoted, "{:.5g}"), number(row.derived, "{:.5g}"), number(row.seen, "{:.3g}"),
-                    number(row.slack(), "{:.3g}"), says});
+                    number(row.quoted, "{:.5g}"), number(row.derived, "{:.5g}"), number(row.proven, "{:.5g}"),
+                    number(row.seen, "{:.3g}"), number(row.slack(), "{:.3g}"), says});
   }
   return columns(rows, 3);
 }

@@ -45,11 +45,13 @@ function drawLadder() {
 
 function drawAudit() {
   if (!report.audit) return;
+  const verdict = (r) => (r.too_small ? "too small" : r.needs_proof ? "not proven by Theorem 4.1" : "");
+  const remark = (r) => [verdict(r), r.note].filter((part) => part).join(": ");
   show("audit-section");
   fillTable(element("audit"), [
     text("constant", "name"), text("section", "section"), text("unit", "unit"),
-    { ...figure("quoted", "quoted"), bad: (r) => r.too_small }, figure("derived", "derived"), figure("largest seen", "seen"),
-    figure("slack", "slack"), { title: "", text: (r) => (r.too_small ? `too small${r.note ? `: ${r.note}` : ""}` : r.note), bad: (r) => r.too_small },
+    { ...figure("quoted", "quoted"), bad: (r) => r.too_small }, figure("derived", "derived"), figure("proven", "proven"),
+    figure("largest seen", "seen"), figure("slack", "slack"), { title: "", text: remark, bad: (r) => r.too_small },
   ], report.audit.constants);
   fillTable(element("tolerances"), [
     text("scalar", "scalars"), { title: "ε", number: (r) => r.epsilon, text: (r) => `2^${r.epsilon_exponent}` },

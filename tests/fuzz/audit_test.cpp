@@ -151,22 +151,36 @@ TEST(Audit, DerivesTheseErrors) {
   for (const auto& [name, value] : expected) EXPECT_NEAR(derived[name], value, 1e-9) << name;
 }
 
-// Too small in the paper: what takes relative positions of edges for bounded by B, and, by 1 to 2 %, what
-// leaves out the rounding of relative vectors.
+// Too small in the paper: what takes relative positions of edges for bounded by B, but for δ.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   std::vector<std::string> findings;
   for (const AuditRow& row : rows())
-    if (row.is_finding() && !row.note.starts_with("with the rounding")) findings.emplace_back(row.name);
+    if (row.is_finding()) findings.emplace_back(row.name);
   EXPECT_THAT(findings,
-              ::testing::ElementsAre("VV of EE: delta", "VE of EE: weight", "VE of EE: barycentric test",
-                                     "EE: weight, far p", "EE: barycentric test, far p",
-                                     "EE: distance from an edge line, far p",
+              ::testing::ElementsAre("VE of EE: weight", "VE of EE: barycentric test", "EE: weight, far p",
+                                     "EE: barycentric test, far p", "EE: distance from an edge line, far p",
                                      "EE: distance of a false positive, far p"));
+}
+
+// With the rounding of relative vectors the theorem's bound is above the paper's constants, by less than 10
+// %; what Gappa proves is below.
+TEST(Audit, KnowsWhatHoldsThoughTheTheoremDoesNotShowIt) {
+  std::vector<std::string> names;
+  for (const AuditRow& row : rows())
+    if (row.needs_proof()) names.emplace_back(row.name);
+  EXPECT_THAT(names, ::testing::ElementsAre("VV of EE: delta", "VT: N", "VT: height test", "VT: weight",
+                                            "VT: barycentric test", "EE: N", "EE: height test", "EE: weight",
+                                            "EE: barycentric test"));
   for (const AuditRow& row : rows()) {
     if (row.note.starts_with("with the rounding")) {
       EXPECT_LT(row.derived, 1.1 * row.quoted) << row.name;
+      EXPECT_LT(row.proven, row.quoted) << row.name;
     }
   }
+}
+
+TEST(Audit, SeesNoMoreThanIsProven) {
+  for (const AuditRow& row : rows()) EXPECT_FALSE(row.seen > row.proven) << row.name;
 }
 
 /// A moving vector with a bound of its ends, and the roundings in its position and its velocity.
@@ -177,8 +191,9 @@ Moving<Number> leaves(double reach, int position, int velocity) {
   return vector;
 }
 
-// constraints.hpp: in units of u, and B = 1.
-TEST(FullErrors, AreThoseOfTheRules) {
+// constraints.hpp: in units of u, and B = 1. The residual is by the rules; of the others Gappa proves less than
+// these allow.
+TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   const double eps = 0x1p-60;
   const auto errors = full_errors(eps, 1.0);
   const auto roundings = [&](double error) { return error / (eps / 2); };
@@ -194,9 +209,9 @@ TEST(FullErrors, AreThoseOfTheRules) {
   vt.p = vt.q = vt.r = leaves(1, 1, 3);
   const Figure triangle(vt, exact_time(0.5));
   std::ignore = triangle.well_shaped(tol, log);
-  EXPECT_NEAR(roundings(errors.area), taken(0), 1e-9);
+  EXPECT_LT(roundings(errors.area), taken(0));
   std::ignore = triangle.inside(log);
-  EXPECT_NEAR(roundings(errors.weight_vt), taken(7), 1e-9);
+  EXPECT_LT(roundings(errors.weight_vt), taken(7));
 
   kept.clear();
   Pair<Kind::edge_edge, Number> ee;
@@ -204,16 +219,16 @@ TEST(FullErrors, AreThoseOfTheRules) {
   ee.q = ee.r = leaves(1, 1, 3);
   const Figure quadrilateral(ee, exact_time(0.5));
   std::ignore = quadrilateral.well_shaped(tol, log);
-  EXPECT_NEAR(roundings(errors.height_ee), taken(1), 1e-9);
+  EXPECT_LT(roundings(errors.height_ee), taken(1));
   std::ignore = quadrilateral.inside(log);
-  EXPECT_NEAR(roundings(errors.weight_ee), std::max(taken(3), taken(5)), 1e-9);
+  EXPECT_LT(roundings(errors.weight_ee), std::max(taken(3), taken(5)));
 
   kept.clear();
   const VertexEdge<Number> ve{leaves(2, 1, 5), leaves(1, 1, 3), leaves(2, 1, 5)};
   detail::near_edge(ve, exact_time(0.5), tol, log);
-  EXPECT_NEAR(roundings(errors.length2), taken(0), 1e-9);
-  EXPECT_NEAR(roundings(errors.weight_ve), taken(2), 1e-9);
-  EXPECT_NEAR(roundings(errors.F), taken(3), 1e-9);
+  EXPECT_LT(roundings(errors.length2), taken(0));
+  EXPECT_LT(roundings(errors.weight_ve), taken(2));
+  EXPECT_LT(roundings(errors.F), taken(3));
 
   ee.p = leaves(1, 1, 4);
   const auto F = coplanarity(ee);

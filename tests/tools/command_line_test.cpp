@@ -298,6 +298,7 @@ TEST_F(CommandLine, TheAuditNamesWhatIsTooSmall) {
   const Answer answer = run("audit --queries 2 --steps 0 --json audit.json");
   EXPECT_EQ(answer.code, 0);
   EXPECT_THAT(answer.out, HasSubstr("TOO SMALL"));
+  EXPECT_THAT(answer.out, HasSubstr("not proven by Theorem 4.1: with the rounding of relative vectors"));
   EXPECT_THAT(answer.out, HasSubstr("33492"));
   EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
   EXPECT_EQ(run("report a.db -o report --audit audit.json").code, 0);
