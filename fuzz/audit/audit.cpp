@@ -33,7 +33,7 @@ AuditRow quote(std::string_view name, std::string_view section, std::string_view
 
 constexpr std::string_view beyond = "relative positions of edges are within 2B (§4.1 has B)";
 constexpr std::string_view vectors = "with the rounding of relative vectors (§5), to nearest";
-constexpr std::string_view appendix = "the paper's appendix is missing; derived in audit.hpp";
+constexpr std::string_view appendix = "the paper's appendix is missing; derived in ccd/";
 
 std::vector<Group> groups() {
   const auto B2 = "B^2 eps";
@@ -95,7 +95,7 @@ std::vector<Group> groups() {
        ee});
   const auto ours = [&](Kind kind, const auto& read) {
     // The product's B has room for 64 ε and needs 40 ε of it (motion.hpp).
-    all.push_back({{quote("F(t)", "ve_culling.hpp", B3, 865, vectors),
+    all.push_back({{quote("F(t)", "ve_culling.hpp", B3, evaluation_error, vectors),
                     quote("clearance", "cubic.hpp", B3, 100, vectors),
                     quote("B", "motion.hpp", "B eps", 64 - 40, vectors)},
                    read,
@@ -134,8 +134,7 @@ std::vector<AuditRow> consequences(const std::vector<AuditRow>& rows) {
   follows(quote("EE: distance of a false positive", "4.5.1", line, 1448), 4 * near);
   follows(quote("EE: distance of a false positive, far p", "4.5.1", line, 1448, beyond), 4 * far);
   follows(quote("distance bound", "4.4.1", "B eps^1/4", 41), std::sqrt(34.0 * 34 + 522));
-  follows(quote("critical points", "cubic.hpp", "B^3 eps", 576, "derived in audit.hpp"),
-          quadratic_error(3 * 6, 18) + 3 * 6);
+  follows(quote("critical points", "ve_culling.hpp", "B^3 eps", node_error, "derived in cubic.hpp"), 3 * 18);
   return all;
 }
 
