@@ -82,7 +82,12 @@ struct Constraint {
 inline constexpr std::size_t constraint_count = 18;
 
 /// All inequalities, for B = 1 and any E_vt, E_ee > 0: edge lengths of the proofs of §4.4 and §4.5, which no
-/// code has. R is S/3 (§3.2).
+/// code has.
+///
+/// R is S/√8: F_0ij <= 0 for every vertex within that of the line of an edge e. The paper has S = 3R (§3.2), by
+/// norms of any vectors. But x_0i × e = d × e with the distance d is at right angles to e, so that s · (d × e)
+/// with signs s is at most ‖d‖ √(3 e·e - (s·e)²). The radicand is convex in e, hence largest in the corners of
+/// the cube ‖e‖∞ <= 1, where s·e is odd: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞, which e = (1, 1, 1) attains.
 ///
 /// In short: r bounds the distance from the plane where the area test passes; a collision that fails a test
 /// is within R of an edge at some time, because what fails is small (two-event analysis, §3.3.1): the
@@ -101,7 +106,7 @@ auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number
   const Number root3 = sqrt(Number(3));
   const Number N = tol.tau - errors.area;  // the least ‖N‖ that passes
   const Number r2 = squared((tol.mu + errors.residual) / N);
-  const Number R2 = squared(tol.S / 3);
+  const Number R2 = squared(tol.S) / 8;
   const Number height_vt = Number(3) / 4 * squared(tol.eta + errors.height_vt / E_vt);
   const Number height_ee = Number(3) / 4 * squared(tol.eta + errors.height_ee / E_ee);
   const Number line_vt = errors.weight_vt * 2 / (tol.eta * N);  // a height is at least η/2

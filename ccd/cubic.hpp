@@ -68,6 +68,19 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
   }
 }
 
+// Adds the critical points of F in [0, 1], in ascending order.
+template <class T, class Steps = AllSteps>
+void find_critical_times(Times<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
+  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
+  const T s1 = F.c + F.b;
+  const T s2 = 3 * F.a + 2 * F.b + F.c;
+  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
+    if (critical.count == 2 && critical.values[0] > critical.values[1])
+      std::swap(critical.values[0], critical.values[1]);
+  }
+}
+
 // The step that looks at interval i of count + 1: a single one is all there is, and is never left out.
 constexpr Step interval_step(std::size_t i, std::size_t count) {
   if (count == 0) return Step::solver;
@@ -119,16 +132,8 @@ Times<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
   const T end = F(T(1));
 
-  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
   Times<T, 2> critical;
-  const T s1 = F.c + F.b;
-  const T s2 = 3 * F.a + 2 * F.b + F.c;
-  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
-    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
-    if (critical.count == 2 && critical.values[0] > critical.values[1])
-      std::swap(critical.values[0], critical.values[1]);
-  }
-
+  detail::find_critical_times(critical, F, steps);
   const auto last = static_cast<std::size_t>(critical.count);  // interval
   std::array<T, 4> node{0};
   std::array<T, 4> value{F.d};

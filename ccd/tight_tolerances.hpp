@@ -18,7 +18,8 @@ inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 /// Tolerances for B = 1 as multiples of powers of e = ε^¼.
 struct ToleranceConstants {
   double mu;           ///< of ε
-  double tau, eta, R;  ///< of e², e, e
+  double tau, eta;     ///< of e², e
+  double R, S;         ///< of e
   double lambda2, D2;  ///< of e²
   double psi, rho;     ///< of e²
 };
@@ -64,6 +65,29 @@ constexpr double lowest(const Function& f, double lo, double hi) {
   return (lo + hi) / 2;
 }
 
+struct EdgeTolerances {
+  double psi, lambda2, D2;
+};
+
+// The smallest ψ and D² for S, for B = 1. λ²/4 + (ψ/λ + S)² falls with λ² and then rises, since its slope grows;
+// the other constraint on D² falls, so that the larger of both falls and then rises.
+constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
+  const double psi = errors.least_psi * margin;
+  const auto D2 = [&](double lambda2) {
+    const double longer2 = lambda2 + errors.length2;
+    const double shorter2 = lambda2 - errors.length2;
+    const double at_longer = psi / square_root(longer2) + S;
+    const double at_shorter = (psi + errors.F) / square_root(shorter2) + S;
+    return std::max(longer2 / 4 + at_longer * at_longer,
+                    errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter);
+  };
+  const double least = 2 * errors.length2;
+  double most = least;
+  while (D2(2 * most) < D2(most)) most *= 2;
+  const double lambda2 = lowest(D2, least, 2 * most);
+  return {psi, lambda2, D2(lambda2) * margin};
+}
+
 // The smallest g for which the weight's constraint holds, with η(g) and τ(g) as in `solve_tight`: 2 weight <=
 // g η (τ - error). The left side does not depend on g, the right one grows.
 template <class Allows>
@@ -86,8 +110,7 @@ constexpr double least_size(const Allows& allows) {
 /// allows, η = 2g/√3 - error/E the largest by the height, or B, τ = 4g²/√3 - error the largest by the
 /// quadrilateral's area (the triangle's allows more); larger ones make everything else smaller. The weight
 /// asks for g η (τ - error) >= 2 weight, that is for g above some g0, and R² = g² + r(g)² falls and then
-/// rises. Then ψ, which S = 3R and ρ = ε determine, and λ²: λ²/4 + (ψ/λ + S)² falls and then rises, since its
-/// slope in λ² grows; the other constraint on D² falls with λ², so that the larger of both falls and rises.
+/// rises. S, ρ = ε and `edge_tolerances` follow.
 ///
 /// Every value is rounded a few times when it is computed: below 16 ε relatively, all together. R, ψ and D²
 /// are larger by that and 2^-30, and so is μ.
@@ -111,25 +134,18 @@ constexpr ToleranceConstants solve_tight(int eps_exponent) {
   };
   const double g = detail::lowest(R2, g0, 64 * g0);
   const double R = detail::square_root(R2(g)) * margin;
-
-  const double S = 3 * R;
-  const auto with_S = full_errors(eps, S, rho);
-  const double psi = with_S.least_psi * margin;
-  const auto D2 = [&](double lambda2) {
-    const double longer2 = lambda2 + errors.length2;
-    const double shorter2 = lambda2 - errors.length2;
-    const double at_longer = psi / detail::square_root(longer2) + S;
-    const double at_shorter = (psi + with_S.F) / detail::square_root(shorter2) + S;
-    return std::max(longer2 / 4 + at_longer * at_longer,
-                    errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter);
-  };
-  const double least = 2 * errors.length2;
-  double most = least;
-  while (D2(2 * most) < D2(most)) most *= 2;
-  const double lambda2 = detail::lowest(D2, least, 2 * most);
+  const double S = detail::square_root(8) * R;
+  const auto edge = detail::edge_tolerances(full_errors(eps, S, rho), S, margin);
   const double area = e * e;
-  return {mu / eps,   tau(g) / area, eta(g) / e, R / e, lambda2 / area, D2(lambda2) * margin / area,
-          psi / area, rho / area};
+  return {.mu = mu / eps,
+          .tau = tau(g) / area,
+          .eta = eta(g) / e,
+          .R = R / e,
+          .S = S / e,
+          .lambda2 = edge.lambda2 / area,
+          .D2 = edge.D2 / area,
+          .psi = edge.psi / area,
+          .rho = rho / area};
 }
 
 template <class T>
@@ -138,7 +154,7 @@ inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_expone
 /// The paper's, for ε = 2^this, likewise.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
-  return {64 / e, 64, 4, 6, 2080, 34 * 34 + 522, 725, 3};
+  return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
 }
 
 /// The tolerances for a bound B from their constants.
@@ -155,7 +171,7 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
   tol.psi = B2e2 * static_cast<T>(c.psi);
   tol.lambda2 = B2e2 * static_cast<T>(c.lambda2);
   tol.R = Be * static_cast<T>(c.R);
-  tol.S = tol.R * 3;
+  tol.S = Be * static_cast<T>(c.S);
   tol.mu = B2 * B * eps * static_cast<T>(c.mu);
   tol.tau = B2e2 * static_cast<T>(c.tau);
   tol.eta = Be * static_cast<T>(c.eta);
@@ -164,7 +180,7 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
 
 /// Failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for queries whose coordinates
 /// the scalar has: a narrower one rounds them first. The distance bound is the smallest that the constraints
-/// give: 13.7 B e for double and finer, 13.9 B e for float.
+/// give: 12.9 B e for double and finer, 13.1 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
