@@ -7,12 +7,13 @@
 #include <string_view>
 
 #include "ccd/proven.hpp"
+#include "ccd/solver_errors.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
 
-/// Rounding errors that the constraints speak of, for B = 1; `Number` is anything that computes, such as an
-/// interval.
+/// Rounding errors that the constraints speak of, and what they ask of μ and ψ, for B = 1; `Number` is
+/// anything that computes, such as an interval.
 template <class Number>
 struct RoundingErrors {
   Number area;       ///< a component of N
@@ -25,29 +26,29 @@ struct RoundingErrors {
   Number F;          ///< VE: F_0ij
   Number residual;   ///< by how much |F| may exceed μ between a root and its computed one
   Number delta;      ///< VV: squared distance, for all reasons
+  Number least_mu;   ///< for no root to be missed (Appendix B)
+  Number least_psi;  ///< for no time to be missed by VE (Appendix C)
 };
 
 /// As the paper prints them (§4.2 to §4.5); it leaves those out that are 0 here.
 template <class Number>
-constexpr RoundingErrors<Number> printed_errors(const Number& eps) {
-  return {eps * 13, eps * 21, eps * 16, eps * 565, eps * 362,
-          eps * 22, eps * 44, eps * 0,  eps * 0,   eps * 311};
+RoundingErrors<Number> printed_errors(const Number& eps) {
+  using std::sqrt;
+  const Number e = sqrt(sqrt(eps));
+  return {eps * 13, eps * 21, eps * 16, eps * 565, eps * 362,   eps * 22,
+          eps * 44, eps * 0,  eps * 0,  eps * 311, eps * 33492, e * e * 725};
 }
 
 /// With all that the paper leaves out, rounding to nearest (u = ε/2): the rounding of the relative vectors
 /// themselves (§5); what is of second order in ε; end points of edges that are within 2B, not B. For every ε
 /// <= 2^-10: proven by Gappa (proven.hpp), but for `residual`.
 ///
-/// That is by Theorem 4.1. A position has one u; a velocity is off by the positions' and its own rounding,
-/// within B 3u, of edges' p, which is within 2B at one end, 4u. F: a 6, k 15; b 18, k 15; c 18, k 12; d 6, k
-/// 8: 624; Horner 288; solver 270 (`cubic_error`).
+/// The solvers' errors are in solver_errors.hpp, derived there and in cubic.hpp and vertex_edge.hpp.
 template <class Number>
-constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S) {
+constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;
-  // c((1 + u)^k - 1) <= c k u / (1 - k u/2) for k u < 2, since e^x - 1 <= x / (1 - x/2).
-  const auto error = [&u](const Number& c, int k) { return c * k * u / (1 - u * k / 2); };
-  const auto number = [](int c) { return Number(c); };
   const auto times = [&eps](double factor) { return eps * Number(factor); };
+  const Number residual = cubic_residual(u);
   return {times(proven::normal),
           times(proven::height_vt),
           times(proven::height_ee),
@@ -56,8 +57,10 @@ constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S)
           times(proven::length2),
           times(proven::inside_ve_far),
           times(proven::F_ve_far_without_S) + times(proven::F_ve_of_S) * S,
-          error(number(1182), 1) / (1 - u * 20),
-          times(proven::delta_far)};
+          residual,
+          times(proven::delta_far),
+          residual,
+          least_psi(u, S, rho)};
 }
 
 /// One inequality: `more` must be at least `less`.
@@ -70,7 +73,12 @@ struct Constraint {
 inline constexpr std::size_t constraint_count = 18;
 
 /// All inequalities, for B = 1 and any E_vt, E_ee > 0: edge lengths of the proofs of §4.4 and §4.5, which no
-/// code has. That S = 3R, ψ = 725 ε^½ and ρ = 3 ε^½ is taken for granted (§3.2, §4.3).
+/// code has.
+///
+/// R is S/√8: F_0ij <= 0 for every vertex within that of the line of an edge e. The paper has S = 3R (§3.2), by
+/// norms of any vectors. But x_0i × e = d × e with the distance d is at right angles to e, so that s · (d × e)
+/// with signs s is at most ‖d‖ √(3 e·e - (s·e)²). The radicand is convex in e, hence largest in the corners of
+/// the cube ‖e‖∞ <= 1, where s·e is odd: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞, which e = (1, 1, 1) attains.
 ///
 /// In short: r bounds the distance from the plane where the area test passes; a collision that fails a test
 /// is within R of an edge at some time, because what fails is small (two-event analysis, §3.3.1): the
@@ -82,14 +90,14 @@ inline constexpr std::size_t constraint_count = 18;
 /// fixed, (3) too, as 21/4 ε^½ and 4 ε^½, which leaves 4 ε^½ beside η. That the quadrilateral's shorter edge
 /// is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but what follows from it does.
 template <class Number>
-auto constraints(const Tolerances<Number>& tol, const Number& eps, const Number& E_vt, const Number& E_ee,
+auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,
                  const RoundingErrors<Number>& errors) {
   using std::sqrt;
   const auto squared = [](const Number& x) { return Number(x * x); };
   const Number root3 = sqrt(Number(3));
   const Number N = tol.tau - errors.area;  // the least ‖N‖ that passes
   const Number r2 = squared((tol.mu + errors.residual) / N);
-  const Number R2 = squared(tol.R);
+  const Number R2 = squared(tol.S) / 8;
   const Number height_vt = Number(3) / 4 * squared(tol.eta + errors.height_vt / E_vt);
   const Number height_ee = Number(3) / 4 * squared(tol.eta + errors.height_ee / E_ee);
   const Number line_vt = errors.weight_vt * 2 / (tol.eta * N);  // a height is at least η/2
@@ -100,8 +108,7 @@ auto constraints(const Tolerances<Number>& tol, const Number& eps, const Number&
   const Number at_shorter = squared((tol.psi + errors.F) / sqrt(shorter2) + tol.S);
   const Number bound2 = tol.D2 + tol.delta * 2;
   return std::array<Constraint<Number>, constraint_count>{{
-      {"solver", "App. B", tol.mu, eps * 33492},
-      {"our solver", "fuzz/audit", tol.mu, errors.residual},
+      {"solver", "App. B", tol.mu, errors.least_mu},
       {"2h >= eta: sqrt(3) (1 + error / N) <= 2", "4.4", Number(2), root3 * (errors.height_vt / N + 1)},
       {"eta <= B", "4.4", Number(1), tol.eta},
       {"triangle area", "4.4, (2)", R2, (tol.tau + errors.area) / 6 + r2},
@@ -112,6 +119,7 @@ auto constraints(const Tolerances<Number>& tol, const Number& eps, const Number&
       {"quadrilateral, short edge", "4.5", R2, squared(E_ee) / 4 + r2},
       {"quadrilateral height", "4.5, (3)", R2, height_ee + r2},
       {"quadrilateral weight", "4.5, (3)", R2, squared(line_ee) + r2},
+      {"VE: psi", "App. C", tol.psi, errors.least_psi},
       {"VE: edge short at t_0^E", "4.3", tol.D2, R2 + longer2 / 4},
       {"VE: edge becomes short", "4.3", tol.D2, longer2 / 4 + at_longer},
       {"VE: weight, and its false positives", "4.3", tol.D2,

@@ -20,9 +20,9 @@ struct Cubic {
   [[nodiscard]] T slope(T t) const { return (3 * a * t + 2 * b) * t + c; }
 };
 
-/// F(t) = p · (q × r) of a pair. By Theorem 4.1, with all vectors within B: a and d are computed within
-/// 6B³((1 + ε)⁵ - 1) and b and c within 18B³((1 + ε)⁷ - 1), as the paper has it: x·(v×v) + v·(x×v + v×x)
-/// is the paper's sum with the dot product taken out.
+/// F(t) = p · (q × r) of a pair. By Theorem 4.1, with all vectors within B and exact: a and d are computed
+/// within 6B³((1 + ε)⁵ - 1) and b and c within 18B³((1 + ε)⁷ - 1), as the paper has it: x·(v×v) + v·(x×v +
+/// v×x) is the paper's sum with the dot product taken out.
 template <Kind kind, class T>
 Cubic<T> coplanarity(const Pair<kind, T>& pair) {
   const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
@@ -34,9 +34,10 @@ Cubic<T> coplanarity(const Pair<kind, T>& pair) {
 
 namespace detail {
 
-// A time between lo and hi, where F has different signs, with |F| <= μ: Newton, safeguarded by bisection.
-// It ends: a step that leaves the bracket, or does not halve what the step before it did, is replaced by
-// bisection; when the bracket cannot shrink any more, its end with the smaller residual is returned.
+// A time between lo and hi, where F has different signs and |F| > μ, with |F| <= μ: Newton, safeguarded by
+// bisection. It ends: a step that leaves the bracket, or does not halve what the step before it did, is replaced by
+// bisection; when the bracket cannot shrink any more, its end with the smaller residual is returned (which
+// takes a μ below what `solve_cubic` asks for, as `next == t` does).
 template <class T, class Steps = AllSteps>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& steps = {}) {
   using std::abs;
@@ -64,6 +65,19 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
     if (!steps.does(Step::residual) && abs(step) <= T(0x1p-20)) return t;
     t = abs(step) * 2 <= last_step ? next : hi;  // hi: not inside, so bisect
     last_step = abs(step);
+  }
+}
+
+// Adds the critical points of F in [0, 1], in ascending order.
+template <class T, class Steps = AllSteps>
+void find_critical_times(Times<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
+  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
+  const T s1 = F.c + F.b;
+  const T s2 = 3 * F.a + 2 * F.b + F.c;
+  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
+    if (critical.count == 2 && critical.values[0] > critical.values[1])
+      std::swap(critical.values[0], critical.values[1]);
   }
 }
 
@@ -98,12 +112,22 @@ T clearance(const Cubic<T>& F) {
 /// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node
 /// where |F| <= μ there, else its right node, else nothing where F has one sign at both, else a refined root.
 ///
-/// Claim (Appendix B): for μ >= 33492 B³ε every exact root t0 has a returned t with |F| <= μ on [t0, t].
-/// Between exact critical points F is monotone, so that |F| between t0 and t is at most |F(t)| <= μ. A
-/// computed critical point is the root of F' with coefficients moved by a few ε; following that root as they
-/// move, F' stays below k ε (3|a| + 2|b| + |c|) <= 72 k B³ε, k < 8, on the way, so F is monotone but for 576
-/// B³ε. What decides is computed, so F there is wrong by at most 866 B³ε (`evaluation_error`). Both are far
-/// below μ.
+/// Claim (Appendix B): for μ >= `cubic_residual` each root t0 of the exact F* has a returned t with |F*| at
+/// most μ + `cubic_residual` between t0 and t.
+///
+/// Proof, for operations that err by ω at most. F has the computed coefficients, |F - F*| <= e, and F̂ is what
+/// Horner's rule makes of F, |F̂ - F| <= h; e + h = E.
+/// (1) Between s and t, both in the interval between two nodes, F stays within F(s) and F(t), but for m. The
+///     inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω |c|), each but
+///     for a factor 1 + θ. That function is monotone between the exact ones, and moves by O(ω²) between such
+///     a point, where its slope is 0, and its node. So m is 54 ω + O(ω²). Where the Bernstein coefficients
+///     have one sign, computed, the last one errs by at most 72 ω and the slope by 72 ω t²: m is 24 ω.
+/// (2) If |F̂| > μ with one sign at both nodes, |F| > μ - h - m between them, and no root t0 of F*, where |F|
+///     <= e, is there. `clearance` misses by at most 114 ω: F* has no root where it exceeds μ.
+/// (3) `refine_root` ends with |F̂| <= μ. Its bracket's ends have |F̂| > μ and different signs; of two
+///     neighbouring numbers with different signs one has |F̂| <= 72 ω + h, so the bracket can always shrink;
+///     and a step that leaves t where it was is at most ω t, which |F̂| > 73 ω does not give.
+/// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
 ///
 /// Where F keeps clear of μ there is nothing to look for.
 template <class T, class Steps = AllSteps>
@@ -113,16 +137,8 @@ Times<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
   const T end = F(T(1));
 
-  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
   Times<T, 2> critical;
-  const T s1 = F.c + F.b;
-  const T s2 = 3 * F.a + 2 * F.b + F.c;
-  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
-    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
-    if (critical.count == 2 && critical.values[0] > critical.values[1])
-      std::swap(critical.values[0], critical.values[1]);
-  }
-
+  detail::find_critical_times(critical, F, steps);
   const auto last = static_cast<std::size_t>(critical.count);  // interval
   std::array<T, 4> node{0};
   std::array<T, 4> value{F.d};

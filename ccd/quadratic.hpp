@@ -33,9 +33,15 @@ void add_quotient(Times<T, capacity>& times, T numerator, T denominator) {
 /// Adds the roots of a t² + b t + c in [0, 1], in no particular order; a linear equation is solved, a
 /// constant one adds nothing.
 ///
-/// A discriminant that comes out negative is taken as 0: rounding hides tangential roots there, and a
-/// candidate more is harmless. With q = -(b + sign(b) sqrt(disc)) the roots are q/2a and 2c/q, neither of
-/// which cancels; each is the root of a quadratic whose coefficients differ from these by a few ε relatively.
+/// A discriminant that comes out negative is taken as 0: a candidate more is harmless. With q = -(b + sign(b)
+/// sqrt(disc)) the roots are q/2a and 2c/q, neither of which cancels.
+///
+/// Errors, for operations that err by ω at most: there is one c', with |c' - c| <= 2ω |c|, such that each
+/// root t' of a t² + b t + c' in [0, 1] has a returned time t'(1 + θ) with |θ| <= 6ω, or would have it beyond
+/// 1. (All to first order; in full: tests/proofs/.) For disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)
+/// (1 + δ3) times the discriminant of a, b and c' = c(1 + δ2)/(1 + δ1), with its sign. Its root is off by a
+/// factor of 2ω more, q, a sum of two terms of one sign, by 3ω, q/2a by 4ω, and 2c/q, with c for c', by 6ω.
+/// An error of 1ω in a, as of 3a in a cubic's derivative, goes into c' and θ too: 3ω and 7ω.
 template <class T, int capacity, class Steps = AllSteps>
 void solve_quadratic(Times<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
   using std::sqrt;

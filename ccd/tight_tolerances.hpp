@@ -18,8 +18,10 @@ inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 /// Tolerances for B = 1 as multiples of powers of e = ε^¼.
 struct ToleranceConstants {
   double mu;           ///< of ε
-  double tau, eta, R;  ///< of e², e, e
+  double tau, eta;     ///< of e², e
+  double R, S;         ///< of e
   double lambda2, D2;  ///< of e²
+  double psi, rho;     ///< of e²
 };
 
 namespace detail {
@@ -63,6 +65,43 @@ constexpr double lowest(const Function& f, double lo, double hi) {
   return (lo + hi) / 2;
 }
 
+struct EdgeTolerances {
+  double psi, lambda2, D2;
+};
+
+// The smallest ψ and D² for S, for B = 1. λ²/4 + (ψ/λ + S)² falls with λ² and then rises, since its slope grows;
+// the other constraint on D² falls, so that the larger of both falls and then rises.
+constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
+  const double psi = errors.least_psi * margin;
+  const auto D2 = [&](double lambda2) {
+    const double longer2 = lambda2 + errors.length2;
+    const double shorter2 = lambda2 - errors.length2;
+    const double at_longer = psi / square_root(longer2) + S;
+    const double at_shorter = (psi + errors.F) / square_root(shorter2) + S;
+    return std::max(longer2 / 4 + at_longer * at_longer,
+                    errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter);
+  };
+  const double least = 2 * errors.length2;
+  double most = least;
+  while (D2(2 * most) < D2(most)) most *= 2;
+  const double lambda2 = lowest(D2, least, 2 * most);
+  return {psi, lambda2, D2(lambda2) * margin};
+}
+
+// The smallest g for which the weight's constraint holds, with η(g) and τ(g) as in `solve_tight`: 2 weight <=
+// g η (τ - error). The left side does not depend on g, the right one grows.
+template <class Allows>
+constexpr double least_size(const Allows& allows) {
+  double none = 0;
+  double some = 1;
+  while (!allows(some)) some *= 2;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (none + some) / 2;
+    (middle > 0 && allows(middle) ? some : none) = middle;
+  }
+  return some;
+}
+
 }  // namespace detail
 
 /// Minimises D² subject to `constraints` with `full_errors`.
@@ -71,51 +110,42 @@ constexpr double lowest(const Function& f, double lo, double hi) {
 /// allows, η = 2g/√3 - error/E the largest by the height, or B, τ = 4g²/√3 - error the largest by the
 /// quadrilateral's area (the triangle's allows more); larger ones make everything else smaller. The weight
 /// asks for g η (τ - error) >= 2 weight, that is for g above some g0, and R² = g² + r(g)² falls and then
-/// rises. Then λ².
+/// rises. S, ρ = ε and `edge_tolerances` follow.
 ///
-/// Every value is rounded a few times when it is computed: below 16 ε relatively, all together. R and D² are
-/// larger by that and 2^-30, and so is μ.
+/// Every value is rounded a few times when it is computed: below 16 ε relatively, all together. R, ψ and D²
+/// are larger by that and 2^-30, and so is μ.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
   const double margin = 1 + 16 * eps + 0x1p-30;
-  const double mu = 33492 * margin;
-  const auto errors = full_errors(eps, 1.0);
+  const double rho = eps;
+  const auto errors = full_errors(eps, 1.0, rho);
+  const double mu = errors.least_mu * margin;
   const double root3 = detail::square_root(3);
   const auto eta = [&](double g) {
     return std::min(2 * g / root3 - errors.height_vt / (2 * g), 1 - 16 * eps);
   };
   const auto tau = [&](double g) { return 4 * g * g / root3 - errors.area; };
-  const auto allows_weight = [&](double g) {
-    return g * eta(g) * (tau(g) - errors.area) >= 2 * errors.weight_vt;
-  };
-  double none = 0;
-  double some = 1;
-  while (!allows_weight(some)) some *= 2;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = (none + some) / 2;
-    (middle > 0 && allows_weight(middle) ? some : none) = middle;
-  }
+  const double g0 = detail::least_size(
+      [&](double g) { return g * eta(g) * (tau(g) - errors.area) >= 2 * errors.weight_vt; });
   const auto R2 = [&](double g) {
-    const double r = (mu * eps + errors.residual) / (tau(g) - errors.area);
+    const double r = (mu + errors.residual) / (tau(g) - errors.area);
     return g * g + r * r;
   };
-  const double g = detail::lowest(R2, some, 64 * some);
+  const double g = detail::lowest(R2, g0, 64 * g0);
   const double R = detail::square_root(R2(g)) * margin;
-
-  const double S = 3 * R;
-  const double F = full_errors(eps, S).F;
-  const double psi = 725 * e * e;
-  const auto D2 = [&](double lambda2) {
-    const double longer2 = lambda2 + errors.length2;
-    const double shorter2 = lambda2 - errors.length2;
-    const double at_longer = psi / detail::square_root(longer2) + S;
-    const double at_shorter = (psi + F) / detail::square_root(shorter2) + S;
-    return std::max(longer2 / 4 + at_longer * at_longer,
-                    errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter);
-  };
-  const double lambda2 = detail::lowest(D2, 2 * errors.length2, 16 * psi);
-  return {mu, tau(g) / (e * e), eta(g) / e, R / e, lambda2 / (e * e), D2(lambda2) * margin / (e * e)};
+  const double S = detail::square_root(8) * R;
+  const auto edge = detail::edge_tolerances(full_errors(eps, S, rho), S, margin);
+  const double area = e * e;
+  return {.mu = mu / eps,
+          .tau = tau(g) / area,
+          .eta = eta(g) / e,
+          .R = R / e,
+          .S = S / e,
+          .lambda2 = edge.lambda2 / area,
+          .D2 = edge.D2 / area,
+          .psi = edge.psi / area,
+          .rho = rho / area};
 }
 
 template <class T>
@@ -124,7 +154,7 @@ inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_expone
 /// The paper's, for ε = 2^this, likewise.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
-  return {64 / e, 64, 4, 6, 2080, 34 * 34 + 522};
+  return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
 }
 
 /// The tolerances for a bound B from their constants.
@@ -137,21 +167,20 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
   Tolerances<T> tol;
   tol.delta = B2 * eps * 311;
   tol.D2 = B2e2 * static_cast<T>(c.D2);
-  tol.rho = B2e2 * 3;
-  tol.psi = B2e2 * 725;
+  tol.rho = B2e2 * static_cast<T>(c.rho);
+  tol.psi = B2e2 * static_cast<T>(c.psi);
   tol.lambda2 = B2e2 * static_cast<T>(c.lambda2);
   tol.R = Be * static_cast<T>(c.R);
-  tol.S = tol.R * 3;
+  tol.S = Be * static_cast<T>(c.S);
   tol.mu = B2 * B * eps * static_cast<T>(c.mu);
   tol.tau = B2e2 * static_cast<T>(c.tau);
   tol.eta = Be * static_cast<T>(c.eta);
   return tol;
 }
 
-/// Failure-proof for every scalar of 11 to 256 bits, where `paper_tolerances` are not for ε above 2^-37, as
-/// far as the paper's μ >= 33492 B³ε and ψ = 725 B²ε^½ are (fuzz/audit/ derives less for both), and for
-/// queries whose coordinates the scalar has: a narrower one rounds them first. The distance bound is the
-/// smallest that the constraints give: 36.5 B e for double and finer, 48.3 B e for float.
+/// Failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for queries whose coordinates
+/// the scalar has: a narrower one rounds them first. The distance bound is the smallest that the constraints
+/// give: 12.9 B e for double and finer, 13.1 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);

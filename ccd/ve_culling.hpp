@@ -19,31 +19,34 @@ enum class VeCulling : std::uint8_t {
   per_root,  ///< h from the slope of F at the root
 };
 
-/// |F̂(t) - F(t)| / (B³ε) for F evaluated from rounded relative vectors against exact motion, by Theorem 4.1.
-/// Leaves carry the vectors' own errors: a position u <= (1 + ε) - 1 of B, a velocity at most 3u of B, that
-/// is B((1 + ε)² - 1): k = 2. Then x × v: 2 + 2 + 1 (product) + 1 (difference) = 6; a sum of two of them 7; a
-/// product with a third leaf 7 + 2 + 1 = 10 and two additions 12, one more 13: b and c have B_f = 18 B³, k =
-/// 13; a and d 6 B³ and k = 11. Horner: a t: 12; + b: 24 B³, 14; t: 15; + c: 42 B³, 16; t: 17; + d: 48 B³, k
-/// = 18. 48 ((1 + ε)^18 - 1) <= 865 ε for ε <= 2^-15. To nearest 334 are proven (proven.hpp).
-inline constexpr int value_error = 865;
-/// Critical points (see solve_cubic) add 576.
-inline constexpr int evaluation_error = value_error + 576;
+/// |F̂(t) - F(t)| / (B³ε) for F evaluated from rounded relative vectors against exact motion, for operations
+/// that err by ε at most: whatever the rounding mode. A position has an error of ε, a velocity of 3ε, or 4ε
+/// where a position is within 2B at one end (p of edges). By Theorem 4.1 the coefficients then err by 6 B³ of
+/// k = 15 (a), 18 B³ of 15 and 12 (b, c), 6 B³ of 8 (d): 624 ε. Horner's rule rounds each of them 6, 5, 3 and
+/// 1 times: 36 + 90 + 54 + 6 = 186 ε. With all that is of second order, 865 for ε <= 2^-10 (tests/proofs/).
+/// To nearest 334 are proven (proven.hpp).
+inline constexpr int evaluation_error = 865;
 
-/// |ŵ - w| / (B⁴ε) for a weight or its comparison with N·N, by Theorem 4.1: x + t v has k = 4 (leaf 2,
-/// product 3, sum 4) and stays within B; N and p × q: 4 + 4 + 1 + 1 = 10, B_f = 2 B²; their dot product 10 +
-/// 10 + 1 + 2 = 23 with B_f = 12 B⁴; a sum of two weights 24 B⁴, k = 24; against N·N another 12 B⁴, k = 23:
-/// 24 ((1 + ε)^24 - 1) + 12 ((1 + ε)^23 - 1) <= 853 ε for ε <= 2^-15. To nearest 423 are proven.
-inline constexpr int weight_error = 853;
+/// By how much F, with its computed coefficients, may leave the range of its values at two places between two
+/// nodes of `solve_cubic`, in units of B³ε: 3 · 18, and what is of second order, for ε <= 2^-10.
+inline constexpr int node_error = 60;
+
+/// |ŵ - w| / (B⁴ε) for a weight or its comparison with N·N, by Theorem 4.1, in every rounding mode: x + t v
+/// has k = 6, of p of edges 7, and stays within B; N 14, B_f = 2 B²; p × q 15; their dot product 14 + 15 + 1 +
+/// 2 = 32 with B_f = 12 B⁴, or 31 and a sum of two, 24 B⁴ of 32; against N·N another 12 B⁴ of 31: 24 · 32 +
+/// 12 · 31 = 1140, and what is of second order for ε <= 2^-10. To nearest 423 are proven.
+inline constexpr int weight_error = 1160;
 
 /// |computed - exact| / (B⁴ε) of ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h for h <= 1, with ‖N‖₁ <= 6 B², both edges together
-/// <= 6 B: N misses by 3 · 2 B² · 10 ε = 60 B²ε: 60 · 6 √3 <= 624; the edges by 6 · 4 Bε: 24 · 6 √3 <= 250; W
-/// by 17 εB (see form_bound): 17 · 36 √3 <= 1061; the product itself, of about ten roundings: 10 · 36 √3 <=
-/// 624. To nearest 1427 are proven, and 1906 for it and the weight together (proven.hpp).
-inline constexpr int spread_error = 2559;
+/// <= 6 B: N misses by 3 · 2 B² · 14 ε = 84 B²ε: 84 · 6 √3 <= 873; the edges by 6 · 6 Bε: 36 · 6 √3 <= 375; W
+/// by 35 εB (see form_bound): 35 · 36 √3 <= 2183; the product itself, of about ten roundings, and t ± h, of
+/// another: 11 · 36 √3 <= 686. Together 4117, and what is of second order. To nearest 1427 are
+/// proven, and 1906 for it and the weight together.
+inline constexpr int spread_error = 4400;
 
 namespace detail {
 
-// Whether |F| certainly exceeds μ at t - h and t + h; a side beyond [0, 1] needs no test.
+// Whether |F̂| exceeds the threshold at t - h and t + h; a side beyond [0, 1] needs no test.
 template <class T>
 bool brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
   using std::abs;
@@ -54,8 +57,9 @@ bool brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
 
 /// Whether no collision can belong to the root t: a sound reason to leave out the VE tests on its account.
 ///
-/// By Appendix B, |F| <= μ from t to the true root t0 that belongs to it; if |F| certainly exceeds μ at
-/// t ± h, then |t0 - t| < h. The points that touch at t0 are within δ = √3 W h of each other at t, since
+/// From t to the true root t0 that belongs to it |F| is at most μ + E + m, since |F̂| <= μ at t (`solve_cubic`;
+/// E is `evaluation_error`, m `node_error`). If |F̂| exceeds μ + 2E + m at t ± h, then |F| exceeds μ + E + m
+/// there, and |t0 - t| < h. The points that touch at t0 are within δ = √3 W h of each other at t, since
 /// their relative velocity has components within W (the velocity of a point of a primitive is a convex
 /// combination of its vertices'). A weight is linear in p, so moving p by δ moves it by at most ‖N‖‖edge‖ δ;
 /// a weight farther than that (and the rounding error) outside [0, N·N] proves that nothing touches at t0.
@@ -67,7 +71,7 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figu
   using std::sqrt;
   const T B = pair.B;
   const T eps = steps.does(Step::culling_rounding) ? epsilon<T>() : 0;
-  const T threshold = tol.mu + evaluation_error * eps * B * B * B;
+  const T threshold = tol.mu + (2 * evaluation_error + node_error) * eps * B * B * B;
   const T rounding = (weight_error + spread_error) * eps * B * B * B * B;
   T h;
   T spread;  // of a weight

@@ -92,6 +92,24 @@ Times<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
 
 /// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1]; never one farther away than the
 /// tolerances' distance bound (§4.3). The Karush-Kuhn-Tucker case that accepted is the verdict's stage.
+///
+/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t where
+/// its computed value is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
+///
+/// Proof, for operations that err by ω at most. Let Q_k be the computed components of x_0i × x_ji, less what
+/// was dropped, each with the c' of its roots in the place of c (`solve_quadratic`), and G the sum of all
+/// |Q_k| less S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). From t_E follow G downwards, or
+/// level, to a time t' that is one of these, since the kinks of -S‖x_ji‖∞ are concave and stop nobody:
+/// - 0 or 1 (case 1).
+/// - A kink of some |Q_k|, a root of Q_k (case 4). Its computed time, or 1 in its place, is within 6ω, and G
+///   changes at a rate of at most 30 B² + SB.
+/// - The vertex of a piece (case 2). The computed slope of the piece is wrong by at most r = (68 B² + 2 SB) ω.
+///   So between t' and the computed vertex, or 0 or 1 where that is outside, the piece rises by at most r/2.
+///   At a concave kink G continues below the piece. At a kink of some |Q_k|, if one comes first, go on to
+///   that root's computed time.
+/// All the way F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. No root is taken of an error: all times are,
+/// nearly, exact ones of one function near F_0ij. The paper's 688 B²ε^½, for the distance from the computed
+/// root of one Q_k to its exact one, is not needed.
 template <class T, class Steps = AllSteps>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Steps& steps = {}) {
   const auto accept = [&](Step step, T t) {

@@ -49,7 +49,9 @@ ordered_json json_of(const std::vector<AuditRow>& constants, const std::vector<T
                                   {"eta", row.tight.eta},
                                   {"R", row.tight.R},
                                   {"lambda2", row.tight.lambda2},
-                                  {"D2", row.tight.D2}});
+                                  {"D2", row.tight.D2},
+                                  {"psi", row.tight.psi},
+                                  {"rho", row.tight.rho}});
   return json;
 }
 
@@ -69,7 +71,7 @@ std::string table_of(const std::vector<AuditRow>& constants) {
 std::string table_of(const std::vector<ToleranceRow>& tolerances) {
   std::vector<std::vector<std::string>> rows{{"scalar", "epsilon", "paper, B e", "closed forms",
                                               "smallest, B e", "in B", "mu/eps", "tau", "eta", "R",
-                                              "lambda^2", "D^2"}};
+                                              "lambda^2", "D^2", "psi"}};
   for (const ToleranceRow& row : tolerances)
     rows.push_back({std::string(row.scalars), fmt::format("2^{}", row.exponent),
                     fmt::format("{:.2f}", row.paper_bound),
@@ -77,7 +79,8 @@ std::string table_of(const std::vector<ToleranceRow>& tolerances) {
                     fmt::format("{:.2f}", row.tight_bound), fmt::format("{:.3g}", row.relative_bound),
                     fmt::format("{:.0f}", row.tight.mu), fmt::format("{:.2f}", row.tight.tau),
                     fmt::format("{:.3f}", row.tight.eta), fmt::format("{:.3f}", row.tight.R),
-                    fmt::format("{:.0f}", row.tight.lambda2), fmt::format("{:.0f}", row.tight.D2)});
+                    fmt::format("{:.3g}", row.tight.lambda2), fmt::format("{:.1f}", row.tight.D2),
+                    fmt::format("{:.2g}", row.tight.psi)});
   return columns(rows, 1);
 }
 

@@ -40,7 +40,7 @@ AuditRow quote(std::string_view name, std::string_view section, std::string_view
 
 constexpr std::string_view beyond = "relative positions of edges are within 2B (§4.1 has B)";
 constexpr std::string_view vectors = "with the rounding of relative vectors (§5), to nearest";
-constexpr std::string_view appendix = "the paper's appendix is missing; derived in audit.hpp";
+constexpr std::string_view appendix = "the paper's appendix is missing; derived in ccd/";
 
 std::vector<Group> groups() {
   const auto B2 = "B^2 eps";
@@ -113,7 +113,7 @@ std::vector<Group> groups() {
                  ee});
   const auto ours = [&](Kind kind, const auto& read) {
     const double value = kind == vt ? proven::value_vt : proven::value_ee;
-    all.push_back({{quote("F(t)", "ve_culling.hpp", B3, value_error, value, vectors),
+    all.push_back({{quote("F(t)", "ve_culling.hpp", B3, evaluation_error, value, vectors),
                     quote("clearance", "cubic.hpp", B3, clearance_error, proven::clearance, vectors),
                     quote("B", "motion.hpp", "B eps", bound_margin - bound_needs,
                           kind == vt ? proven::bound_vt : proven::bound_ee, vectors)},
@@ -157,8 +157,8 @@ std::vector<AuditRow> consequences(const std::vector<AuditRow>& rows) {
                 beyond),
           4 * far);
   follows(quote("distance bound", "4.4.1", "B eps^1/4", 41, nan), std::sqrt(34.0 * 34 + 522));
-  follows(quote("critical points", "cubic.hpp", "B^3 eps", 576, nan, "derived in audit.hpp"),
-          quadratic_error(3 * 6, 18) + 3 * 6);
+  follows(quote("critical points", "ve_culling.hpp", "B^3 eps", node_error, nan, "derived in cubic.hpp"),
+          3 * 18);
   return all;
 }
 

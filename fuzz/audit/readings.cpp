@@ -143,10 +143,31 @@ Readings quadratic_residual(const Sample& s) {
   return {{kappa, seen}};
 }
 
+namespace {
+
+/// `candidate_error` of a sample, in units of B²ε, for S in units of B.
+double candidate_bound(const Sample& s, double S) {
+  const detail::CrossProduct<Number> g(exactly(s.p, s.reach), exactly(s.q), threshold(0, 2));
+  double kappa = 0;
+  double a = 0;
+  double b = 0;
+  for (int k = 0; k < 3; ++k) {
+    const ErrorBound& c = g.c[k].bound();
+    kappa = std::max(kappa, g.a[k].bound().error() + g.b[k].bound().error() + c.error() + 2 * c.coefficient);
+    a = std::max(a, g.a[k].bound().coefficient);
+    b = std::max(b, g.b[k].bound().coefficient);
+  }
+  return candidate_error(kappa, a, b, S);
+}
+
+}  // namespace
+
 Readings missed_minimum(const Sample& s) {
-  const double kappa = quadratic_residual(s)[0].derived;
-  const double unit = s.B * s.B * std::sqrt(eps);
+  const double root_eps = std::sqrt(eps);
+  const double unit = s.B * s.B * root_eps;
   const double S = 18 * s.B * std::sqrt(std::sqrt(eps));
+  const double derived = 12 * 3 + candidate_bound(s, S / s.B) * root_eps;  // ρ = 3 B²ε^½
+  const double F_error = near_edge(s).back().derived * root_eps;
   const auto F = [&](double t) {
     const Vector3<double> e = s.q.at(t);
     return s.p.at(t).cross(e).lpNorm<1>() - S * max_component(e);
@@ -173,7 +194,7 @@ Readings missed_minimum(const Sample& s) {
     try_time(middle + step);
   }
   const double seen = (best - lowest) / unit;
-  return {{kink_rise(kappa, 3), seen, {}, false}, {psi_needed(kappa, 3), seen, {}, false}};
+  return {{derived, seen, {}, false}, {derived + F_error, seen, {}, false}};
 }
 
 Readings vertex_vertex_time(const Sample& s) {
@@ -205,15 +226,15 @@ Readings cubic_residual(const Sample& s) {
   const Cubic<Number> taken = as_exact(F);
   double coefficients = 0;
   for (const Number* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
-  const double horner = taken(exact_time(s.t)).bound().error();
+  const auto bound = [](const Number& c) { return c.bound().coefficient; };
+  const double horner = horner_error(bound(taken.a), bound(taken.b), bound(taken.c), bound(taken.d));
   double seen = 0;
   const Cubic<double> computed{F.a.value(), F.b.value(), F.c.value(), F.d.value()};
   for (const double t : solve_cubic(computed, 0.0)) {
     const Rational value = ((F.a.exact() * t + F.b.exact()) * t + F.c.exact()) * t + F.d.exact();
     seen = std::max(seen, magnitude(value) / (s.B * s.B * s.B * eps));
   }
-  return {
-      {cubic_error(coefficients, horner, taken.a.bound().coefficient, taken.c.bound().coefficient), seen}};
+  return {{cubic_error(coefficients, horner, bound(taken.c)), seen}};
 }
 
 Readings weight_spread(const Sample& s) {

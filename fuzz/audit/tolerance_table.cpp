@@ -7,7 +7,9 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::array<std::pair<int, std::string_view>, 14> known{{{-10, "11 bits (half)"},
+constexpr std::array<std::pair<int, std::string_view>, 16> known{{{-10, "11 bits (half)"},
+                                                                  {-11, "12 bits"},
+                                                                  {-12, "13 bits"},
                                                                   {-16, "17 bits"},
                                                                   {-20, "21 bits"},
                                                                   {-23, "float"},
@@ -22,9 +24,9 @@ constexpr std::array<std::pair<int, std::string_view>, 14> known{{{-10, "11 bits
                                                                   {-112, "quadruple"},
                                                                   {-255, "256 bits"}}};
 
-std::string_view first_broken(const Tolerances<double>& tol, double eps, double E_vt, double E_ee,
+std::string_view first_broken(const Tolerances<double>& tol, double E_vt, double E_ee,
                               const RoundingErrors<double>& errors) {
-  for (const auto& each : constraints(tol, eps, E_vt, E_ee, errors))
+  for (const auto& each : constraints(tol, E_vt, E_ee, errors))
     if (!(each.more >= each.less)) return each.about;
   return "";
 }
@@ -39,14 +41,15 @@ std::vector<ToleranceRow> tolerance_table() {
     const auto paper = tolerances_of(closed_forms(exponent), eps, 1.0);
     const auto tight = tolerances_of(solve_tight(exponent), eps, 1.0);
     const double E = 4 * e * e;
+    const auto full = full_errors(eps, paper.S, paper.rho);
     rows.push_back({.exponent = exponent,
                     .scalars = scalars,
                     .tight = solve_tight(exponent),
                     .paper_bound = paper.distance_bound() / e,
                     .tight_bound = tight.distance_bound() / e,
                     .relative_bound = tight.distance_bound(),
-                    .paper_breaks = first_broken(paper, eps, 21 * E / 16, E, full_errors(eps, paper.S)),
-                    .printed_breaks = first_broken(paper, eps, 21 * E / 16, E, printed_errors(eps))});
+                    .paper_breaks = first_broken(paper, 21 * E / 16, E, full),
+                    .printed_breaks = first_broken(paper, 21 * E / 16, E, printed_errors(eps))});
   }
   return rows;
 }

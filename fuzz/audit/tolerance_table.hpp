@@ -24,12 +24,12 @@ struct ToleranceRow {
 
 std::vector<ToleranceRow> tolerance_table();
 
-/// The E that allows most: squared, four times R² - r².
+/// The E that allows most: squared, four times R² - r², with R² = S²/8 as in `constraints`.
 template <class Number>
 Number longest_short_edge(const Tolerances<Number>& tol, const RoundingErrors<Number>& errors) {
   using std::sqrt;
   const Number r = (tol.mu + errors.residual) / (tol.tau - errors.area);
-  return sqrt(tol.R * tol.R - r * r) * 2 * (1 - 0x1p-40);
+  return sqrt(tol.S * tol.S / 8 - r * r) * 2 * (1 - 0x1p-40);
 }
 
 }  // namespace nearmiss

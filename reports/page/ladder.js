@@ -58,6 +58,6 @@ function drawAudit() {
     figure("the paper's bound, B ε^¼", "paper_bound"),
     { title: "failure-proof", text: (r) => (r.paper_breaks ? `no: ${r.paper_breaks}` : "yes"), bad: (r) => r.paper_breaks !== "" },
     figure("smallest bound, B ε^¼", "tight_bound"), figure("in B", "tight_bound_over_B"), figure("μ / B³ε", "mu"), figure("τ / B²ε^½", "tau"),
-    figure("η / Bε^¼", "eta"), figure("R / Bε^¼", "R"), figure("λ² / B²ε^½", "lambda2"), figure("D² / B²ε^½", "D2"),
+    figure("η / Bε^¼", "eta"), figure("R / Bε^¼", "R"), figure("λ² / B²ε^½", "lambda2"), figure("D² / B²ε^½", "D2"), figure("ψ / B²ε^½", "psi"),
   ], report.audit.tolerances);
 }

@@ -114,16 +114,12 @@ TEST(Audit, DerivesTheseErrors) {
                                                {"VE of EE: weight", 42},
                                                {"VE of EE: barycentric test", 63},
                                                {"VE of EE: F_0ij", 117},
-                                               {"VE: residual of case 4", 48},
-                                               {"VE of EE: residual of case 4", 74},
-                                               {"VE: G of case 4", 128},
-                                               {"VE: psi", 164},
-                                               {"VE of EE: G of case 4", 592.0 / 3},
-                                               {"VE of EE: psi", 700.0 / 3},
+                                               {"VE: residual of case 4", 40},
+                                               {"VE of EE: residual of case 4", 62},
                                                {"F: a, d", 30},
                                                {"F: b, c", 126},
                                                {"F(t)", 576},
-                                               {"cubic solver", 870},
+                                               {"cubic solver", 552},
                                                {"VT: N", 12},
                                                {"VT: height test", 20},
                                                {"VT: weight", 180},
@@ -147,8 +143,18 @@ TEST(Audit, DerivesTheseErrors) {
                                                {"F(t), rounded", 480},
                                                {"clearance, rounded", 72},
                                                {"B, rounded", 14},
-                                               {"critical points", 270}};
+                                               {"critical points", 54}};
   for (const auto& [name, value] : expected) EXPECT_NEAR(derived[name], value, 1e-9) << name;
+
+  // 12ρ, and what is of the order of ε: three components twice, the slope of a piece and the times of roots;
+  // for ψ the error of F_0ij.
+  const double S = 18 * 0x1p-13;
+  const double near = 6 * (4 + 12 + 4 + 4) + (26 + S) + 6 * (24 + S);
+  const double far = 6 * (4 + 18 + 8 + 8) + (34 + S) + 6 * (30 + S);
+  EXPECT_NEAR(derived["VE: G of case 4"], 36 + near * 0x1p-26, 1e-12);
+  EXPECT_NEAR(derived["VE of EE: G of case 4"], 36 + far * 0x1p-26, 1e-12);
+  EXPECT_NEAR(derived["VE: psi"], 36 + (near + 63) * 0x1p-26, 1e-12);
+  EXPECT_NEAR(derived["VE of EE: psi"], 36 + (far + 117) * 0x1p-26, 1e-12);
 }
 
 // Too small in the paper: what takes relative positions of edges for bounded by B, but for δ.
@@ -195,7 +201,7 @@ Moving<Number> leaves(double reach, int position, int velocity) {
 // these allow.
 TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   const double eps = 0x1p-60;
-  const auto errors = full_errors(eps, 1.0);
+  const auto errors = full_errors(eps, 1.0, 0.0);
   const auto roundings = [&](double error) { return error / (eps / 2); };
   std::vector<std::pair<Number, Number>> kept;
   const ComparisonLog<audit_parts::Rational> log(kept);
@@ -234,7 +240,19 @@ TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   const auto F = coplanarity(ee);
   double coefficients = 0;
   for (const Number* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
-  EXPECT_NEAR(roundings(errors.residual), cubic_error(coefficients, 288, 6, 18), 1e-9);
+  const double underflow = 1;
+  EXPECT_NEAR(roundings(errors.residual),
+              cubic_error(coefficients, horner_error(6, 18, 18, 6), 18) + underflow, 1e-9);
+
+  const detail::CrossProduct<Number> g(ve.x0i, ve.xji, audit_parts::threshold(-1, 2));
+  const auto bound = [](const Number& x) { return x.bound(); };
+  const double kappa = bound(g.a[0]).error() + bound(g.b[0]).error() + bound(g.c[0]).error();
+  const double vectors = 2 * (1 + 3);  // of x_ji, times S
+  EXPECT_NEAR(roundings(errors.least_psi),
+              candidate_error(kappa + 2 * bound(g.c[0]).coefficient, bound(g.a[0]).coefficient,
+                              bound(g.b[0]).coefficient, 1) +
+                  vectors + taken(3) + underflow,
+              1e-9);
 }
 
 // §4.1: "B is also an upper bound on the relative positions at any time", and x20 is the closest pair. Here

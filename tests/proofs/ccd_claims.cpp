@@ -25,10 +25,10 @@ constexpr std::string_view of_coefficients = "Gappa, of exact coefficients";
 constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
 // With ε = 1 the printed errors are their factors.
-constexpr auto printed = printed_errors(1.0);
+const auto printed = printed_errors(1.0);
 // The largest ε, for which `full_errors` has the largest factors, and S = B.
 constexpr double largest_eps = 0x1p-10;
-constexpr auto full = full_errors(largest_eps, 1.0);
+constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }
 
 std::function<Problem()> figure_of(Kind kind, Reach reach, FigurePart part) {
@@ -94,7 +94,7 @@ std::vector<Claim> full_claims() {
       {"weight_ve", here, factor(full.weight_ve), proven::inside_ve_far, b2, edges,
        edge_of(far, EdgePart::inside)},
       {"F, S = B", here, factor(full.F), proven::F_ve_far, b2, edges, edge_of(far, EdgePart::F)},
-      {"F, S = 0", here, factor(full_errors(largest_eps, 0.0).F), proven::F_ve_far_without_S, b2, edges,
+      {"F, S = 0", here, factor(full_errors(largest_eps, 0.0, 0.0).F), proven::F_ve_far_without_S, b2, edges,
        edge_of(far, EdgePart::F_without_S)},
       {"F, of S", "F_ve_of_S, ccd/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps", edges,
        edge_of(far, EdgePart::F_of_S)},
@@ -171,9 +171,9 @@ std::vector<Claim> other_claims() {
       {"VT: B", margin, bound_margin - bound_needs, proven::bound_vt, beps, gappa, [] { return bound(vt); }},
       {"EE: B", margin, bound_margin - bound_needs, proven::bound_ee, beps, "Gappa, p within 4B",
        [] { return bound(ee); }},
-      {"VT: F(t)", "value_error, ccd/ve_culling.hpp", value_error, proven::value_vt, b3, gappa,
+      {"VT: F(t)", "evaluation_error, ccd/ve_culling.hpp", evaluation_error, proven::value_vt, b3, gappa,
        cubic_of(vt, CubicPart::value)},
-      {"EE: F(t)", "value_error, ccd/ve_culling.hpp", value_error, proven::value_ee, b3, edges,
+      {"EE: F(t)", "evaluation_error, ccd/ve_culling.hpp", evaluation_error, proven::value_ee, b3, edges,
        cubic_of(ee, CubicPart::value)},
       {"VT: weight_error", "weight_error, ccd/ve_culling.hpp", weight_error, proven::inside_vt, b4, gappa,
        figure_of(vt, near, FigurePart::inside)},

@@ -1,0 +1,73 @@
+// Random search and hill climb for what comes nearest to a bound, with numbers of few bits.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/ladder/bits.hpp"
+#include "fuzz/random.hpp"
+
+namespace nearmiss::proofs {
+
+/// How much is searched; a pure function of the seed.
+struct Climb {
+  int rounds;
+  int steps;  ///< of each round, after a quarter of them at random
+  std::uint64_t seed = 1;
+};
+
+/// The largest value(problem) found. `draw(random)` makes a problem, `change(random, problem)` another one near it.
+template <class Draw, class Change, class Value>
+double highest(const Climb& climb, const Draw& draw, const Change& change, const Value& value) {
+  double highest = 0;
+  for (int round = 0; round < climb.rounds; ++round) {
+    Random random(climb.seed, 0, static_cast<std::uint64_t>(round));
+    auto best = draw(random);
+    double top = value(best);
+    for (int i = 0; i < climb.steps + climb.steps / 4; ++i) {
+      const auto next = i < climb.steps / 4 ? draw(random) : change(random, best);
+      const double found = value(next);
+      if (found < top) continue;
+      top = found;
+      best = next;
+    }
+    highest = std::max(highest, top);
+  }
+  return highest;
+}
+
+/// The nearest number of the thread's precision.
+inline double snapped(double x) { return static_cast<double>(Bits(x)); }
+
+/// u of a number of bits.
+inline double roundoff(int bits) { return std::ldexp(1.0, -bits); }
+
+/// A number within ±size: any, a small one, 0, or an end.
+inline double draw_number(Random& random, double size) {
+  switch (random.integer(0, 9)) {
+    case 0:
+      return 0;
+    case 1:
+      return random.one_in(2) ? size : -size;
+    case 2:
+      return random.uniform(-size, size) * random.log_uniform(1e-6, 1);
+    default:
+      return random.uniform(-size, size);
+  }
+}
+
+/// A number near another, or a new one.
+inline double changed_number(Random& random, double x, double size, int bits) {
+  switch (random.integer(0, 5)) {
+    case 0:
+      return draw_number(random, size);
+    case 1:
+      return -x;
+    case 2:
+      return x + random.uniform(-1, 1) * random.log_uniform(roundoff(bits), size);
+    default:
+      return x * (1 + random.uniform(-1, 1) * random.log_uniform(roundoff(bits), 1));
+  }
+}
+
+}  // namespace nearmiss::proofs

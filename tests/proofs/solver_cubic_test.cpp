@@ -1,0 +1,194 @@
+// The steps of the proof of solve_cubic, tried where a search comes near them. The coefficients are taken as
+// exact, so that what is left is the solver: the nodes' m and Horner's h.
+#include "ccd/cubic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "tests/proofs/solver_climb.hpp"
+#include "tests/proofs/solver_orders.hpp"
+
+namespace nearmiss::proofs {
+namespace {
+
+/// a, b, c and d, numbers that the thread's precision has, within 6, 18, 18 and 6.
+using Coefficients = std::array<double, 4>;
+constexpr Coefficients sizes{6, 18, 18, 6};
+
+template <class T>
+Cubic<T> cubic(const Coefficients& k) {
+  return {T(k[0]), T(k[1]), T(k[2]), T(k[3])};
+}
+
+/// 0, the computed critical points, and 1.
+std::vector<double> nodes_of(const Coefficients& k) {
+  Times<Bits, 2> critical;
+  detail::find_critical_times(critical, cubic<Bits>(k));
+  std::vector<double> nodes{0};
+  for (const Bits& t : critical) nodes.push_back(static_cast<double>(t));
+  nodes.push_back(1);
+  return nodes;
+}
+
+/// What must be looked at of the interval between two nodes: its ends and the exact critical points in it. (Double is
+/// far finer than the numbers of few bits that are on trial.)
+std::vector<double> places_between(const Coefficients& k, double left, double right) {
+  Times<double, 2> critical;
+  solve_quadratic(critical, 3 * k[0], 2 * k[1], k[2]);
+  std::vector<double> places{left};
+  for (const double t : critical)
+    if (t > left && t < right) places.push_back(t);
+  std::sort(places.begin(), places.end());
+  places.push_back(right);
+  return places;
+}
+
+/// How far F leaves the range of its values at two places on the outside of them, at most.
+double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
+  double most = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t k = i + 1; k < places.size(); ++k) {
+      const double lower = std::min(F(places[i]), F(places[k]));
+      const double upper = std::max(F(places[i]), F(places[k]));
+      for (std::size_t j = i; j <= k; ++j)
+        most = std::max({most, F(places[j]) - upper, lower - F(places[j])});
+    }
+  }
+  return most;
+}
+
+/// m that is seen, over the bound for these coefficients.
+double nodes_ratio(const Coefficients& k, int bits) {
+  const double u = roundoff(bits);
+  const Cubic<double> F = cubic<double>(k);
+  const auto nodes = nodes_of(k);
+  double seen = 0;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    seen = std::max(seen, wrong_way(F, places_between(k, nodes[i], nodes[i + 1])));
+  return seen / (cubic_nodes(u, 6.0, 18.0, 18.0));
+}
+
+Coefficients drawn(Random& random) {
+  Coefficients k{};
+  for (std::size_t i = 0; i < 4; ++i) k[i] = snapped(draw_number(random, sizes[i]));
+  if (random.one_in(2)) return k;
+  // Two critical points, near each other or not.
+  const double t = random.uniform();
+  const double other =
+      random.one_in(2) ? t + random.uniform(-1, 1) * random.log_uniform(1e-6, 1) : random.uniform();
+  k[1] = snapped(std::clamp(-1.5 * k[0] * (t + other), -18.0, 18.0));
+  k[2] = snapped(std::clamp(3 * k[0] * t * other, -18.0, 18.0));
+  return k;
+}
+
+Coefficients changed(Random& random, Coefficients k, int bits) {
+  const auto i = static_cast<std::size_t>(random.integer(0, 3));
+  k[i] = std::clamp(snapped(changed_number(random, k[i], sizes[i], bits)), -sizes[i], sizes[i]);
+  return k;
+}
+
+template <class Value>
+double highest_of(int bits, const Climb& climb, const char* name, const Value& value) {
+  const Bits::Precision precision(bits);
+  const double found = highest(
+      climb, drawn, [&](Random& random, const Coefficients& k) { return changed(random, k, bits); },
+      [&](const Coefficients& k) { return value(k, bits); });
+  ::testing::Test::RecordProperty(std::string(name) + " of " + std::to_string(bits) + " bits",
+                                  std::to_string(found));
+  return found;
+}
+
+constexpr std::array tried{8, 11, 16, 24};
+
+TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
+  for (const int bits : tried) {
+    const double found = highest_of(bits, {.rounds = 6, .steps = 4000}, "m", nodes_ratio);
+    EXPECT_LE(found, 1) << bits;
+    EXPECT_GT(found, 0) << bits;
+  }
+}
+
+TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
+  // u = 2^-4 is too large for the formula of second order, which has no meaning there; the first one is enough.
+  constexpr int bits = 4;
+  const Bits::Precision precision(bits);
+  std::vector<double> all{0};
+  for (int exponent = -2; exponent <= 1; ++exponent)
+    for (int i = 8; i < 16; ++i)
+      for (const int sign : {1, -1}) all.push_back(sign * std::ldexp(i, exponent - 3));
+  double worst = 0;
+  for (const double a : all) {
+    if (a < 0) continue;  // -F is the same
+    for (const double b : all) {
+      for (const double c : all) {
+        const Coefficients k{a, b, c, 0};
+        const Cubic<double> F = cubic<double>(k);
+        const auto nodes = nodes_of(k);
+        for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+          const double seen = wrong_way(F, places_between(k, nodes[i], nodes[i + 1]));
+          const double second = 6 * a + 2 * std::abs(b);
+          const double u = roundoff(bits);
+          worst = std::max(worst, seen / (3 * u * std::abs(c) + second * 49 * u * u));
+        }
+      }
+    }
+  }
+  RecordProperty("m", std::to_string(worst));
+  EXPECT_LE(worst, 1);
+  EXPECT_GT(worst, 0.01);
+}
+
+/// h: Horner's rule on coefficients within `sizes`.
+double horner(double u) {
+  return 6 * growth(u, 6) + 18 * growth(u, 5) + 18 * growth(u, 3) + 6 * growth(u, 1);
+}
+
+/// How much nearer to 0 than F̂ at both nodes of an interval F comes between them, over h + m. A root would be
+/// missed where that is all of |F̂|.
+double nearer_ratio(const Coefficients& k, int bits) {
+  const double u = roundoff(bits);
+  const Cubic<double> F = cubic<double>(k);
+  const Cubic<Bits> computed = cubic<Bits>(k);
+  const auto nodes = nodes_of(k);
+  double seen = 0;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const auto left = static_cast<double>(computed(Bits(nodes[i])));
+    const auto right = static_cast<double>(computed(Bits(nodes[i + 1])));
+    const double sign = left < 0 ? -1 : 1;
+    for (const double t : places_between(k, nodes[i], nodes[i + 1]))
+      seen = std::max(seen, std::min(sign * left, sign * right) - sign * F(t));
+  }
+  return seen / (horner(u) + cubic_nodes(u, 6.0, 18.0, 18.0));
+}
+
+TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
+  for (const int bits : tried) {
+    const double found = highest_of(bits, {.rounds = 6, .steps = 4000}, "nearer", nearer_ratio);
+    EXPECT_LE(found, 1) << bits;
+    EXPECT_GT(found, 0.1) << bits;
+  }
+}
+
+/// The largest |F̂| at a returned time, over a μ that is what neighbouring numbers and steps that change nothing ask for.
+double residual_ratio(const Coefficients& k, int bits) {
+  const double u = roundoff(bits);
+  const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));
+  const Cubic<Bits> computed = cubic<Bits>(k);
+  double seen = 0;
+  for (const Bits& t : solve_cubic(computed, Bits(mu)))
+    seen = std::max(seen, std::abs(static_cast<double>(computed(t))));
+  return seen / mu;
+}
+
+TEST(ProofsSolverCubic, EveryTimeThatIsReturnedHasAResidualOfAtMostMu) {
+  for (const int bits : tried) {
+    const double found = highest_of(bits, {.rounds = 6, .steps = 4000}, "residual", residual_ratio);
+    EXPECT_LE(found, 1) << bits;
+    EXPECT_GT(found, 0.9) << bits;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss::proofs

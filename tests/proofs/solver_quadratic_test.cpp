@@ -1,0 +1,130 @@
+// The quadratic solver's computed times are exact roots but for a factor, of a polynomial with one c'.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <vector>
+
+#include "ccd/quadratic.hpp"
+#include "tests/proofs/solver_climb.hpp"
+#include "tests/proofs/solver_orders.hpp"
+
+namespace nearmiss::proofs {
+namespace {
+
+using Real = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<300, boost::multiprecision::digit_base_2>,
+    boost::multiprecision::et_off>;
+
+/// a t² + b t + c, numbers that the thread's precision has.
+using Quadratic = std::array<double, 3>;
+
+/// The c' that the rounding of b² and of 4ac makes of c; for all products of doubles here Real is exact.
+Real constant_of_roots(const Quadratic& p) {
+  const auto [a, b, c] = p;
+  const Bits square = Bits(b) * Bits(b);
+  const Bits product = 4 * Bits(a) * Bits(c);
+  const Real b2 = Real(b) * b;
+  const Real of_product = c == 0 ? Real(1) : Real(static_cast<double>(product)) / (4 * Real(a) * c);
+  const Real of_square = b == 0 ? Real(1) : b2 / static_cast<double>(square);
+  return c * of_product * of_square;
+}
+
+/// How far the solver is from what its comment says, over the bounds: c' from c, and roots of a t² + b t + c' in [0, 1]
+/// from returned times; more than 1 is a refutation.
+struct Distances {
+  double constant = 0;
+  double factor = 0;
+};
+
+Distances distances(const Quadratic& p, int bits) {
+  const QuadraticErrors<double> errors(roundoff(bits), false);
+  const auto [a, b, c] = p;
+  Distances all;
+  if (a == 0) return all;  // linear: one rounding
+  const Real changed = constant_of_roots(p);
+  if (c != 0) all.constant = std::abs(static_cast<double>(changed / c - 1)) / errors.constant;
+  const Real disc = Real(b) * b - 4 * Real(a) * changed;
+  if (disc < 0) return all;
+  Times<Bits, 2> times;
+  solve_quadratic(times, Bits(a), Bits(b), Bits(c));
+  for (const int sign : {1, -1}) {
+    const Real root = (-b + sign * sqrt(disc)) / (2 * Real(a));
+    if (root < 0 || root > 1) continue;
+    const auto apart = [&](const Real& time) {
+      return static_cast<double>(root == 0 ? Real(abs(time)) : Real(abs(time / root - 1)));
+    };
+    double nearest = apart(1);  // t = 1 stands for a root that comes out beyond
+    for (const Bits& t : times) nearest = std::min(nearest, apart(Real(static_cast<double>(t))));
+    all.factor = std::max(all.factor, nearest / errors.factor);
+  }
+  return all;
+}
+
+/// All numbers of so many bits with exponents from `lowest` to `highest`, and 0.
+std::vector<double> all_numbers(int bits, int lowest, int highest) {
+  std::vector<double> all{0};
+  for (int exponent = lowest; exponent <= highest; ++exponent)
+    for (int i = 1 << (bits - 1); i < 1 << bits; ++i)
+      for (const int sign : {1, -1}) all.push_back(sign * std::ldexp(i, exponent - bits + 1));
+  return all;
+}
+
+TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
+  constexpr int bits = 3;
+  const Bits::Precision precision(bits);
+  const auto all = all_numbers(bits, -2, 1);
+  Distances worst;
+  for (const double a : all) {
+    for (const double b : all) {
+      for (const double c : all) {
+        const Distances one = distances({a, b, c}, bits);
+        ASSERT_LE(one.constant, 1) << a << ' ' << b << ' ' << c;
+        ASSERT_LE(one.factor, 1) << a << ' ' << b << ' ' << c;
+        worst = {std::max(worst.constant, one.constant), std::max(worst.factor, one.factor)};
+      }
+    }
+  }
+  RecordProperty("constant", std::to_string(worst.constant));
+  RecordProperty("factor", std::to_string(worst.factor));
+  EXPECT_GT(worst.constant, 0.3);
+  EXPECT_GT(worst.factor, 0.1);
+}
+
+/// The largest of one distance that is found.
+double highest_distance(int bits, double Distances::*which) {
+  const Bits::Precision precision(bits);
+  const auto rounded = [](Quadratic p) {
+    for (double& x : p) x = snapped(x);
+    return p;
+  };
+  const auto draw = [&](Random& random) {
+    const double a = draw_number(random, 18);
+    const double root = random.uniform();
+    const double other = random.one_in(2) ? random.uniform(-2, 2) : root;
+    return rounded({a, -a * (root + other), a * root * other});
+  };
+  const auto change = [&](Random& random, Quadratic p) {
+    double& x = p[static_cast<std::size_t>(random.integer(0, 2))];
+    x = changed_number(random, x, 36, bits);
+    return rounded(p);
+  };
+  const double found = highest({.rounds = 6, .steps = 1000}, draw, change,
+                               [&](const Quadratic& p) { return distances(p, bits).*which; });
+  ::testing::Test::RecordProperty("of " + std::to_string(bits) + " bits", std::to_string(found));
+  return found;
+}
+
+TEST(ProofsSolverQuadratic, HoldsWhereASearchComesNearIt) {
+  for (const int bits : {8, 11, 16, 24}) {
+    const double constant = highest_distance(bits, &Distances::constant);
+    EXPECT_LE(constant, 1) << bits;
+    EXPECT_GT(constant, 0.8) << bits;
+    const double factor = highest_distance(bits, &Distances::factor);
+    EXPECT_LE(factor, 1) << bits;
+    EXPECT_GT(factor, 0.4) << bits;
+  }
+}
+
+}  // namespace
+}  // namespace nearmiss::proofs
