@@ -93,10 +93,10 @@ std::vector<Claim> full_claims() {
       {"length2", here, factor(full.length2), proven::length2, b2, edges, edge_of(far, EdgePart::length2)},
       {"weight_ve", here, factor(full.weight_ve), proven::inside_ve_far, b2, edges,
        edge_of(far, EdgePart::inside)},
-      {"F, S = B", here, factor(full.F), proven::F_ve_far, b2, edges, edge_of(far, EdgePart::F)},
-      {"F, S = 0", here, factor(full_errors(largest_eps, 0.0, 0.0).F), proven::F_ve_far_without_S, b2, edges,
-       edge_of(far, EdgePart::F_without_S)},
-      {"F, of S", "F_ve_of_S, ccd/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps", edges,
+      {"F", here, factor(full.F), proven::F_ve_far, b2, edges, edge_of(far, EdgePart::F)},
+      {"F without S", here, factor(full_errors(largest_eps, 0.0, 0.0).F), proven::F_ve_far_without_S, b2,
+       edges, edge_of(far, EdgePart::F_without_S)},
+      {"F of S", "F_ve_of_S, ccd/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps", edges,
        edge_of(far, EdgePart::F_of_S)},
       {"delta", here, factor(full.delta), proven::delta_far, b2, sum, [] { return vertices(far); }},
   };
@@ -113,7 +113,7 @@ std::vector<Claim> audited_claims() {
            figure_of(ee, far, FigurePart::weight)),
       only("VE of EE: weight", "weight_ve_far, ccd/proven.hpp", proven::weight_ve_far, b2, edges,
            edge_of(far, EdgePart::weight)),
-      only("VE: F_0ij, S = B", "F_ve, ccd/proven.hpp", proven::F_ve, b2, gappa, edge_of(near, EdgePart::F)),
+      only("VE: F_0ij", "F_ve, ccd/proven.hpp", proven::F_ve, b2, gappa, edge_of(near, EdgePart::F)),
   };
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -48,6 +49,18 @@ std::pair<std::string, int> output_of(const std::string& command) {
   return {output, pclose(pipe)};
 }
 
+/// Whether Gappa warns of something else than a hint that it does not need, or a search that it gave up: it may
+/// have taken a hint on trust.
+bool has_grave_warning(const std::string& output) {
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("Warning") != std::string::npos &&
+        line.find("relation already known") == std::string::npos &&
+        line.find("maximum number of iterations reached") == std::string::npos)
+      return true;
+  return false;
+}
+
 /// Of Gappa's own interval bounds, in bits.
 constexpr auto fine = "-Eprecision=400";
 
@@ -56,8 +69,7 @@ constexpr auto fine = "-Eprecision=400";
 GappaAnswer run_gappa(const std::string& script, const std::string& options) {
   const ScriptFile file(script);
   const auto [output, status] = output_of(fmt::format("{} {} {} 2>&1", NEARMISS_GAPPA, options, file.path()));
-  // A warning may be that Gappa takes a hint on trust.
-  const bool warns = output.find("Warning") != std::string::npos;
+  const bool warns = has_grave_warning(output);
   const bool unproven = output.find("some properties were not satisfied") != std::string::npos;
   if (warns || (status != 0 && !unproven))
     throw std::runtime_error("gappa says: " + output + "\nof this script:\n" + script);

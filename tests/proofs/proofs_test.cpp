@@ -93,9 +93,6 @@ TEST(ProofsClaims, FailWhereTheWitnessHasAnotherError) {
   Witness witness = witnesses().at("VV: v.v");
   witness.error = std::nextafter(witness.error, 0);
   EXPECT_THAT(faults_of(claim, witness), ElementsAre(HasSubstr("the witness has an error of")));
-  witness.inputs["t"] = 2;
-  witness.inputs["xvx"] = std::nan("");
-  EXPECT_THAT(faults_of(claim, witness), Not(IsEmpty()));
 }
 
 TEST(ProofsClaims, CoverWhatIsProvenForTheAudit) {

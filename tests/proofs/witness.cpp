@@ -128,6 +128,11 @@ std::optional<double> Measure::measured(const Inputs& inputs) const {
   return static_cast<double>(Number(error < 0 ? -error : error) / unit);
 }
 
+bool Measure::has_inputs(const Inputs& inputs) const {
+  return inputs.size() == names_.size() &&
+         std::all_of(names_.begin(), names_.end(), [&](const auto& name) { return inputs.contains(name); });
+}
+
 double Measure::draw(Random& random, const std::string& name) const {
   const bool is_part = name == "t" || name == "eta" || name == "S" || name == "given";
   const double sign = is_part || random.one_in(2) ? 1 : -1;

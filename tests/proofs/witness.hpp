@@ -40,6 +40,9 @@ class Measure {
     return measured<long double>(inputs);
   }
 
+  /// Whether these are the names of all inputs.
+  [[nodiscard]] bool has_inputs(const Inputs& inputs) const;
+
   /// Inputs that are within bounds, hopefully.
   [[nodiscard]] Inputs drawn(Random& random) const;
   [[nodiscard]] Inputs changed(Random& random, const Inputs& inputs) const;
