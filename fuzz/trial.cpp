@@ -32,14 +32,14 @@ class Truth {
     ++counts.by_stage[static_cast<std::size_t>(decision_.stage)];
   }
 
-  /// Asks for the other answers too; the signature of a disagreement, "" where there is none.
+  /// Asks the other methods too; the signature of a disagreement, "" where there is none.
   [[nodiscard]] std::string compare(OracleCounts& counts) const {
     const bool by_exact_arithmetic = decision_.stage == FilterStage::undecided;
     const Answers answers = by_exact_arithmetic ? ask_others(query_, collision()) : ask_all(query_);
     ++counts.compared;
-    counts.compared_collisions += answers.exact ? 1 : 0;
+    counts.compared_collisions += answers.collision() ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
-    return disagreement_signature(query_.kind, answers, collision());
+    return disagreement_signature(query_.kind, answers, decision_.by_filter());
   }
 
   /// The signature of its first contact.
@@ -99,9 +99,8 @@ class Rounded {
 
 /// Which queries are decided near the filter's bounds.
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
-  constexpr double caution = 16;
   std::vector<FilterStage> cautious(batch.queries.size());
-  filter_with_caution(batch.queries, caution, cautious);
+  filter_with_caution(batch.queries, Comparison::caution, cautious);
   std::vector<bool> near(batch.queries.size());
   for (std::size_t i = 0; i < near.size(); ++i) {
     const FilterStage stage = decisions[i].stage;

@@ -39,13 +39,19 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
-/// Which queries all three answers of the oracle are asked about.
+/// Which queries are decided by all methods of the oracle, whose answers are compared.
 struct Comparison {
-  std::uint64_t one_in = 4096;  ///< so many, by a hash of the coordinates; at least 1
-  /// Of those that its filter leaves undecided, which cost ten times as much, but are the hard ones.
-  [[nodiscard]] std::uint64_t one_in_undecided() const { return one_in <= 64 ? 1 : one_in / 64; }
-  /// And where the filter decides, but would not with bounds of rounding errors 16 times as large.
-  bool near_bounds = false;
+  /// By this factor more of those that the filter leaves undecided: these are the hard ones.
+  static constexpr std::uint64_t more_of_undecided = 64;
+  /// Near its bounds are those that the filter decides, but not with bounds by this factor larger.
+  static constexpr double caution = 16;
+
+  std::uint64_t one_in = 4096;  ///< one query in this many, chosen by a hash of its coordinates; at least 1
+  bool near_bounds = false;     ///< and all that the filter decides near its bounds
+
+  [[nodiscard]] std::uint64_t one_in_undecided() const {
+    return one_in <= more_of_undecided ? 1 : one_in / more_of_undecided;
+  }
 };
 
 /// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, apart from the

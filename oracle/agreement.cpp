@@ -1,26 +1,87 @@
 #include "oracle/agreement.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <cstdint>
 
-#include "oracle/oracle.hpp"
+#include "ccd/error.hpp"
 
 namespace nearmiss {
 
-std::string Answers::disagreement() const {
-  std::string parts;
-  const auto check = [&](bool fits, const char* part) {
-    if (!fits) parts.append(parts.empty() ? "" : " ").append(part);
-  };
-  check(exact == sturm.collision, "exact");
-  check(parity.on_boundary == sturm.on_boundary, "boundary");
-  check(parity.on_boundary || parity.odd == sturm.odd(), "parity");
-  return parts;
+namespace {
+
+/// Who says no and who says yes.
+class Votes {
+ public:
+  void add(std::string_view name, std::optional<bool> said) {
+    if (!said) return;
+    std::string& names = *said ? yes_ : no_;
+    names.append(names.empty() ? "" : ", ").append(name);
+  }
+
+  /// Appends the question where not all say the same.
+  void complain(std::string& text, std::string_view question) const {
+    if (yes_.empty() || no_.empty()) return;
+    text.append(text.empty() ? "" : ", ").append(question);
+    text.append(" (no: ").append(no_).append("; yes: ").append(yes_).append(")");
+  }
+
+ private:
+  std::string no_, yes_;
+};
+
+}  // namespace
+
+Answers::Answers(std::span<const Method> methods, std::vector<Answer> answers)
+    : methods_(methods), answers_(std::move(answers)) {
+  if (answers_.size() != methods_.size()) throw Error("expected an answer of every method");
 }
 
-Answers ask_all(const Query& query) { return ask_others(query, collides_exactly(query)); }
+bool Answers::collision() const {
+  for (std::size_t i = 0; i < answers_.size(); ++i)
+    if (methods_[i].claim == Claim::complete) return answers_[i].collision.value_or(false);
+  throw Error("expected a method that is complete");
+}
 
-Answers ask_others(const Query& query, bool exact) { return {exact, count_roots(query), root_parity(query)}; }
+std::string Answers::disagreement(std::optional<bool> by_filter) const {
+  Votes collision;
+  Votes boundary;
+  Votes odd;
+  std::string text;
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    const Method& method = methods_[i];
+    const Answer& answer = answers_[i];
+    if (method.claim == Claim::complete && !answer.collision)
+      text.append(text.empty() ? "" : ", ").append("no answer of ").append(method.name);
+    collision.add(method.name, answer.collision);
+    boundary.add(method.name, answer.on_boundary);
+    odd.add(method.name, answer.odd);
+  }
+  collision.add("filter", by_filter);
+  collision.complain(text, "collision");
+  boundary.complain(text, "boundary");
+  odd.complain(text, "odd");
+  return text;
+}
+
+bool Answers::missed_by_parity() const {
+  const auto misses = [&](const Answer& answer) {
+    const Method& method = methods_[static_cast<std::size_t>(&answer - answers_.data())];
+    return method.claim == Claim::parity && !answer.collision.value_or(false);
+  };
+  return collision() && std::any_of(answers_.begin(), answers_.end(), misses);
+}
+
+Answers ask_all(const Query& query, std::span<const Method> asked) {
+  std::vector<Answer> answers;
+  for (const Method& method : asked) answers.push_back(method.ask(query));
+  return {asked, std::move(answers)};
+}
+
+Answers ask_others(const Query& query, bool first, std::span<const Method> asked) {
+  std::vector<Answer> answers{{.collision = first}};
+  for (const Method& method : asked.subspan(1)) answers.push_back(method.ask(query));
+  return {asked, std::move(answers)};
+}
 
 bool is_sampled(const Query& query, std::uint64_t one_in) {
   std::uint64_t hash = static_cast<std::uint64_t>(query.kind);

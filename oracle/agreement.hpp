@@ -1,36 +1,47 @@
-// The three answers side by side.
+// The answers of several exact methods side by side.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "ccd/query.hpp"
-#include "oracle/parity.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/methods.hpp"
 
 namespace nearmiss {
 
-/// What exact arithmetic says in three ways that share no code.
-struct Answers {
-  bool exact = false;
-  RootCount sturm;
-  RootParity parity;
+/// What each of some methods says of a query. The methods must outlive this.
+class Answers {
+ public:
+  Answers(std::span<const Method> methods, std::vector<Answer> answers);
 
-  /// exact and sturm must be the same; parity must be that of sturm's count, but where the origin is on the
-  /// boundary, which both must know.
+  [[nodiscard]] std::span<const Answer> all() const { return answers_; }
+
+  /// What the first complete method says.
+  [[nodiscard]] bool collision() const;
+
+  /// Whether all that is said fits together: no two methods contradict each other about the collision, the
+  /// boundary or the number of roots, and the complete ones all say whether there is a collision.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// What does not fit to what sturm says, of "exact", "boundary" and "parity"; "" where they agree.
-  [[nodiscard]] std::string disagreement() const;
+  /// What does not, such as "collision (no: exact; yes: sturm)"; "" where they agree. The filter in front of
+  /// the methods takes part where its answer is given.
+  [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
 
-  /// A collision that a root-parity CCD takes for none: an even number of roots.
-  [[nodiscard]] bool missed_by_parity() const { return exact && !parity.collision(); }
+  /// A collision that a method of root parity takes for none: an even number of roots.
+  [[nodiscard]] bool missed_by_parity() const;
+
+ private:
+  std::span<const Method> methods_;
+  std::vector<Answer> answers_;
 };
 
-/// Asks all three.
-Answers ask_all(const Query& query);
+/// Asks all methods.
+Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// The same where the first answer is known already.
-Answers ask_others(const Query& query, bool exact);
+/// The same where it is known already what the first one says, a complete one.
+Answers ask_others(const Query& query, bool first, std::span<const Method> asked = methods());
 
 /// Whether a query belongs to a fixed fraction, one in so many by a hash of its coordinates.
 bool is_sampled(const Query& query, std::uint64_t one_in);

@@ -20,6 +20,11 @@ struct Enclosure {
 struct Decision {
   bool collision = false;
   FilterStage stage{};  ///< `undecided`: by exact arithmetic
+
+  /// What the boxes or the filter say; nothing where they left it to exact arithmetic.
+  [[nodiscard]] std::optional<bool> by_filter() const {
+    return stage == FilterStage::undecided ? std::nullopt : std::optional(collision);
+  }
 };
 
 /// What a stage of the filter says of a query; exact arithmetic where it is undecided.

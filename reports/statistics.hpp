@@ -155,7 +155,7 @@ struct OracleCounts {
   std::uint64_t collisions = 0;
   std::array<std::uint64_t, filter_stage_count> by_stage{};  ///< what decided
   std::uint64_t near_bounds = 0;          ///< decided near the filter's bounds, where counted
-  std::uint64_t compared = 0;             ///< asked of all three answers
+  std::uint64_t compared = 0;             ///< decided by all exact methods
   std::uint64_t compared_collisions = 0;  ///< of these
   std::uint64_t missed_by_parity = 0;     ///< of these: an even number of roots
 

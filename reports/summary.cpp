@@ -96,7 +96,8 @@ std::string summary_table(const Statistics& statistics) {
     verdicts += fmt::format("FAIL oracle: {}\n", complaint);
   const OracleCounts oracle = statistics.oracle_total();
   const std::string answers = fmt::format(
-      "oracle: {} queries, {} left to exact arithmetic by the filters{}; {} asked of all three answers: {}, "
+      "oracle: {} queries, {} left to exact arithmetic by the filters{}; {} decided by all exact methods: "
+      "{}, "
       "and {} of {} collisions\nhave an even number of roots, which root parity cannot see\n",
       with_separators(oracle.queries),
       with_separators(oracle.by_stage[static_cast<std::size_t>(FilterStage::undecided)]),

@@ -40,13 +40,17 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
   command
       .add_option(
           "--compare", comparison.one_in,
-          "Ask all three answers of the oracle about one query in N, and about eight times as many of those "
-          "that its filter leaves undecided; 1: about all")
+          fmt::format(
+              "Compare the answers of all exact methods of the oracle on one query in N, and on {} times "
+              "as many of those that its filter leaves undecided; 1: on all. (Families near overflow and "
+              "underflow have all of their queries compared.)",
+              Comparison::more_of_undecided))
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
       ->capture_default_str()
       ->type_name("N");
   command.add_flag("--compare-near-bounds", comparison.near_bounds,
-                   "And where the filter would not decide with bounds of rounding errors 16 times as large");
+                   fmt::format("And where the filter would not decide with error bounds {} times as large",
+                               Comparison::caution));
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {

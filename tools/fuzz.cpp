@@ -71,9 +71,9 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
 std::string list_of_families() {
   std::string lines;
   for (const Family& family : families()) {
-    lines += fmt::format("\n  {:<19} {}", family.name, family.about);
+    lines += fmt::format("\n  {:<22} {}", family.name, family.about);
     if (family.parameter)
-      lines += fmt::format("\n  {:<19}   {}, x from {} to {}", "", family.parameter->about,
+      lines += fmt::format("\n  {:<22}   {}, x from {} to {}", "", family.parameter->about,
                            family.parameter->lo, family.parameter->hi);
   }
   return lines;

@@ -1,6 +1,10 @@
 // nearmiss oracle: the truth about queries.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "corpus/query_text.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
@@ -11,9 +15,13 @@ namespace nearmiss::tools {
 
 namespace {
 
+// Choices of --method beside the methods' names.
+constexpr const char* filtered = "filtered";
+constexpr const char* all = "all";
+
 struct Options {
   QueryInput input;
-  std::string method = "exact";
+  std::string method = filtered;
   bool toi = false;
   bool rational = false;
   double width = 0;
@@ -36,14 +44,34 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// The answer by one method; by all of them, the first one's, and Error where they disagree.
+/// The answer that trials go by; that of one method; or of all of them, Disagreement where they do not agree.
 bool collides_by(const std::string& method, const Query& query) {
-  if (method == "sturm") return count_roots(query).collision;
-  if (method == "parity") return root_parity(query).collision();
-  if (method == "exact") return collides(query);
-  const Answers answers = ask_all(query);
-  if (!answers.agree() || answers.exact != collides(query)) throw Disagreement(query);
-  return answers.exact;
+  if (method == filtered) return collides(query);
+  if (method == all) {
+    const Answers answers = ask_all(query);
+    if (!answers.disagreement(decide(query).by_filter()).empty()) throw Disagreement(query);
+    return answers.collision();
+  }
+  const auto named = [&](const Method& each) { return each.name == method; };
+  const auto chosen = std::find_if(methods().begin(), methods().end(), named);
+  return chosen->ask(query).collision.value_or(false);
+}
+
+std::vector<std::string> choices() {
+  std::vector<std::string> names{filtered};
+  for (const Method& method : methods()) names.emplace_back(method.name);
+  names.emplace_back(all);
+  return names;
+}
+
+std::string help_on_methods() {
+  std::string help =
+      fmt::format("{}: the answer that trials go by, of the filter, or of {} where that is unsure; ",
+                  filtered, methods().front().name);
+  for (const Method& method : methods())
+    help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
+  return help + fmt::format(
+                    "{}: all of these compared. A parity method takes an even number of roots for none", all);
 }
 
 std::string answer(const Query& query, const Options& options) {
@@ -65,13 +93,8 @@ void add_oracle(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "oracle", "Decide queries in exact arithmetic: a line each, 1 for a collision, 0 for none");
   options->input.add_to(*command);
-  command
-      ->add_option(
-          "--method", options->method,
-          "exact: filters and real algebraic numbers, complete; sturm: roots counted by Sturm sequences, "
-          "complete; "
-          "parity: root parity, which takes an even number of roots for none; all: the three compared")
-      ->check(CLI::IsMember({"exact", "sturm", "parity", "all"}))
+  command->add_option("--method", options->method, help_on_methods())
+      ->check(CLI::IsMember(choices()))
       ->capture_default_str();
   command->add_flag("--toi", options->toi,
                     "Add 'lo hi' around the earliest time of contact (inf inf where there is none)");

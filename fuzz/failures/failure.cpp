@@ -40,7 +40,7 @@ std::optional<std::string> fault(const Subject& subject, const Query& query) {
 std::optional<std::string> disagreement(const Query& query) {
   Decision decision;
   decide(std::span(&query, 1), std::span(&decision, 1));
-  const std::string found = disagreement_signature(query.kind, ask_all(query), decision.collision);
+  const std::string found = disagreement_signature(query.kind, ask_all(query), decision.by_filter());
   return found.empty() ? std::nullopt : std::optional(found);
 }
 
@@ -70,9 +70,8 @@ std::string fault_signature(Kind kind, const Verdict& verdict) {
   }
 }
 
-std::string disagreement_signature(Kind kind, const Answers& answers, bool collision) {
-  std::string parts = answers.disagreement();
-  if (answers.exact != collision) parts += parts.empty() ? "filter" : " filter";
+std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter) {
+  const std::string parts = answers.disagreement(by_filter);
   return parts.empty() ? parts : signature(kind, parts);
 }
 

@@ -21,9 +21,9 @@ std::string report_signature(Kind kind, Stage stage);
 /// Of no answer: why, such as "ee crash SEGV", "vt exit 3", "ee error -7" or "vt time".
 std::string fault_signature(Kind kind, const Verdict& verdict);
 
-/// Of a disagreement, where the filter in front of the three answers says `collision`: what does not fit
-/// together, such as "vt parity filter"; "" where all does.
-std::string disagreement_signature(Kind kind, const Answers& answers, bool collision);
+/// Of a disagreement, of the exact methods, and of the filter in front of them where it decided: what does not fit
+/// together, such as "vt collision (no: filter; yes: exact, sturm, parity)"; "" where all does.
+std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter);
 
 /// The signature with which a query fails by this kind of failure; nothing where it does not. Asks the
 /// oracle, and the subject where it is one of the subject's failures. By a recorded truth none fails: that is

@@ -1,5 +1,6 @@
-// libFuzzer: a query about which the oracle's answers, or those of its filter, are not the same.
-#include <array>
+// libFuzzer: a query about which the answers of the oracle's methods, or of its filter, do not fit together.
+#include <cstddef>
+#include <optional>
 #include <span>
 
 #include "fuzz/libfuzzer/query_target.hpp"
@@ -26,19 +27,28 @@ bool filter_agrees(const Query& query, bool collision) {
   return !contradicts(first) && !contradicts(filter(query));
 }
 
+/// Each method's answers as numbers, apart for each method.
+void show_all(Kind kind, std::span<const Answer> answers) {
+  const auto number = [](std::optional<bool> said) { return said ? (*said ? 2U : 1U) : 0U; };
+  std::size_t before = 0;
+  std::size_t details_before = 0;
+  for (const Answer& answer : answers) {
+    show(Signal::answers, kind,
+         before + 9 * number(answer.collision) + 3 * number(answer.on_boundary) + number(answer.odd));
+    show(Signal::details, kind, details_before + answer.detail);
+    before += 27;
+    details_before += 32;
+  }
+}
+
 }  // namespace
 
 void examine(const Query& query) {
   const Answers answers = ask_all(query);
   const Decision decision = decide(query);
-  const auto& [exact, sturm, parity] = answers;
   show(Signal::filter_stage, query.kind, static_cast<std::size_t>(decision.stage));
-  std::size_t said = 0;
-  for (const bool answer : {exact, sturm.planar, sturm.on_boundary, parity.odd})
-    said = 2 * said + (answer ? 1 : 0);
-  show(Signal::answers, query.kind, said);
-  show(Signal::roots, query.kind, static_cast<std::size_t>(4 * sturm.with_multiplicity + sturm.distinct));
-  if (!answers.agree() || exact != decision.collision || !filter_agrees(query, exact))
+  show_all(query.kind, answers.all());
+  if (!answers.disagreement(decision.by_filter()).empty() || !filter_agrees(query, answers.collision()))
     fail(Finding::What::oracle_disagreement, query);
 }
 

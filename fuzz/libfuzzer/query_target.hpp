@@ -24,8 +24,8 @@ enum class Signal {
   false_stage,   ///< by which it accepted what is none
   margin,        ///< how much less tolerance a collision needs than the subject has
   distance,      ///< of a false positive, by its bound
-  answers,       ///< what the oracle's three answers say
-  roots,         ///< distinct ones, and with multiplicity
+  answers,       ///< what each exact method of the oracle says
+  details,       ///< what else it saw
 };
 
 /// Shows a value, apart for each kind of query; values from 127 on are one.

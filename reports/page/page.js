@@ -153,7 +153,7 @@ function drawOracle() {
   const nearBounds = rows.some((row) => row.near_bounds > 0) ? [count("near bounds", "near_bounds")] : [];
   fillTable(element("oracle"), [
     text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []), count("queries", "queries"), count("collisions", "collisions"),
-    ...stages.map((stage) => count(stage, stage)), ...nearBounds, count("asked of all three", "compared"),
+    ...stages.map((stage) => count(stage, stage)), ...nearBounds, count("by all methods", "compared"),
     count("of these collisions", "compared_collisions"), count("with even roots", "missed_by_parity"),
   ], rows);
 }

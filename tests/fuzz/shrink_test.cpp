@@ -166,22 +166,10 @@ TEST(Failure, IsOfOneSort) {
 }
 
 TEST(Failure, OfTheOracleSaysWhatDoesNotFit) {
-  const auto signature = [](const Answers& answers, bool collision) {
-    return disagreement_signature(Kind::edge_edge, answers, collision);
-  };
-  const Answers one_root{.exact = true,
-                         .sturm = {.collision = true, .distinct = 1, .with_multiplicity = 1},
-                         .parity = {.odd = true}};
-  EXPECT_EQ(signature(one_root, true), "");
-  EXPECT_EQ(signature(one_root, false), "ee filter");
-  Answers wrong = one_root;
-  wrong.exact = false;
-  EXPECT_EQ(signature(wrong, true), "ee exact filter");
-  wrong = one_root;
-  wrong.parity.odd = false;
-  EXPECT_EQ(signature(wrong, true), "ee parity");
-  wrong.parity.on_boundary = true;
-  EXPECT_EQ(signature(wrong, true), "ee boundary");
+  const Answers answers = ask_all(falling_vertex(0.25, 0.25, 1, -1));
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, true), "");
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, false),
+            "ee collision (no: filter; yes: exact, sturm, parity)");
 }
 
 }  // namespace

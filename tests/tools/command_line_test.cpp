@@ -16,11 +16,11 @@ TEST_F(CommandLine, OraclePrintsALineAQuery) {
   EXPECT_EQ(run("oracle --kind vt --method exact - < q.vt").out, "1\n0\n");
 }
 
-TEST_F(CommandLine, OracleAnswersInThreeWays) {
+TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
   // Through the triangle and back: two roots, which parity cannot see.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
-  for (const char* method : {"exact", "sturm", "parity", "all"})
+  for (const char* method : {"filtered", "exact", "sturm", "parity", "all"})
     EXPECT_EQ(run(std::string("oracle --kind vt q.vt --method ") + method).out, "1\n0\n") << method;
   EXPECT_EQ(run("oracle --kind vt even.vt --method all").out, "1\n");
   EXPECT_EQ(run("oracle --kind vt even.vt --method sturm").out, "1\n");

@@ -1,0 +1,47 @@
+#include "oracle/methods.hpp"
+
+#include <array>
+
+#include "oracle/oracle.hpp"
+#include "oracle/parity.hpp"
+#include "oracle/sturm.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+Answer by_exact(const Query& query) { return {.collision = collides_exactly(query)}; }
+
+Answer by_sturm(const Query& query) {
+  const RootCount count = count_roots(query);
+  Answer answer{.collision = count.collision, .on_boundary = count.on_boundary};
+  if (!count.on_boundary) answer.odd = count.odd();
+  answer.detail =
+      static_cast<std::size_t>((count.planar ? 16 : 0) + 4 * count.with_multiplicity + count.distinct);
+  return answer;
+}
+
+Answer by_parity(const Query& query) {
+  const RootParity parity = root_parity(query);
+  Answer answer{.on_boundary = parity.on_boundary};
+  if (parity.collision()) answer.collision = true;
+  if (!parity.on_boundary) answer.odd = parity.odd;
+  return answer;
+}
+
+}  // namespace
+
+std::string_view name(Claim claim) { return claim == Claim::complete ? "complete" : "parity"; }
+
+std::span<const Method> methods() {
+  static const std::array<Method, 3> all{{
+      {"exact", "signs of polynomials at the roots of F, as algebraic numbers", Claim::complete, by_exact},
+      {"sturm", "roots counted by Sturm sequences over the integers, signs by Tarski's queries",
+       Claim::complete, by_sturm},
+      {"parity", "root parity of Brochu and Bridson: rays against the boundary's image, in integers",
+       Claim::parity, by_parity},
+  }};
+  return all;
+}
+
+}  // namespace nearmiss

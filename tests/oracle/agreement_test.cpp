@@ -1,0 +1,132 @@
+// The comparison of exact methods: what it lets pass, what it catches, and that one more method is an entry.
+#include "oracle/agreement.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+using ::testing::HasSubstr;
+
+const Query hit = falling_vertex(0.25, 0.25, 1, -1);
+const Query miss = falling_vertex(0.25, 0.25, 2, 1);
+
+/// A method that says always this.
+Method saying(std::string_view name, Claim claim, const Answer& answer) {
+  return {name, "", claim, [answer](const Query&) { return answer; }};
+}
+
+std::string disagreement(const std::vector<Method>& methods, std::optional<bool> by_filter = {}) {
+  return ask_all(hit, methods).disagreement(by_filter);
+}
+
+/// Three that agree on one root inside.
+std::vector<Method> three() {
+  return {saying("first", Claim::complete, {.collision = true}),
+          saying("second", Claim::complete, {.collision = true, .on_boundary = false, .odd = true}),
+          saying("third", Claim::parity, {.collision = true, .on_boundary = false, .odd = true})};
+}
+
+TEST(Agreement, IsThatNothingContradicts) {
+  EXPECT_EQ(disagreement(three()), "");
+  EXPECT_EQ(disagreement(three(), true), "");
+  EXPECT_TRUE(ask_all(hit, three()).agree());
+}
+
+TEST(Agreement, NamesWhoSaysNoAndWhoSaysYes) {
+  EXPECT_EQ(disagreement(three(), false), "collision (no: filter; yes: first, second, third)");
+  auto methods = three();
+  methods[0] = saying("first", Claim::complete, {.collision = false});
+  EXPECT_EQ(disagreement(methods, true), "collision (no: first; yes: second, third, filter)");
+  methods = three();
+  methods[2] = saying("third", Claim::parity, {.on_boundary = false, .odd = false});
+  EXPECT_EQ(disagreement(methods), "odd (no: third; yes: second)");
+  methods[2] = saying("third", Claim::parity, {.collision = true, .on_boundary = true});
+  EXPECT_EQ(disagreement(methods), "boundary (no: second; yes: third)");
+}
+
+TEST(Agreement, ParityThatSeesACollisionContradictsThoseThatSeeNone) {
+  const std::vector<Method> methods{saying("complete", Claim::complete, {.collision = false}),
+                                    saying("parity", Claim::parity, {.collision = true})};
+  EXPECT_EQ(disagreement(methods), "collision (no: complete; yes: parity)");
+}
+
+TEST(Agreement, ACompleteMethodHasToAnswer) {
+  auto methods = three();
+  methods[1] = saying("second", Claim::complete, {});
+  EXPECT_EQ(disagreement(methods), "no answer of second");
+}
+
+TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
+  const auto missed = [](bool collision, std::optional<bool> parity) {
+    const std::vector<Method> methods{saying("complete", Claim::complete, {.collision = collision}),
+                                      saying("parity", Claim::parity, {.collision = parity})};
+    return ask_all(hit, methods).missed_by_parity();
+  };
+  EXPECT_TRUE(missed(true, std::nullopt));
+  EXPECT_FALSE(missed(true, true));
+  EXPECT_FALSE(missed(false, std::nullopt));
+}
+
+// One more method is one more entry, and one wrong answer of it is caught and named.
+TEST(Agreement, AFourthMethodThatLiesOnceIsCaught) {
+  const Query lied_about = testing::falling_edge(1, -1);
+  std::vector<Method> four(methods().begin(), methods().end());
+  four.push_back({"fourth", "as exact, but for one query", Claim::complete, [&](const Query& query) {
+                    return Answer{.collision = collides_exactly(query) != (query == lied_about)};
+                  }});
+  for (const Query& query : {hit, miss, testing::falling_edge(2, 1), testing::falling_edge(0, 1)})
+    EXPECT_EQ(ask_all(query, four).disagreement(), "");
+  EXPECT_EQ(ask_all(lied_about, four).disagreement(), "collision (no: fourth; yes: exact, sturm, parity)");
+  EXPECT_EQ(ask_others(lied_about, true, four).disagreement(),
+            "collision (no: fourth; yes: exact, sturm, parity)");
+  EXPECT_EQ(ask_all(lied_about).disagreement(), "");
+}
+
+TEST(Agreement, KnownAnswersAreNotAskedForAgain) {
+  auto methods = three();
+  methods[0].ask = [](const Query&) -> Answer { throw "asked"; };
+  EXPECT_EQ(ask_others(hit, true, methods).disagreement(), "");
+  EXPECT_EQ(ask_others(hit, false, methods).disagreement(), "collision (no: first; yes: second, third)");
+}
+
+// --- the table -------------------------------------------------------------------------------------------
+
+TEST(Methods, TheFirstOneIsComplete) { EXPECT_EQ(methods().front().claim, Claim::complete); }
+
+TEST(Methods, AnswerAsTheyClaim) {
+  for (const Method& method : methods()) {
+    EXPECT_EQ(method.ask(hit).collision, true) << method.name;
+    const auto none = method.ask(miss).collision;
+    EXPECT_EQ(none, method.claim == Claim::complete ? std::optional(false) : std::nullopt) << method.name;
+    EXPECT_LT(method.ask(hit).detail, 32) << method.name;
+  }
+}
+
+TEST(Methods, TheReadmeListsThem) {
+  std::ifstream file(NEARMISS_ORACLE_README);
+  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  std::string table = "| method | claims | how it decides |\n|---|---|---|\n";
+  for (const Method& method : methods())
+    table.append("| `")
+        .append(method.name)
+        .append("` | ")
+        .append(name(method.claim))
+        .append(" | ")
+        .append(method.about)
+        .append(" |\n");
+  EXPECT_THAT(readme, HasSubstr("\n" + table + "\n"));
+}
+
+}  // namespace
+}  // namespace nearmiss
