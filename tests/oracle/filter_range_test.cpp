@@ -114,6 +114,14 @@ Query flat_vertex_apart(double size) {
       {{0, 1.25 * size, 0}, {0.5, 0, 0}, {0.5, 0.6875 * size, 0}, {0, 1.75 * size, 0.6875 * size}});
 }
 
+/// Contact. Where `size` is 2^511 F's products of three are far from overflow, as coordinates along y are small,
+/// but a sum of products of two that is multiplied by one of these overflows.
+Query thin_edges(double size) {
+  return make_query(Kind::edge_edge,
+                    {{0, 0.5, 1.5 * size}, {0, 0x1.8p-6, 0}, {0, 0, -0.09375 * size}, {1.5 * size, 0, 0}},
+                    {{0, 0.5, 1.5 * size}, {size / 8, 0x1.8p-6, 0}, {0, 0, size / 32}, {1.5 * size, 0.5, 0}});
+}
+
 /// All that is above, where sums of products overflow.
 std::vector<Named> overflowing() {
   return {{"crossing edges", scaled(crossing_edges(), 0x1p340)},
@@ -121,7 +129,8 @@ std::vector<Named> overflowing() {
           {"planar edges", planar_edges(0x1p510)},
           {"flat vertex", flat_vertex(0x1p511)},
           {"flat edges", flat_edges(0x1p511)},
-          {"flat vertex apart", flat_vertex_apart(0x1p511)}};
+          {"flat vertex apart", flat_vertex_apart(0x1p511)},
+          {"thin edges", thin_edges(0x1p511)}};
 }
 
 TEST(FilterRange, IsRightWhereSumsOfProductsOverflow) {
@@ -189,7 +198,7 @@ TEST(FilterRange, IsRightAtEveryExponentNearTheEndsOfTheRange) {
        {Named{"crossing edges", crossing_edges()}, Named{"two far points", two_far_points(1)},
         Named{"planar edges", planar_edges(1)}, Named{"flat vertex", flat_vertex(1)},
         Named{"flat edges", flat_edges(1)}, Named{"flat vertex apart", flat_vertex_apart(1)},
-        Named{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)},
+        Named{"thin edges", thin_edges(1)}, Named{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)},
         Named{"falling edge", falling_edge(1, -1)}}) {
     for (int e = 336; e <= 343; ++e) expect_neighbours_right(name, query, e, e);
     for (int e = 507; e <= 513; ++e) expect_neighbours_right(name, query, e, 0);
