@@ -48,8 +48,7 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
 ///   weights: triangle, sum of two, 24, k 32; edges, p × r 4, k 15, again 24, k 32; N·N 12, k 31;
 ///   squared length 3, k 15; weight x_0i·x_ji 6, k 17; F_0ij 12 + S, k 19;
 ///   δ: the time 2 · 3 · 2 (18 + 9 + 1) = 336, the evaluation 84, the motion, which is 7u off, 2 · 2√3 · 7√3.
-/// The solvers' are in solver_errors.hpp. Rounding in any direction is the same with ε for ε/2: `full_errors`
-/// of 2ε.
+/// The solvers' are in solver_errors.hpp.
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;
