@@ -41,7 +41,7 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
 
 /// With all that the paper leaves out, rounding to nearest (u = ε/2): the rounding of the relative vectors
 /// themselves (§5); what is of second order in ε; end points of edges that are within 2B, not B. For every ε
-/// <= 2^-10: proven by Gappa (proven.hpp), but for `residual`.
+/// <= 2^-10: proven by Gappa (proven.hpp).
 ///
 /// The solvers' errors are in solver_errors.hpp, derived there and in cubic.hpp and vertex_edge.hpp.
 template <class Number>

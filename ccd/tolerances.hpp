@@ -19,8 +19,9 @@ T fourth_root_of_epsilon() {
   return sqrt(sqrt(epsilon<T>()));
 }
 
-/// The tolerances of §4 for a pair bounded by B: closed forms, failure-proof where μ >= 33492 B³ε, which
-/// double satisfies (64 e³ = 64/2^39 > 33492/2^52) and float does not.
+/// The tolerances of §4 for a pair bounded by B. The paper's closed forms are failure-proof by the paper where μ
+/// >= 33492 B³ε, which double satisfies (64 e³ = 64/2^39 > 33492/2^52) and float does not; by constraints.hpp for
+/// every scalar of 13 bits or more.
 /// With e = ε^¼; units: length (B, e is a number) to the power shown.
 template <class T>
 struct Tolerances {

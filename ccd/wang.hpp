@@ -75,9 +75,11 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 // Let s be the sum of all squared components of p, q and r. E <= √2 √s_x with the positions' part s_x (an
 // edge is the difference of two vectors at most), W <= √3 √s_v with the velocities' part (p + r - q at most),
 // and so E + W <= √(5 s) by Cauchy and Schwarz; μ, proportional to B³ and μ1 at B = 1, is at most 5^(3/2) μ1
-// s^(3/2) < 11.2 μ1 s^(3/2): with 16 there is 0.4 μ to spare for every rounding here, and for the order of
-// end points (F of another order differs in sign and rounding only). Squared, for want of a root: (16 μ1)²
-// s³. For s outside its range, where s³ might over- or underflow, nothing is told.
+// s^(3/2) < 11.2 μ1 s^(3/2): a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not matter: with all
+// components within √s and velocities off by 4ε √s, F and its clearance err by less than 1000 ε s^(3/2) in
+// every mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. Nor does the order of end points,
+// on which F* depends by its sign alone. Compare squares, to avoid a root: (16 μ1)² s³. For s outside its range,
+// where s³ might over- or underflow, nothing is told.
 template <Kind kind, class T, class Steps>
 bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
   const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();
@@ -126,8 +128,8 @@ template <Kind kind, class T, WangOptions options, class Steps>
 
 }  // namespace detail
 
-/// Algorithms 3 and 4. Reports every true collision of finite input in double (§4: the tolerances are
-/// failure-proof where μ >= 33492 B³ε), contact at t = 0 and t = 1 included. What it reports without a
+/// Algorithms 3 and 4. Reports every true collision of finite input in a scalar of 13 bits or more (§4 and
+/// constraints.hpp), contact at t = 0 and t = 1 included. What it reports without a
 /// collision is within the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). `given`, where it is
 /// set, takes the place of the pair's own B; one that is smaller throws Error (§5).
 template <Kind kind, class T, WangOptions options, class Steps = AllSteps>

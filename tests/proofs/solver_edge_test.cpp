@@ -138,6 +138,29 @@ TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
   }
 }
 
+// constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. The largest s · (d × e) squared over signs s is
+// d·d (3 e·e - (s·e)²), which is convex in e: the corners of the cube decide.
+TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
+  const auto corner = [](int i) {
+    return Vector3<double>((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+  };
+  for (int e = 0; e < 8; ++e) {
+    for (int s = 0; s < 8; ++s) {
+      const double along = corner(s).dot(corner(e));
+      EXPECT_LE(3 * corner(e).squaredNorm() - along * along, 8);
+    }
+  }
+  double largest = 0;
+  Random random(3, 0, 0);
+  for (int i = 0; i < 100000; ++i) {
+    const Vector3<double> e = random.one_in(2) ? random.vector(1) : corner(i % 8) + random.vector(0.1);
+    const Vector3<double> d = e.cross(random.vector(1));
+    largest = std::max(largest, d.cross(e).lpNorm<1>() / (d.norm() * max_component(e)));
+  }
+  EXPECT_LE(largest, std::sqrt(8) * (1 + 1e-14));
+  EXPECT_GT(largest, 2.8);
+}
+
 /// A vertex that is within R of an edge, at a time when the edge is not short, with numbers that the thread's precision
 /// has; nothing where rounding puts it farther away.
 std::optional<Problem> within_R(Random& random, double R) {
