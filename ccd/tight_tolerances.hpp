@@ -180,7 +180,7 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
 
 /// Failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for queries whose coordinates
 /// the scalar has: a narrower one rounds them first. The distance bound is the smallest that the constraints
-/// give: 12.9 B e for double and finer, 13.1 B e for float.
+/// give: 11.9 B e for double and finer, 12.1 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);

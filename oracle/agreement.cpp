@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-
-#include "ccd/error.hpp"
+#include <stdexcept>
 
 namespace nearmiss {
 
@@ -33,13 +32,13 @@ class Votes {
 
 Answers::Answers(std::span<const Method> methods, std::vector<Answer> answers)
     : methods_(methods), answers_(std::move(answers)) {
-  if (answers_.size() != methods_.size()) throw Error("expected an answer of every method");
+  if (answers_.size() != methods_.size()) throw std::invalid_argument("expected an answer of every method");
 }
 
 bool Answers::collision() const {
   for (std::size_t i = 0; i < answers_.size(); ++i)
     if (methods_[i].claim == Claim::complete) return answers_[i].collision.value_or(false);
-  throw Error("expected a method that is complete");
+  throw std::invalid_argument("expected a method that is complete");
 }
 
 std::string Answers::disagreement(std::optional<bool> by_filter) const {

@@ -153,11 +153,11 @@ TEST(ToleranceTable, HasTheseBounds) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_NEAR(row.paper_bound, 40.96, row.exponent > -20 ? 1 : 0.1);
     if (row.exponent == -23) {
-      EXPECT_NEAR(row.tight_bound, 13.04, 0.01);
-      EXPECT_NEAR(row.relative_bound, 0.2422, 0.0001);
+      EXPECT_NEAR(row.tight_bound, 12.13, 0.01);
+      EXPECT_NEAR(row.relative_bound, 0.2253, 0.0001);
     }
     if (row.exponent <= -52) {
-      EXPECT_NEAR(row.tight_bound, 12.86, 0.01);
+      EXPECT_NEAR(row.tight_bound, 11.93, 0.01);
     }
   }
 }
