@@ -14,6 +14,9 @@ namespace nearmiss::proofs {
 
 namespace {
 
+/// Results are of a degree of at most 4 in B <= 2^100 (claims.hpp): with this for B = 1 they are finite.
+constexpr double largest_allowed = 0x1p20;
+
 /// The arithmetics that a claim is proven for.
 std::vector<Arithmetic> arithmetics(const Claim& claim) {
   std::vector<Arithmetic> all;
@@ -41,6 +44,8 @@ std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prov
     if (!prover.proves(problem, arithmetic, std::ldexp(claim.proven, 1 - arithmetic.bits)))
       fault(fmt::format("Gappa does not prove {} with {} bits{}", claim.proven, arithmetic.bits,
                         arithmetic.underflow ? " and underflow" : ""));
+  if (!(prover.largest_result(problem, {53, {}, claim.vectors_alone}) <= largest_allowed))
+    fault("Gappa does not prove that results are finite");
   return all;
 }
 

@@ -1,5 +1,7 @@
 #include "tests/proofs/gappa.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tests/proofs/lemmas.hpp"
@@ -20,6 +22,14 @@ double Prover::error(const Problem& problem, const Arithmetic& arithmetic) {
   Lemmas lemmas(*this, problem, arithmetic);
   const auto results = bounds_in(run(lemmas.last_script("?")).text);
   return results.at("d").magnitude();
+}
+
+double Prover::largest_result(const Problem& problem, const Arithmetic& arithmetic) {
+  Lemmas lemmas(*this, problem, arithmetic);
+  double largest = 0;
+  for (const auto& [name, bounds] : bounds_in(run(lemmas.range_script()).text))
+    largest = std::max(largest, bounds.magnitude());
+  return largest;
 }
 
 bool Prover::proves(const Problem& problem, const Arithmetic& arithmetic, double bound) {

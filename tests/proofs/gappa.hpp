@@ -35,6 +35,9 @@ class Prover {
   /// not run or does not understand the script.
   double error(const Problem& problem, const Arithmetic& arithmetic);
 
+  /// An upper bound of the magnitudes of all results of operations on the way, for B = 1, likewise.
+  double largest_result(const Problem& problem, const Arithmetic& arithmetic);
+
   /// Whether Gappa proves that the error is at most `bound` for B = 1.
   bool proves(const Problem& problem, const Arithmetic& arithmetic, double bound);
 

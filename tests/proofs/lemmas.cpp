@@ -215,6 +215,15 @@ void Lemmas::know_extreme(int index) {
   leaves_[index] = {all.lowest, all.highest, error == 0 ? Leaf::Error::none : Leaf::Error::absolute, error};
 }
 
+std::string Lemmas::range_script() {
+  Script all = script();
+  all.write(left_);
+  all.write(right_);
+  std::vector<std::string> goals;
+  for (const std::string& result : all.results()) goals.push_back(fmt::format("{} in ?", result));
+  return all.text(goals);
+}
+
 std::string Lemmas::last_script(const std::string& goal) {
   Script last = script();
   last.write(left_);

@@ -26,6 +26,8 @@ class Lemmas {
 
   /// The script with all that is not in a lemma; its goal is the error, named d.
   std::string last_script(const std::string& goal);
+  /// Its goals are the ranges of all results.
+  std::string range_script();
 
  private:
   void know_motion(const Motion& motion, const Traced& time);

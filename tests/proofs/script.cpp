@@ -24,6 +24,12 @@ std::string Script::computed(int index) const {
   return fmt::format("{}{}", inexact_.contains(index) ? "c" : "e", index);
 }
 
+std::vector<std::string> Script::results() const {
+  std::vector<std::string> all;
+  for (const int index : inexact_) all.push_back(computed(index));
+  return all;
+}
+
 std::string Script::exact(int index) { return fmt::format("e{}", index); }
 
 void Script::suppose(const std::string& expression, double lowest, double highest) {

@@ -36,6 +36,8 @@ class Script {
   void difference(int left, int right);
 
   [[nodiscard]] std::string computed(int index) const;
+  /// The computed values that are not exact.
+  [[nodiscard]] std::vector<std::string> results() const;
   static std::string exact(int index);
 
   /// The whole, with its goals.

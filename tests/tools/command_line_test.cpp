@@ -295,7 +295,7 @@ TEST_F(CommandLine, TheLadderIsACampaign) {
 }
 
 TEST_F(CommandLine, TheAuditNamesWhatIsTooSmall) {
-  const Answer answer = run("audit --queries 2 --steps 0 --json audit.json");
+  const Answer answer = run("audit --queries 2 --steps 4 --json audit.json");
   EXPECT_EQ(answer.code, 0);
   EXPECT_THAT(answer.out, HasSubstr("TOO SMALL"));
   EXPECT_THAT(answer.out, HasSubstr("not proven by Theorem 4.1: with the rounding of relative vectors"));
