@@ -78,7 +78,7 @@ inline constexpr double bound_ee = 18.64;
 // ve_culling.hpp
 inline constexpr double spread_vt = 984.1;  ///< how far a weight may move
 inline constexpr double spread_ee = 1427;
-inline constexpr double culling_vt = 1488;  ///< a weight against N·N and all that is added to it
-inline constexpr double culling_ee = 1906;
+inline constexpr double culling_vt = 1495;  ///< a weight against N·N and all that is added to it
+inline constexpr double culling_ee = 1914;
 
 }  // namespace nearmiss::proven

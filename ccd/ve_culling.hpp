@@ -41,7 +41,7 @@ inline constexpr int weight_error = 1160;
 /// <= 6 B: N misses by 3 · 2 B² · 14 ε = 84 B²ε: 84 · 6 √3 <= 873; the edges by 6 · 6 Bε: 36 · 6 √3 <= 375; W
 /// by 35 εB (see form_bound): 35 · 36 √3 <= 2183; the product itself, of about ten roundings, and t ± h, of
 /// another: 11 · 36 √3 <= 686. Together 4117, and what is of second order. To nearest 1427 are
-/// proven, and 1906 for it and the weight together.
+/// proven, and 1914 for it and the weight together.
 inline constexpr int spread_error = 4400;
 
 namespace detail {
