@@ -235,23 +235,31 @@ TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   EXPECT_LT(roundings(errors.length2), taken(0));
   EXPECT_LT(roundings(errors.weight_ve), taken(2));
   EXPECT_LT(roundings(errors.F), taken(3));
+}
 
+// solver_errors.hpp: in units of u, and B = S = 1. Underflow has 1 u.
+TEST(FullErrors, OfTheSolversAreThoseOfTheRules) {
+  const double eps = 0x1p-60;
+  const auto errors = full_errors(eps, 1.0, 0.0);
+  const auto roundings = [&](double error) { return error / (eps / 2); };
+  const double underflow = 1;
+  Pair<Kind::edge_edge, Number> ee;
+  ee.q = ee.r = leaves(1, 1, 3);
   ee.p = leaves(1, 1, 4);
   const auto F = coplanarity(ee);
   double coefficients = 0;
   for (const Number* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
-  const double underflow = 1;
   EXPECT_NEAR(roundings(errors.residual),
               cubic_error(coefficients, horner_error(6, 18, 18, 6), 18) + underflow, 1e-9);
 
-  const detail::CrossProduct<Number> g(ve.x0i, ve.xji, audit_parts::threshold(-1, 2));
+  const detail::CrossProduct<Number> g(leaves(2, 1, 5), leaves(1, 1, 3), audit_parts::threshold(-1, 2));
   const auto bound = [](const Number& x) { return x.bound(); };
   const double kappa = bound(g.a[0]).error() + bound(g.b[0]).error() + bound(g.c[0]).error();
   const double vectors = 2 * (1 + 3);  // of x_ji, times S
   EXPECT_NEAR(roundings(errors.least_psi),
               candidate_error(kappa + 2 * bound(g.c[0]).coefficient, bound(g.a[0]).coefficient,
                               bound(g.b[0]).coefficient, 1) +
-                  vectors + taken(3) + underflow,
+                  vectors + roundings(errors.F) + underflow,
               1e-9);
 }
 
