@@ -86,6 +86,9 @@ inline constexpr std::size_t constraint_count = 18;
 /// an edge is reported by VE itself, or is within D of an end of the edge when VE's length or weight test
 /// fails.
 ///
+/// A pair that does not collide may have its p within 2B at t = 1: the errors of its weights double at most, and so does
+/// the distance of a false positive from an edge's line.
+///
 /// (2) and (3) print min of the distances of the two ways to be a false positive; it must be max. (2) has E
 /// fixed, (3) too, as 21/4 ε^½ and 4 ε^½, which leaves 4 ε^½ beside η. That the quadrilateral's shorter edge
 /// is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but what follows from it does.
@@ -125,7 +128,7 @@ auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number
       {"VE: weight, and its false positives", "4.3", tol.D2,
        squared(errors.weight_ve) / shorter2 + at_shorter},
       {"VV", "4.2", tol.delta, errors.delta},
-      {"false positive by VT", "4.4.1", bound2, squared(line_vt) + r2},
+      {"false positive by VT", "4.4.1", bound2, squared(line_vt * 2) + r2},
       {"false positive by EE", "4.5.1", bound2, squared(line_ee * 2) + r2},
   }};
 }

@@ -16,23 +16,23 @@ namespace fs = std::filesystem;
 
 const fs::path source = NEARMISS_SOURCE;
 
-/// The project's own headers that a file includes, as "folder/file.hpp".
+/// The project's own headers that a file includes, in quotes or angle brackets, as "folder/file.hpp".
 std::set<std::string> includes(const fs::path& file) {
-  static const std::regex line("^\\s*#\\s*include \"([^\"]+)\".*");
+  static const std::regex line("^\\s*#\\s*include\\s*[\"<]([^\">]+)[\">].*");
   std::set<std::string> found;
   std::ifstream in(file);
   for (std::string text; std::getline(in, text);)
-    if (std::smatch match; std::regex_match(text, match, line)) found.insert(match[1]);
+    if (std::smatch match; std::regex_match(text, match, line) && fs::exists(source / match[1].str()))
+      found.insert(match[1]);
   return found;
 }
 
-/// All C and C++ files below a folder.
+/// All files below a folder but for npm's packages.
 std::vector<fs::path> code(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
-    const std::string ending = entry.path().extension();
-    if (ending == ".cpp" || ending == ".hpp" || ending == ".h" || ending == ".c") files.push_back(entry);
-  }
+  for (const auto& entry : fs::recursive_directory_iterator(source / folder))
+    if (entry.is_regular_file() && entry.path().string().find("/node_modules/") == std::string::npos)
+      files.push_back(entry);
   return files;
 }
 

@@ -49,6 +49,18 @@ std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prov
   return all;
 }
 
+std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness) {
+  std::vector<std::string> all;
+  const auto fault = [&](const std::string& text) { all.push_back(fmt::format("{}: {}", claim.name, text)); };
+  const double proven = claim.proven();
+  if (!(proven <= claim.claimed)) fault(fmt::format("{} is claimed, {} proven", claim.claimed, proven));
+  if (const double seen = claim.seen(witness.inputs); seen != witness.error)
+    fault(fmt::format("the witness has an error of {:a}, not {:a}", seen, witness.error));
+  if (!(0 < witness.error && witness.error <= proven))
+    fault(fmt::format("{} is seen, {} proven", witness.error, proven));
+  return all;
+}
+
 std::vector<std::string> faults(const std::vector<Claim>& claims,
                                 const std::map<std::string, Witness>& witnesses) {
   std::vector<std::string> all;

@@ -19,6 +19,9 @@ std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prov
 std::vector<std::string> faults(const std::vector<Claim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
+/// What is wrong with a claim about oracle/ likewise: seen <= proven <= claimed, and what the witness shows.
+std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
+
 /// A row of the table: what is claimed, proven and seen of a constant, in its unit.
 struct TableRow {
   std::string claim, constant, proof, unit;

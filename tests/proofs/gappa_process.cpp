@@ -70,7 +70,8 @@ GappaAnswer run_gappa(const std::string& script, const std::string& options) {
   const ScriptFile file(script);
   const auto [output, status] = output_of(fmt::format("{} {} {} 2>&1", NEARMISS_GAPPA, options, file.path()));
   const bool warns = has_grave_warning(output);
-  const bool unproven = output.find("some properties were not satisfied") != std::string::npos;
+  const bool unproven = output.find("some properties were not satisfied") != std::string::npos ||
+                        output.find("no contradiction was found") != std::string::npos;
   if (warns || (status != 0 && !unproven))
     throw std::runtime_error("gappa says: " + output + "\nof this script:\n" + script);
   return {output, status == 0};

@@ -96,7 +96,7 @@ std::vector<std::string> scripts_of(const Bounded& bounded, const Precision& pre
         underflow(share(needs.bound_underflows, monomial), u, certified::product_underflow<double>));
     const std::string offered = times(share(needs.bound, monomial), u);
     const auto goal = [&](const char* sign) {
-      return fmt::format("({}{}) * ({}) + {} - {} <= 0", sign, roundings, halves, others, offered);
+      return fmt::format("({}{} + {}) * {} - {} <= 0", sign, roundings, others, halves, offered);
     };
     scripts.push_back(factors.script(goal("") + " /\\ " + goal("-")));
   }

@@ -45,5 +45,23 @@ TEST(ProofsOfTheFilter, PartsOfTheStep) {
   expect_proven<TracedWord>(part_results<TracedWord>(trace, Leaves::given_errors));
 }
 
+/// Whether all scripts of all results are proven where each bound is so many times what it is.
+bool is_proven_with(const std::vector<Bounded>& all, double factor) {
+  for (Bounded each : all) {
+    each.error = each.error * factor;
+    for (const std::string& script : scripts_of(each, precision_of<Traced>()))
+      if (!is_proven(script)) return false;
+  }
+  return true;
+}
+
+TEST(ProofsOfTheFilter, FailWhereABoundIsSmaller) {
+  Trace trace;
+  EXPECT_TRUE(is_proven_with(weight_results<Traced>(trace, Leaves::rounded_once), 1));
+  EXPECT_FALSE(is_proven_with(weight_results<Traced>(trace, Leaves::rounded_once), 0.75));
+  EXPECT_FALSE(is_proven_with(weight_results<Traced>(trace, Leaves::given_errors), 0.75));
+  EXPECT_FALSE(is_proven_with(part_results<Traced>(trace, Leaves::given_errors), 0.7));
+}
+
 }  // namespace
 }  // namespace nearmiss::proofs

@@ -1,5 +1,6 @@
 // proofs_table: the table of claims about rounding errors; looks for witnesses anew.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -48,6 +49,20 @@ void search_all(const std::vector<OracleClaim>& claims, std::map<std::string, Wi
   }
 }
 
+/// A line a row: whether it holds, its name, its constant, what is wrong; separated by tabs.
+void check_all(const std::map<std::string, Witness>& witnesses,
+               const std::map<std::string, Witness>& oracle_witnesses) {
+  const auto show = [](std::string_view name, std::string_view constant,
+                       const std::vector<std::string>& wrong) {
+    fmt::print("{}\t{}\t{}\t{}\n", wrong.empty() ? "ok" : "FAULT", name, constant, fmt::join(wrong, "; "));
+  };
+  for (const OracleClaim& claim : oracle_claims())
+    show(claim.name, claim.constant() + ", " + claim.file, faults(claim, oracle_witnesses.at(claim.name)));
+  Prover prover;
+  for (const Claim& claim : ccd_claims())
+    show(claim.name, claim.constant, faults(claim, witnesses.at(std::string(claim.name)), prover));
+}
+
 /// Those of a file; none where it is not there yet.
 std::map<std::string, Witness> known_witnesses(const std::string& file) {
   if (!std::filesystem::exists(file)) return {};
@@ -68,6 +83,8 @@ int main(int argc, char** argv) {
                  "Search for larger errors in oracle/ in this many steps each, and keep them");
   app.add_option("--seed", seed, "Seed of the search");
   app.add_option("--script", name, "Print the last script for Gappa of this claim, in double");
+  bool check = false;
+  app.add_flag("--check", check, "Say of every row whether it holds, and what is wrong");
   CLI11_PARSE(app, argc, argv);
   try {
     const std::string file = NEARMISS_WITNESSES "/ccd.txt";
@@ -80,6 +97,10 @@ int main(int argc, char** argv) {
         fmt::print("{}",
                    Prover().script(claim.problem(), {53, {}, claim.vectors_alone}, claim.proven * 0x1p-52));
     if (!name.empty()) return 0;
+    if (check) {
+      check_all(witnesses, oracle_witnesses);
+      return 0;
+    }
     if (seconds > 0) {
       search_all(claims, witnesses, seconds, seed);
       write_witnesses(file, witnesses);

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# What the oracle calls of ours and does not define itself is the Subject interface and nothing else. $1: its library.
+set -euo pipefail
+names() { nm -C "$1" | awk -v kinds="$2" 'match($0, " " kinds " ") { print substr($0, RSTART + 3) }' | sort -u; }
+calls=$(comm -23 <(names "$1" '[U]' | grep 'nearmiss::') <(names "$1" '[TWVBDRu]'))
+allowed='^(nearmiss::Subject::|nearmiss::refuse_coordinates\(|typeinfo for nearmiss::Subject$)'
+[[ -n $calls ]] || { echo "found no calls at all: is this the library? $1"; exit 1; }
+others=$(grep -vE "$allowed" <<<"$calls" || true)
+[[ -z $others ]] || { echo "the oracle calls of others:"; echo "$others"; exit 1; }
