@@ -1,0 +1,48 @@
+// The results as a table.
+
+const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor((numbers.length - 1) / 2)];
+
+/** A text table: columns are as wide as they need to be. */
+function columns(rows) {
+  const widths = rows[0].map((_, i) => Math.max(...rows.map((row) => String(row[i]).length)));
+  return rows.map((row) => row.map((cell, i) => String(cell).padEnd(widths[i])).join('  ').trimEnd()).join('\n');
+}
+
+/** What is not as the list says: found although it has a reason not to be, not found without one, not compiled. */
+export function unexpected(defects, results) {
+  return defects.filter(({ name, reason }) => {
+    const by = results[name]?.by;
+    return by === 'compiler' || (by === 'nothing') !== (reason !== '') ;
+  });
+}
+
+function byGroup(defects, results) {
+  const rows = [['group', 'defects', 'hunter', 'median queries', 'largest', 'tests', 'proofs', 'nothing', 'to do']];
+  for (const group of [...new Set(defects.map((defect) => defect.group)), undefined]) {
+    const own = defects.filter((defect) => !group || defect.group === group).map(({ name }) => results[name]);
+    const count = (by) => own.filter((result) => result?.by === by).length;
+    const queries = own.filter((result) => result?.by === 'hunter').map((result) => result.queries);
+    const done = ['hunter', 'tests', 'proofs', 'nothing'].map(count);
+    const open = own.length - done.reduce((sum, n) => sum + n);
+    rows.push([group ?? 'all', own.length, done[0], median(queries) ?? '', queries.length > 0 ? Math.max(...queries) : '',
+      done[1], done[2], done[3], open]);
+  }
+  return columns(rows);
+}
+
+/** By group, then each defect. */
+export function table(defects, results) {
+  const rows = [['defect', 'found by', 'what', 'query', 'queries', 'seconds']];
+  for (const { name } of defects) {
+    const { by = '', what = '', query = '', queries = '', seconds = '' } = results[name] ?? {};
+    rows.push([name, by, what, query, queries, seconds]);
+  }
+  const strange = unexpected(defects, results).filter(({ name }) => results[name]);
+  const list = strange.map(({ name, about }) => `${name} (${results[name].by}): ${about}`);
+  const reasons = defects.filter(({ name, reason }) => reason && results[name]?.by === 'nothing');
+  return [
+    byGroup(defects, results), columns(rows),
+    'Not found, and why:', ...reasons.map(({ name, reason }) => `${name}: ${reason}`),
+    'Not as the list says:', ...list,
+  ].join('\n\n') + '\n';
+}
