@@ -66,7 +66,8 @@ async function work(copy, queue) {
 }
 
 mkdirSync(folder, { recursive: true });
-const queue = defects.filter(({ name }) => new RegExp(options.only).test(name)).filter((defect) => {
+const chosen = defects.filter(({ name, file }) => new RegExp(options.only).test(`${name} in ${file}`));
+const queue = chosen.filter((defect) => {
   const known = results[defect.name];
   if (known?.key !== keyOf(defect) || known.by === 'compiler') return true;
   return known.by === 'nothing' && (options.again || wanted.some(({ name }) => !known.asked.includes(name)));
