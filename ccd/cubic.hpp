@@ -79,13 +79,15 @@ constexpr Step interval_step(std::size_t i, std::size_t count) {
 /// known. F lies between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
 template <class T>
 T clearance(const Cubic<T>& F) {
+  using std::max;
+  using std::min;
   const T third = F.c / 3;
   const T b1 = F.d + third;
   const T b2 = b1 + (third + F.b / 3);
   const T b3 = F(T(1));
-  const T lowest = std::min(std::min(F.d, b3), std::min(b1, b2));
-  const T highest = std::max(std::max(F.d, b3), std::max(b1, b2));
-  return std::max(lowest, -highest);
+  const T lowest = min(min(F.d, b3), min(b1, b2));
+  const T highest = max(max(F.d, b3), max(b1, b2));
+  return max(lowest, T(-highest));
 }
 
 /// Times at which |F| <= μ that stand for the roots of F in [0, 1], in ascending order, at most three.

@@ -15,9 +15,10 @@ namespace nearmiss {
 template <class Vector>
 auto max_component(const Vector& a) {
   using std::abs;
+  using std::max;
   using T = typename Vector::Scalar;
   static_assert(Vector::SizeAtCompileTime == 3);
-  return std::max(std::max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
+  return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
 }
 
 /// x + t v; a scalar that knows more than its value may have its own (audited.hpp).
@@ -51,8 +52,8 @@ struct Frame {
 
 namespace detail {
 
-template <class T>
-Vector3<T> difference(const double* a, const double* b, const Frame& frame) {
+template <class T, class Coordinate>
+Vector3<T> difference(const Coordinate* a, const Coordinate* b, const Frame& frame) {
   const auto component = [&](int k) -> T {
     if (frame.identity()) return static_cast<T>(a[k]) - static_cast<T>(b[k]);
     using std::ldexp;
@@ -66,10 +67,11 @@ Vector3<T> difference(const double* a, const double* b, const Frame& frame) {
 }  // namespace detail
 
 /// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position is one
-/// rounding away from exact (relative error u); scaling is exact but for underflow below 2^-1074.
-template <class T>
-Moving<T> relative_motion(const Query& query, int a, int b, const Frame& frame = {}) {
-  const auto* x = query.x.data();
+/// rounding away from exact (relative error u); scaling is exact but for underflow below 2^-1074. `Points` is
+/// Query, or has 24 coordinates of another type.
+template <class T, class Points>
+Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame = {}) {
+  const auto* x = points.x.data();
   const Vector3<T> start = detail::difference<T>(x + 3 * a, x + 3 * b, frame);
   const Vector3<T> end = detail::difference<T>(x + 12 + 3 * a, x + 12 + 3 * b, frame);
   Moving<T> motion;
@@ -95,17 +97,17 @@ struct Pair {
 };
 
 /// Forms p, q and r in the pair's frame and order.
-template <Kind kind, class T>
-void form_vectors(const Query& query, Pair<kind, T>& pair) {
+template <Kind kind, class T, class Points>
+void form_vectors(const Points& points, Pair<kind, T>& pair) {
   const Order& o = pair.order;
   if constexpr (kind == Kind::vertex_triangle) {
-    pair.p = relative_motion<T>(query, o[0], o[1], pair.frame);
-    pair.q = relative_motion<T>(query, o[2], o[1], pair.frame);
-    pair.r = relative_motion<T>(query, o[3], o[1], pair.frame);
+    pair.p = relative_motion<T>(points, o[0], o[1], pair.frame);
+    pair.q = relative_motion<T>(points, o[2], o[1], pair.frame);
+    pair.r = relative_motion<T>(points, o[3], o[1], pair.frame);
   } else {
-    pair.p = relative_motion<T>(query, o[2], o[0], pair.frame);
-    pair.q = relative_motion<T>(query, o[1], o[0], pair.frame);
-    pair.r = relative_motion<T>(query, o[3], o[2], pair.frame);
+    pair.p = relative_motion<T>(points, o[2], o[0], pair.frame);
+    pair.q = relative_motion<T>(points, o[1], o[0], pair.frame);
+    pair.r = relative_motion<T>(points, o[3], o[2], pair.frame);
   }
 }
 
@@ -134,7 +136,8 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   const Six lo = p.min(q).min(r).min(T(0));
   const Six extent = hi - lo;
   const auto largest = [](const Six& six, int first) {
-    return std::max(std::max(six[first], six[first + 1]), six[first + 2]);
+    using std::max;
+    return max(max(six[first], six[first + 1]), six[first + 2]);
   };
   // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
   pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);

@@ -44,9 +44,10 @@ struct Figure {
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
   template <class Steps = AllSteps>
   [[nodiscard]] bool well_shaped(const Tolerances<T>& tol, const Steps& steps = {}) const {
+    using std::max;
     const T area = max_component(N);
-    T longest = std::max(max_component(q), max_component(r));
-    if constexpr (kind == Kind::vertex_triangle) longest = std::max(longest, max_component(r - q));
+    T longest = max(max_component(q), max_component(r));
+    if constexpr (kind == Kind::vertex_triangle) longest = max(longest, max_component(r - q));
     return at_most(tol.tau, area, steps) && at_most(T(longest * tol.eta), area, steps);
   }
 };

@@ -14,8 +14,9 @@ namespace nearmiss {
 /// distance <= D² + δ, which no pair within D fails (§4.2). At rest relative to each other, v = 0, t is 0.
 template <class T, class Steps = AllSteps>
 std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol, const Steps& steps = {}) {
+  using std::clamp;
   const T vv = ji.v().dot(ji.v());
-  const T t = vv > 0 ? std::clamp(T(-ji.x().dot(ji.v()) / vv), T(0), T(1)) : T(0);
+  const T t = vv > 0 ? clamp(T(-ji.x().dot(ji.v()) / vv), T(0), T(1)) : T(0);
   if (at_most(T(ji.at(t).squaredNorm()), T(tol.D2 + tol.delta), steps)) return t;
   return std::nullopt;
 }

@@ -66,6 +66,7 @@ TrialResult try_block(const CampaignPlan& plan, const Block& block, const Sifted
     batch.kind = kinds[parity];
     batch.family = block.family->name;
     batch.timed = block.family->timed;
+    batch.compare_all = block.family->compare_all;
     for (std::uint64_t index = first; index < block.last; index += 2)
       batch.queries.push_back(make_query(*block.family, plan.seed, index));
     if (block.family->planted) batch.truths.assign(batch.queries.size(), true);

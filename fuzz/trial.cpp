@@ -188,8 +188,8 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
     truth.count(oracle);
     oracle.near_bounds += near[i] ? 1 : 0;
     const bool undecided = decisions[i].stage == FilterStage::undecided;
-    const bool asks_all = near[i] || is_sampled(batch.queries[i], undecided ? comparison.one_in_undecided()
-                                                                            : comparison.one_in);
+    const std::uint64_t one_in = undecided ? comparison.one_in_undecided() : comparison.one_in;
+    const bool asks_all = batch.compare_all || near[i] || is_sampled(batch.queries[i], one_in);
     if (asks_all)
       if (std::string signature = truth.compare(oracle); !signature.empty()) {
         ++result.statistics.oracle_disagreements;

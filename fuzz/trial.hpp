@@ -23,6 +23,8 @@ struct Batch {
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty where there are none
   bool timed = true;                             ///< whether the time that answers take counts
+  bool compare_all =
+      false;  ///< every query is decided by all methods of the oracle, whatever Comparison says
   /// Says where query i of the batch comes from; called only for what is kept.
   std::function<std::string(std::size_t)> provenance = {};
   /// Is told of every outcome where it is set: of query i and of a subject, by its place among the subjects.

@@ -21,9 +21,15 @@ inline constexpr double roundoff<DoubleWord> = 0x1p-103;
 /// The smallest positive double; what is below 2^-1022 is a multiple of it.
 inline constexpr double smallest = 0x1p-1074;
 
-/// What underflow adds to the error of a product, in units of `smallest`. Rounding a double to a multiple of it
-/// costs at most a half. A product of double words has six products, whose errors pass through five sums; each
-/// sum may add as much as it is given, since it would be exact without them.
+/// What underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of it costs at
+/// most a half.
+///
+/// A product of double words has four products in its lower half, and two more beside it. Its lower half is
+/// summed up exactly where nothing underflows. Where something does, the product is below 2^107 units, so its
+/// lower half is below 2^54, and the sums that lead to it are below 2^81, 2^81 and 2^56. A sum of multiples of
+/// the unit is exact below 2^53, and far above that it rounds the error away; in between it may double it. That
+/// can happen to the first two sums or to the third, not to all: 3 + 1/2 + 1/2 at most, and 1 for the products
+/// beside it.
 template <class Real>
 inline constexpr double product_underflow = 0.5;
 template <>
@@ -116,8 +122,8 @@ struct Bernstein {
   }
 
   /// What the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
-  /// rounded, by at most `end_rounding`. A slope is exact to `slope_errors` errors of coefficients; their two would do, but
-  /// for rounding, which `spread_growth` is for too.
+  /// rounded, by at most `end_rounding`. The slope of exact coefficients exceeds that of computed ones by two of
+  /// their errors at most; `spread_growth` makes up for the roundings here.
   [[nodiscard]] Bound error_near(const Bound& h) const {
     using std::abs;
     using std::max;

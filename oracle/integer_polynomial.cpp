@@ -26,7 +26,7 @@ Polynomial Polynomial::derivative() const {
 
 Polynomial Polynomial::operator+(const Polynomial& other) const {
   std::vector<Integer> sum(std::max(c_.size(), other.c_.size()));
-  for (std::size_t i = 0; i < c_.size(); ++i) sum[i] += c_[i];
+  for (std::size_t i = 0; i < c_.size(); ++i) sum[i] = c_[i];
   for (std::size_t i = 0; i < other.c_.size(); ++i) sum[i] += other.c_[i];
   return Polynomial(std::move(sum));
 }
@@ -37,7 +37,12 @@ Polynomial Polynomial::operator-() const {
   return Polynomial(std::move(negative));
 }
 
-Polynomial Polynomial::operator-(const Polynomial& other) const { return *this + -other; }
+Polynomial Polynomial::operator-(const Polynomial& other) const {
+  std::vector<Integer> difference(std::max(c_.size(), other.c_.size()));
+  for (std::size_t i = 0; i < c_.size(); ++i) difference[i] = c_[i];
+  for (std::size_t i = 0; i < other.c_.size(); ++i) difference[i] -= other.c_[i];
+  return Polynomial(std::move(difference));
+}
 
 Polynomial Polynomial::operator*(const Polynomial& other) const {
   if (is_zero() || other.is_zero()) return {};
@@ -47,42 +52,50 @@ Polynomial Polynomial::operator*(const Polynomial& other) const {
   return Polynomial(std::move(product));
 }
 
-struct Polynomial::Division {
-  Polynomial quotient, remainder;
-};
-
-// Both are multiplied by the absolute value of the divisor's leading coefficient at every step, so signs
-// stay.
-Polynomial::Division Polynomial::divided_by(const Polynomial& other) const {
-  std::vector<Integer> rest = c_;
+// The dividend is multiplied by the absolute value of the divisor's leading coefficient at every step, so signs
+// stay; `with_quotient` takes each next coefficient of the quotient, to which all before it adapt likewise.
+template <class WithQuotient>
+void Polynomial::divide_by(const Polynomial& other, const WithQuotient& with_quotient) {
   const std::size_t n = other.c_.size();
   const Integer lead = abs(other.c_.back());
-  const int sign = other.c_.back().sign();
-  std::vector<Integer> quotient(rest.size() >= n ? rest.size() - n + 1 : 0);
-  for (std::size_t i = quotient.size(); i-- > 0;) {
-    const Integer top = rest[i + n - 1] * sign;
-    for (Integer& each : quotient) each *= lead;
-    quotient[i] = top;
-    for (Integer& each : rest) each *= lead;
-    for (std::size_t j = 0; j < n; ++j) rest[i + j] -= top * other.c_[j];
+  const bool is_negative = other.c_.back().sign() < 0;
+  while (c_.size() >= n) {
+    Integer top = std::move(c_.back());
+    c_.pop_back();
+    if (is_negative) top = -top;
+    if (top.is_zero()) continue;
+    const std::size_t shift = c_.size() + 1 - n;
+    for (Integer& each : c_) each *= lead;
+    for (std::size_t j = 0; j + 1 < n; ++j) c_[shift + j] -= top * other.c_[j];
+    with_quotient(shift, lead, std::move(top));
   }
-  return {Polynomial(std::move(quotient)), Polynomial(std::move(rest))};
 }
 
-Polynomial Polynomial::primitive() const {
-  if (is_zero()) return {};
+Polynomial Polynomial::primitive() && {
   Integer common = 0;
-  for (const Integer& c : c_) common = gcd(common, c);
-  std::vector<Integer> divided;
-  for (const Integer& c : c_) divided.emplace_back(c / common);
-  return Polynomial(std::move(divided));
+  for (const Integer& c : c_) {
+    common = gcd(common, c);
+    if (common == 1) break;
+  }
+  if (common != 1)
+    for (Integer& c : c_) c /= common;
+  return Polynomial(std::move(c_));
 }
 
 Polynomial Polynomial::remainder(const Polynomial& other) const {
-  return divided_by(other).remainder.primitive();
+  Polynomial rest = *this;
+  rest.divide_by(other, [](std::size_t, const Integer&, Integer&&) {});
+  return Polynomial(std::move(rest.c_)).primitive();
 }
+
 Polynomial Polynomial::quotient(const Polynomial& other) const {
-  return divided_by(other).quotient.primitive();
+  Polynomial rest = *this;
+  std::vector<Integer> quotient(c_.size() >= other.c_.size() ? c_.size() - other.c_.size() + 1 : 0);
+  rest.divide_by(other, [&](std::size_t i, const Integer& lead, Integer&& top) {
+    for (Integer& each : quotient) each *= lead;
+    quotient[i] = std::move(top);
+  });
+  return Polynomial(std::move(quotient)).primitive();
 }
 
 namespace {

@@ -37,9 +37,9 @@ class Polynomial {
   [[nodiscard]] Polynomial quotient(const Polynomial& other) const;
 
  private:
-  struct Division;
-  [[nodiscard]] Division divided_by(const Polynomial& other) const;
-  [[nodiscard]] Polynomial primitive() const;
+  template <class WithQuotient>
+  void divide_by(const Polynomial& other, const WithQuotient& with_quotient);
+  [[nodiscard]] Polynomial primitive() &&;
 
   std::vector<Integer> c_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,12 +17,13 @@ namespace nearmiss {
 namespace parity {
 namespace {
 
+using Integer = CGAL::Gmpz;
 using Number = CGAL::Gmpq;
-using Kernel = CGAL::Simple_cartesian<Number>;
-using Vector = Kernel::Vector_3;
+using Vector = CGAL::Simple_cartesian<Integer>::Vector_3;
 
+int sign(const Integer& x) { return CGAL::sign(x); }
 int sign(const Number& x) { return CGAL::sign(x); }
-Number determinant(const Vector& a, const Vector& b, const Vector& c) {
+Integer determinant(const Vector& a, const Vector& b, const Vector& c) {
   return CGAL::cross_product(a, b) * c;
 }
 
@@ -159,7 +161,7 @@ struct Position {
 Position position(const Patch& patch) {
   const auto& [p00, p10, p01, p11] = patch;
   Position result;
-  const Number volume = determinant(p10 - p00, p01 - p00, p11 - p00);
+  const Integer volume = determinant(p10 - p00, p01 - p00, p11 - p00);
   if (volume == 0) {
     const bool in_plane = determinant(p00, p10, p01) == 0 && determinant(p00, p10, p11) == 0 &&
                           determinant(p00, p01, p11) == 0 && determinant(p10, p01, p11) == 0;
@@ -168,10 +170,10 @@ Position position(const Patch& patch) {
     return result;
   }
   // λ times the volume: the corner replaced by the origin.
-  const Number l00 = determinant(p10, p01, p11);
-  const Number l10 = -determinant(p00, p01, p11);
-  const Number l01 = determinant(p00, p10, p11);
-  const Number l11 = -determinant(p00, p10, p01);
+  const Integer l00 = determinant(p10, p01, p11);
+  const Integer l10 = -determinant(p00, p01, p11);
+  const Integer l01 = determinant(p00, p10, p11);
+  const Integer l11 = -determinant(p00, p10, p01);
   const int v = sign(volume);
   const bool inside = sign(l00) * v >= 0 && sign(l10) * v >= 0 && sign(l01) * v >= 0 && sign(l11) * v >= 0;
   if (!inside) return result;
@@ -203,26 +205,55 @@ Crossings cross_patch(const Patch& patch, const Position& position, const Direct
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-Vector difference(const Query& query, int i, int j, int time) {
-  const auto p = time == 0 ? query.start(i) : query.end(i);
-  const auto q = time == 0 ? query.start(j) : query.end(j);
-  return {Number(p.x()) - Number(q.x()), Number(p.y()) - Number(q.y()), Number(p.z()) - Number(q.z())};
+/// Powers of two, one for each axis, that make every coordinate an integer, the smallest ones that do: scaling
+/// an axis changes no answer.
+using Scale = std::array<int, 3>;
+
+Scale integer_scale(const Query& query) {
+  Scale scale;
+  scale.fill(std::numeric_limits<int>::min());
+  for (std::size_t i = 0; i < query.x.size(); ++i) {
+    double c = query.x[i];
+    if (c == 0) continue;
+    int exponent = std::ilogb(c);
+    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c: 1 to 2^53
+    scale[i % 3] = std::max(scale[i % 3], -exponent);
+  }
+  return scale;
 }
 
-/// A power of two times which every coordinate is an integer: rationals are then quick, and no sign changes.
-Number integer_scale(const Query& query) {
-  int exponent = 0;
-  for (const double c : query.x)
-    if (c != 0) exponent = std::max(exponent, 52 - std::ilogb(c));
-  CGAL::Gmpz power = 1;
-  power <<= static_cast<unsigned long>(exponent);
-  return power;
+Integer scaled(double coordinate, int exponent) {
+  if (coordinate == 0) return 0;
+  const int own = std::ilogb(coordinate) - 52;
+  Integer integer(static_cast<long>(std::ldexp(coordinate, -own)));
+  if (own + exponent >= 0)
+    integer <<= static_cast<unsigned long>(own + exponent);
+  else
+    integer >>= static_cast<unsigned long>(-own - exponent);  // bits that are zero
+  return integer;
 }
+
+Vector difference(const Query& query, int i, int j, int time, const Scale& scale) {
+  const auto p = time == 0 ? query.start(i) : query.end(i);
+  const auto q = time == 0 ? query.start(j) : query.end(j);
+  const auto along = [&](int k) {
+    const int exponent = scale[static_cast<std::size_t>(k)];
+    return scaled(p[k], exponent) - scaled(q[k], exponent);
+  };
+  return {along(0), along(1), along(2)};
+}
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The images of the faces. A triangle is a patch with a side of length 0.
 std::vector<Patch> boundary(const Query& query) {
-  const Number scale = integer_scale(query);
-  const auto f = [&](int i, int j, int time) { return scale * difference(query, i, j, time); };
+  const Scale scale = integer_scale(query);
+  std::array<std::array<std::array<Vector, 2>, 4>, 4> differences;  // of a vertex and one of the other figure
+  for (int i = 0; i < split(query.kind); ++i)
+    for (int j = split(query.kind); j < 4; ++j)
+      for (const int time : {0, 1})
+        differences[index(i)][index(j)][index(time)] = difference(query, i, j, time, scale);
+  const auto f = [&](int i, int j, int time) { return differences[index(i)][index(j)][index(time)]; };
   std::vector<Patch> faces;
   const auto add_side = [&](int i, int j, int k,
                             int l) {  // the difference x_i - x_j moves to x_k - x_l along the side

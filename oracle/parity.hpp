@@ -1,4 +1,4 @@
-// The third answer: root parity of Brochu and Bridson, in rational numbers.
+// The third answer: root parity of Brochu and Bridson, in exact arithmetic.
 #pragma once
 
 #include "ccd/query.hpp"

@@ -31,21 +31,22 @@
 //   of two. Let w be the sum of the magnitudes of two, l that of their factors' misses. Rounding: product,
 //   difference, sum: 3 U w; halving is exact. A level of de Casteljau: s = 1 - t, product, sum: 3, and s + t
 //   = 1 with both in [0, 1] keeps the result within the coefficients; two levels: 6.1 U (w + l). Together at
-//   most 9.2 U w + (1 + 6.1 U) l; taken: 10 U w + 1.01 l.
+//   most 9.2 U w + (1 + 6.1 U) l (8 are proven, since t itself is exact); taken: 10 U w + 1.01 l.
 //
 // - F is made of such sums, without the halving, and a third vector a. Misses of the factors:
 //   L = Σ (A_k l_k + e_a (w_k + l_k)). Rounding: 3 in the sums, product 1, two additions 2, the sum of two
 //   dot products 1, a division by 3 (in double words a product with a rounded 1/3) 2: 9 U M with M = Σ A_k
-//   w_k. Three levels of de Casteljau: 9.1 U (M + L). Together at most 18.3 U M + (1 + 9.1 U) L; taken: 20 U
-//   M + 1.01 L.
+//   w_k. Three levels of de Casteljau: 9.1 U (M + L). Together at most 18.3 U M + (1 + 9.1 U) L (16 are proven, 17
+//   in double words); taken: 20 U M + 1.01 L.
 //
 // - w, l, M and L are computed in double and may be too small by 12 · 2^-53 of themselves: far less than what
 //   is taken too much.
 //
 // - Underflow: a product misses by at most H more, `product_underflow` of the smallest double; halving and
-//   dividing by 3 too; sums are exact down there. W: 2 H or, in the middle, 3 H, and 2 H for each of two levels: 7
-//   H. The bound's own products may lose 8 H. F: the products of b and c 2 H Σ A_k, all others 9 H; L loses
-//   less than 8 H Σ (A_k + e_k), the rest of the bound 4 H. Taken: 16 H, and 16 H (1 + Σ (A_k + e_k)).
+//   dividing by 3 too; sums are exact down there. W: 2 H or, in the middle, 3 H, and 2 H for each of two
+//   levels: 7 H. The bound's own products, with those of `error_near`, may lose 11 H. F: the products of b and c
+//   2 H Σ A_k, all others 9 H; L loses less than 10 H Σ (A_k + e_k), the rest of the bound 10 H. Taken: 32 H,
+//   and 32 H (1 + Σ (A_k + e_k)).
 //
 // - Overflow: sums of products are at most 2 w in W, and 3 M in F, but for rounding. The bounds are computed
 //   from 4 w and 4 M (`headroom`): if anything overflows on the way to a coefficient, or in what `Bernstein`
@@ -61,12 +62,12 @@ inline constexpr double two_leaves = 2.01;        ///< of U w, in l: both factor
 inline constexpr double three_leaves = 3.02;      ///< of U M, in L: all three
 inline constexpr double leaf_growth = 1.01;       ///< of l and L: what later roundings make of them
 inline constexpr double part_rounding = 4;        ///< of U V: a vector on a part of the step
-inline constexpr double underflow_products = 16;  ///< of H
+inline constexpr double underflow_products = 32;  ///< of H
 inline constexpr double headroom = 4;
 
 /// What is added for underflow.
 template <class Real>
-inline constexpr double underflow = underflow_products* product_underflow<Real>* smallest;
+inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
 
 template <class Real>
 using Vec = std::array<Real, 3>;
@@ -112,9 +113,9 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
 
 /// The motion over [lo, hi] of its part of the step: 1 - t, products, sum: 3 roundings.
 template <class Real>
-Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
+Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
-  const auto at = [&](double t) {
+  const auto at = [&](const Bound<Real>& t) {
     const Real late(t);
     const Real early = Real(1) - late;
     Vec<Real> v;
@@ -126,7 +127,7 @@ Motion<Real> part_of(const Motion<Real>& whole, double lo, double hi) {
   part.magnitude = larger_magnitude(part.start, part.end);
   part.rounded_once = false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
+    const Bound<Real> error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
     part.error[k] =
         leaf_growth * error + part_rounding * roundoff<Real> * whole.magnitude[k] + underflow<Real>;
   }

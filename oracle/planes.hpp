@@ -69,9 +69,9 @@ template <Kind kind, class Points>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// The same for the diagonals x ± y, y ± z, z ± x. Their heights are sums or differences of two coordinates, rounded once.
-/// Rounding is monotone, so fl(a) > fl(b) implies a > b, at every size: an overflowing sum is infinite, hence
-/// above every finite one as the exact sum is, and not above another infinite one of its sign.
+/// The same for the diagonals x ± y, y ± z, z ± x. Their heights are sums or differences of two coordinates,
+/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, at every size: an overflowing sum is
+/// infinite, hence above every finite one as the exact sum is, and not above another infinite one of its sign.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x) {
   const auto both = [&](std::size_t k, std::size_t l) {

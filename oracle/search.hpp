@@ -12,6 +12,9 @@
 
 namespace nearmiss::certified {
 
+/// What a part of a part of the step is widened by on both sides.
+inline constexpr double zoom_rounding = 0x1.8p-52;
+
 struct Interval {
   double lo, hi;
 };
@@ -156,11 +159,11 @@ class Search {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
     if (depth_ == deepest || interval.hi - interval.lo > 0.5) return FilterStage::undecided;
-    // Rounded outward by more than the three roundings of numbers up to 1: what is looked at beyond is in the
+    // Rounded outward by more than the four roundings of numbers up to 1: what is looked at beyond is in the
     // step.
     const double length = patch_.end - patch_.begin;
-    const double begin = std::max(patch_.begin, patch_.begin + interval.lo * length - 0x1p-51);
-    const double end = std::min(patch_.end, patch_.begin + interval.hi * length + 0x1p-51);
+    const double begin = std::max(patch_.begin, patch_.begin + interval.lo * length - zoom_rounding);
+    const double end = std::min(patch_.end, patch_.begin + interval.hi * length + zoom_rounding);
     if (length <= narrowest) return FilterStage::undecided;
     const Patch<Real> part = part_of(whole_, begin, end);
     const auto F = coplanarity(part.a, part.b, part.c);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -24,28 +26,45 @@ Vector cross(const Vector& v, const Vector& w) {
   return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
 }
 
-/// x_i in units of 2^exponent, of which every coordinate of the query is a multiple.
-Vector moving_point(const Query& query, int i, int exponent) {
-  const auto integer = [&](double coordinate) {
-    int own = 0;
-    const double fraction = std::frexp(coordinate, &own);
-    const Integer significand(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
-    return coordinate == 0 ? Integer(0) : Integer(significand << static_cast<unsigned>(own - 53 - exponent));
+/// A coordinate other than zero as an odd integer times a power of two.
+struct OddMultiple {
+  std::int64_t odd;
+  int exponent;
+
+  explicit OddMultiple(double coordinate) {
+    const double fraction = std::frexp(coordinate, &exponent);
+    odd = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(odd));
+    odd >>= zeros;
+    exponent += zeros - 53;
+  }
+};
+
+/// For each axis the largest power of two of which every coordinate along it is a multiple: scaling an axis
+/// changes no answer.
+std::array<int, 3> exponents_of_units(const Query& query) {
+  std::array<int, 3> smallest;
+  smallest.fill(std::numeric_limits<int>::max());
+  for (std::size_t i = 0; i < query.x.size(); ++i)
+    if (query.x[i] != 0) smallest[i % 3] = std::min(smallest[i % 3], OddMultiple(query.x[i]).exponent);
+  return smallest;
+}
+
+/// x_i in these units.
+Vector moving_point(const Query& query, int i, const std::array<int, 3>& units) {
+  const auto integer = [](double coordinate, int unit) {
+    if (coordinate == 0) return Integer(0);
+    const OddMultiple number(coordinate);
+    return Integer(Integer(number.odd) << static_cast<unsigned>(number.exponent - unit));
   };
   Vector x;
   for (int k = 0; k < 3; ++k) {
-    const Integer start = integer(query.start(i)[k]);
-    const Integer end = integer(query.end(i)[k]);
+    const int unit = units[static_cast<std::size_t>(k)];
+    const Integer start = integer(query.start(i)[k], unit);
+    const Integer end = integer(query.end(i)[k], unit);
     x[static_cast<std::size_t>(k)] = Polynomial({start, end - start});
   }
   return x;
-}
-
-int common_exponent(const Query& query) {
-  int smallest = std::numeric_limits<int>::max();
-  for (const double c : query.x)
-    if (c != 0) smallest = std::min(smallest, std::ilogb(c) - 52);
-  return smallest;
 }
 
 /// x lies on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is not
@@ -62,51 +81,73 @@ struct OnSegment {
 /// The figures of a query. Where F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
 /// at least zero: x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on
 /// N; x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and (x2 - x0) × (x1 - x0) = β N
-/// with N = (x1 - x0) × (x3 - x2).
-struct Figures {
-  Polynomial F, area;
-  std::vector<Polynomial> weights;
-  std::vector<OnSegment> segments;
-
-  explicit Figures(const Query& query) {
-    const int unit = common_exponent(query);
-    const Vector x0 = moving_point(query, 0, unit);
-    const Vector x1 = moving_point(query, 1, unit);
-    const Vector x2 = moving_point(query, 2, unit);
-    const Vector x3 = moving_point(query, 3, unit);
-    if (query.kind == Kind::vertex_triangle) {
-      const Vector N = cross(x2 - x1, x3 - x1);
-      area = dot(N, N);
-      F = dot(x0 - x1, N);
-      weights = {dot(cross(x2 - x0, x3 - x0), N), dot(cross(x3 - x0, x1 - x0), N),
-                 dot(cross(x1 - x0, x2 - x0), N)};
-      segments = {{x0, x1, x2}, {x0, x2, x3}, {x0, x3, x1}};
-    } else {
-      const Vector N = cross(x1 - x0, x3 - x2);
-      area = dot(N, N);
-      F = dot(x2 - x0, N);
-      const Polynomial alpha = dot(cross(x2 - x0, x3 - x2), N);
-      const Polynomial beta = dot(cross(x2 - x0, x1 - x0), N);
-      weights = {alpha, area - alpha, beta, area - beta};
-      segments = {{x0, x2, x3}, {x1, x2, x3}, {x2, x0, x1}, {x3, x0, x1}};
-    }
+/// with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials: each is made when first asked for.
+class Figures {
+ public:
+  explicit Figures(const Query& query) : kind_(query.kind) {
+    const auto units = exponents_of_units(query);
+    for (int i = 0; i < 4; ++i) x_[static_cast<std::size_t>(i)] = moving_point(query, i, units);
+    const auto& [x0, x1, x2, x3] = x_;
+    N_ = is_vertex_triangle() ? cross(x2 - x1, x3 - x1) : cross(x1 - x0, x3 - x2);
+    F_ = dot(is_vertex_triangle() ? x0 - x1 : x2 - x0, N_);
   }
+
+  [[nodiscard]] const Polynomial& F() const { return F_; }
+  const Polynomial& area() {
+    if (!area_) area_ = dot(N_, N_);
+    return *area_;
+  }
+  const std::vector<Polynomial>& weights() {
+    if (weights_.empty()) weights_ = make_weights();
+    return weights_;
+  }
+  const std::vector<OnSegment>& segments() {
+    if (segments_.empty()) segments_ = make_segments();
+    return segments_;
+  }
+
+ private:
+  [[nodiscard]] bool is_vertex_triangle() const { return kind_ == Kind::vertex_triangle; }
+
+  [[nodiscard]] std::vector<Polynomial> make_weights() {
+    const auto& [x0, x1, x2, x3] = x_;
+    if (is_vertex_triangle())
+      return {dot(cross(x2 - x0, x3 - x0), N_), dot(cross(x3 - x0, x1 - x0), N_),
+              dot(cross(x1 - x0, x2 - x0), N_)};
+    const Polynomial alpha = dot(cross(x2 - x0, x3 - x2), N_);
+    const Polynomial beta = dot(cross(x2 - x0, x1 - x0), N_);
+    return {alpha, area() - alpha, beta, area() - beta};
+  }
+
+  [[nodiscard]] std::vector<OnSegment> make_segments() const {
+    const auto& [x0, x1, x2, x3] = x_;
+    if (is_vertex_triangle()) return {{x0, x1, x2}, {x0, x2, x3}, {x0, x3, x1}};
+    return {{x0, x2, x3}, {x1, x2, x3}, {x2, x0, x1}, {x3, x0, x1}};
+  }
+
+  Kind kind_;
+  std::array<Vector, 4> x_;
+  Vector N_;
+  Polynomial F_;
+  std::optional<Polynomial> area_;
+  std::vector<Polynomial> weights_;
+  std::vector<OnSegment> segments_;
 };
 
 enum class Meeting { none, inside, at_border };
 
-Meeting meeting_at(const Figures& figures, const Root& t) {
-  if (t.sign(figures.area) > 0) {
+Meeting meeting_at(Figures& figures, const Root& t) {
+  if (t.sign(figures.area()) > 0) {
     int least = 1;
-    for (const Polynomial& weight : figures.weights) {
+    for (const Polynomial& weight : figures.weights()) {
       least = std::min(least, t.sign(weight));
       if (least < 0) return Meeting::none;
     }
     return least > 0 && !t.is_end() ? Meeting::inside : Meeting::at_border;
   }
-  const bool any = std::any_of(figures.segments.begin(), figures.segments.end(), [&](const OnSegment& on) {
-    return t.sign(on.off_line) == 0 && t.sign(on.beyond) <= 0;
-  });
+  const bool any =
+      std::any_of(figures.segments().begin(), figures.segments().end(),
+                  [&](const OnSegment& on) { return t.sign(on.off_line) == 0 && t.sign(on.beyond) <= 0; });
   return any ? Meeting::at_border : Meeting::none;
 }
 
@@ -119,10 +160,10 @@ int multiplicity(const Polynomial& F, const Root& t) {
 
 /// F is zero identically: the set of colliding times is closed, and its least element is 0 or a root of one
 /// of the polynomials whose signs decide.
-bool collides_in_plane(const Figures& figures) {
-  std::vector<const Polynomial*> deciding{&figures.area};
-  for (const Polynomial& weight : figures.weights) deciding.push_back(&weight);
-  for (const OnSegment& on : figures.segments) {
+bool collides_in_plane(Figures& figures) {
+  std::vector<const Polynomial*> deciding{&figures.area()};
+  for (const Polynomial& weight : figures.weights()) deciding.push_back(&weight);
+  for (const OnSegment& on : figures.segments()) {
     deciding.push_back(&on.off_line);
     deciding.push_back(&on.beyond);
   }
@@ -141,21 +182,21 @@ bool collides_in_plane(const Figures& figures) {
 RootCount count_roots(const Query& query) {
   using namespace sturm;
   const PlainArithmetic guard;
-  const Figures figures(query);
+  Figures figures(query);
   RootCount count;
-  if (figures.F.is_zero()) {
+  if (figures.F().is_zero()) {
     count.planar = true;
     count.collision = collides_in_plane(figures);
     count.on_boundary = count.collision;
     return count;
   }
-  for (const Root& t : roots_in_unit_interval(figures.F)) {
+  for (const Root& t : roots_in_unit_interval(figures.F())) {
     const Meeting meeting = meeting_at(figures, t);
     if (meeting == Meeting::none) continue;
     count.collision = true;
     count.on_boundary |= meeting == Meeting::at_border;
     ++count.distinct;
-    count.with_multiplicity += multiplicity(figures.F, t);
+    count.with_multiplicity += multiplicity(figures.F(), t);
   }
   return count;
 }

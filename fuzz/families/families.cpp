@@ -48,7 +48,11 @@ Family at_value(const Family& family, double value) {
     draw(random, parameter);  // what follows is drawn as where the value is not fixed
     return parameter.make(random, kind, value);
   };
-  return {name, family.about, family.planted, make, std::nullopt};
+  Family fixed = family;
+  fixed.name = name;
+  fixed.make = make;
+  fixed.parameter.reset();
+  return fixed;
 }
 
 std::vector<Family> sweep(const Family& family, int steps) {
@@ -67,7 +71,7 @@ std::vector<Family> sweep(const Family& family, int steps) {
 std::span<const Family> families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
-    for (auto& theme : {random_families(), extreme_families(), root_families()})
+    for (auto& theme : {random_families(), extreme_families(), root_families(), range_families()})
       joined.insert(joined.end(), theme.begin(), theme.end());
     return joined;
   }();

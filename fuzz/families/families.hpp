@@ -32,6 +32,7 @@ struct Family {
   std::optional<Parameter> parameter{};  ///< each query draws its own value, uniformly
   std::uint64_t block_cases = 100;       ///< queries in a round of a campaign; fewer where they are dear
   bool timed = true;                     ///< whether the time that answers take counts
+  bool compare_all = false;              ///< every query is decided by all methods of the oracle
 };
 
 /// A family with a parameter.

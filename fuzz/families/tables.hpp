@@ -10,5 +10,6 @@ namespace nearmiss {
 std::vector<Family> random_families();
 std::vector<Family> extreme_families();
 std::vector<Family> root_families();
+std::vector<Family> range_families();
 
 }  // namespace nearmiss

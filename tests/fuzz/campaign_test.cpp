@@ -76,6 +76,16 @@ TEST(Campaign, SharesTheCasesOutAmongTheFamilies) {
   EXPECT_EQ(sum, 4000);
 }
 
+TEST(Campaign, ComparesAllAnswersWhereAFamilyAsksForIt) {
+  CampaignPlan plan = plan_of(40, 1);
+  plan.families = {find_family("uniform"), find_family("near-underflow"),
+                   find_family("near-underflow@-1074")};
+  for (Family& family : plan.families) family.block_cases = 2;
+  plan.comparison.one_in = std::uint64_t{1} << 62;
+  for (const auto& [key, counts] : run(plan).statistics.oracle)
+    EXPECT_EQ(counts.compared, key.second == "uniform" ? 0 : counts.queries) << key.second;
+}
+
 TEST(Campaign, WangMissesNothingAndStaysWithinItsBound) {
   const Ran all = run(plan_of(4000, 2));
   for (const auto& [key, counts] : all.statistics.counts) {

@@ -3,16 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <string>
 
 #include "ccd/error.hpp"
+#include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm.hpp"
 
@@ -64,19 +68,35 @@ std::uint64_t fingerprint(const Family& family) {
 // log-uniform numbers make others on processors without fused multiply-add.)
 TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
   const std::map<std::string, std::uint64_t> recorded{
-      {"uniform", 0x9d788afc3f9872d2},       {"uniform-end", 0x51bdb7ca97be4040},
-      {"uniform-slow", 0xf2b2d27702261e8f},  {"planted", 0x203e0fd07c7149f5},
-      {"planted-ulp", 0x07a4320769488cd8},   {"grazing", 0x21f88a893ea1f500},
-      {"parallel", 0x316a1560d9b96f5c},      {"small", 0xbc7ce221d18f80dd},
-      {"sliver", 0x8f6615bf8edcd37a},        {"planar", 0x79b70d5d5080ceee},
-      {"small-integer", 0x5ff28ae8897b3d34}, {"degenerate", 0x09b99353cfe012e2},
-      {"stiff", 0x2802db844ad3bd2f},         {"aspect", 0x4d28aa5db5fd6a9e},
-      {"offset", 0x05e37fc9d951f87f},        {"scale", 0x5aa35df3456daed4},
-      {"mixed-scale", 0x14306776b39a0863},   {"near-parallel-edges", 0xf707b572d0cb008f},
-      {"needle", 0xda7cdbd684870c07},        {"static-pair", 0x81d5de92dc5bd650},
-      {"rigid", 0x6fdd9a1b546dcb3a},         {"end-contact", 0x580f7ad495da72ff},
-      {"even-roots", 0xf83c1c8571aac442},    {"triple-root", 0x5608c495f14a33f1},
+      {"uniform", 0x9d788afc3f9872d2},
+      {"uniform-end", 0x51bdb7ca97be4040},
+      {"uniform-slow", 0xf2b2d27702261e8f},
+      {"planted", 0x203e0fd07c7149f5},
+      {"planted-ulp", 0x07a4320769488cd8},
+      {"grazing", 0x21f88a893ea1f500},
+      {"parallel", 0x316a1560d9b96f5c},
+      {"small", 0xbc7ce221d18f80dd},
+      {"sliver", 0x8f6615bf8edcd37a},
+      {"planar", 0x79b70d5d5080ceee},
+      {"small-integer", 0x5ff28ae8897b3d34},
+      {"degenerate", 0x09b99353cfe012e2},
+      {"stiff", 0x2802db844ad3bd2f},
+      {"aspect", 0x4d28aa5db5fd6a9e},
+      {"offset", 0x05e37fc9d951f87f},
+      {"scale", 0x5aa35df3456daed4},
+      {"mixed-scale", 0x14306776b39a0863},
+      {"near-parallel-edges", 0xf707b572d0cb008f},
+      {"needle", 0xda7cdbd684870c07},
+      {"static-pair", 0x81d5de92dc5bd650},
+      {"rigid", 0x6fdd9a1b546dcb3a},
+      {"end-contact", 0x580f7ad495da72ff},
+      {"even-roots", 0xf83c1c8571aac442},
+      {"triple-root", 0x5608c495f14a33f1},
       {"overflow", 0xbdfadc35c5f6dd06},
+      {"near-overflow", 0x1872a4afd1add163},
+      {"near-overflow-planted", 0x77b1879b5edcd824},
+      {"near-underflow", 0x4bbbe4335c45df41},
+      {"near-underflow-planted", 0x7255a98084a399c3},
   };
   ASSERT_TRUE(recorded.contains(GetParam().name)) << std::hex << fingerprint(GetParam());
   EXPECT_EQ(fingerprint(GetParam()), recorded.at(GetParam().name)) << std::hex << fingerprint(GetParam());
@@ -241,6 +261,106 @@ TEST(TripleRoot, IsExactHereAndThere) {
   };
   for (const char* family : {"triple-root@-16", "triple-root@0"})
     EXPECT_GT(count(family, is_triple), 4) << family;
+}
+
+// --- the ends of double's range --------------------------------------------------------------------------
+
+/// The sum of the magnitudes of F's products of three differences from x0; or of products of two, in the
+/// component of the weights that leaves out an axis. An x87 long double has room for all of them.
+long double sum_of_products(const Query& query, std::size_t left_out) {
+  const auto difference = [&](std::size_t vertex, std::size_t k) -> long double {
+    const auto v = static_cast<int>(vertex);
+    const auto i = static_cast<int>(k);
+    return std::max(std::abs(query.start(v)[i] - query.start(0)[i]),
+                    std::abs(query.end(v)[i] - query.end(0)[i]));
+  };
+  long double sum = 0;
+  std::array<std::size_t, 3> axis{0, 1, 2};
+  do {
+    long double product = 1;
+    for (std::size_t v = 0; v < 3; ++v) product *= axis[v] == left_out ? 1 : difference(v + 1, axis[v]);
+    sum += product;
+  } while (std::next_permutation(axis.begin(), axis.end()));
+  return sum;
+}
+
+/// Whether a sum of products of two or three, or its square, is as large as the parameter says.
+bool products_are_about(const Query& query, int x) {
+  const auto is_about = [](long double sum, int exponent) {
+    const long double size = std::ldexp(sum, -exponent);
+    return 1 - 1e-12L < size && size < 2 + 1e-12L;  // a coordinate may have been moved by ulps
+  };
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    const long double sum = sum_of_products(query, left_out);
+    if (is_about(sum, x) || is_about(sum, static_cast<int>(std::floor(x / 2.0)))) return true;
+  }
+  return false;
+}
+
+TEST(Range, ProductsAreAsLargeAsTheParameterSays) {
+  for (const char* name : {"near-overflow", "near-overflow-planted"})
+    for (const int x : {1016, 1023, 1024, 1025})
+      EXPECT_GT(
+          count(fmt::format("{}@{}", name, x), [&](const Query& q) { return products_are_about(q, x); }), 380)
+          << name << ' ' << x;
+  for (const char* name : {"near-underflow", "near-underflow-planted"})
+    for (const int x : {-1090, -1074, -1022, -1006})
+      EXPECT_GT(
+          count(fmt::format("{}@{}", name, x), [&](const Query& q) { return products_are_about(q, x); }), 380)
+          << name << ' ' << x;
+}
+
+double largest_coordinate(const Query& query) {
+  double largest = 0;
+  for (const double c : query.x) largest = std::max(largest, std::abs(c));
+  return largest;
+}
+
+TEST(Range, CoordinatesAreOfEverySizeThatProductsOverflowAt) {
+  const auto between = [&](double lo, double hi) {
+    return count("near-overflow@1023", [&](const Query& query) {
+      const double largest = largest_coordinate(query);
+      return lo <= largest && largest < hi;
+    });
+  };
+  EXPECT_GT(between(0x1p165, 0x1p173), 4);    // products of six
+  EXPECT_GT(between(0x1p250, 0x1p258), 4);    // of four
+  EXPECT_GT(between(0x1p335, 0x1p344), 100);  // of three
+  EXPECT_GT(between(0x1p505, 0x1p514), 10);   // of two
+  EXPECT_GT(between(0x1p514, 0x1p1000), 10);  // of sizes far apart
+}
+
+TEST(Range, SomeOfTheSumsOverflowAndOthersDoNot) {
+  const auto overflowing = [](int x) {
+    return count("near-overflow@" + std::to_string(x), [](const Query& query) {
+      return sum_of_products(query, 3) > std::numeric_limits<double>::max();
+    });
+  };
+  EXPECT_LT(overflowing(1023), 100);  // products of two, where those of three are far larger
+  EXPECT_GT(overflowing(1024), 200);
+}
+
+TEST(Range, ContactIsPlantedAtEveryTimeAndPlace) {
+  for (const char* name : {"near-overflow-planted", "near-underflow-planted"}) {
+    std::string seen;
+    count(name, [&](const Query& query) {
+      seen += to_text(query.kind, contact_features(query).value()) + "\n";
+      return true;
+    });
+    for (const char* feature : {"simple-root", "multiple-root", "planar", "at-start", "inside", "at-end",
+                                "in-face", "on-edge", "on-vertex", "crossing", "end-on-edge", "end-on-end"})
+      EXPECT_THAT(seen, HasSubstr(feature)) << name;
+  }
+}
+
+TEST(Range, EveryQueryIsDecidedByAllMethods) {
+  for (const Family& family : families())
+    EXPECT_EQ(family.compare_all,
+              family.name.starts_with("near-overflow") || family.name.starts_with("near-underflow"))
+        << family.name;
+  EXPECT_TRUE(find_family("near-overflow@1023").compare_all);
+  EXPECT_TRUE(find_family("near-overflow-planted@1023").planted);
+  EXPECT_EQ(find_family("near-overflow@1023").block_cases, find_family("near-overflow").block_cases);
 }
 
 }  // namespace

@@ -179,6 +179,13 @@ TEST(Trial, ComparesTheAnswersOfTheOracleAsAsked) {
   EXPECT_EQ(counts(some_of("planted-ulp"), {}).near_bounds, 0);  // not asked for
 }
 
+TEST(Trial, ComparesAllAnswersWhereTheBatchAsksForIt) {
+  Batch all = batch();
+  EXPECT_EQ(hold_trial({}, all, {.one_in = std::uint64_t{1} << 62}).statistics.oracle_total().compared, 0);
+  all.compare_all = true;
+  EXPECT_EQ(hold_trial({}, all, {.one_in = std::uint64_t{1} << 62}).statistics.oracle_total().compared, 2);
+}
+
 TEST(TrialStream, DecidesEverythingInOrder) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{false};

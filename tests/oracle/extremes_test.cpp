@@ -138,6 +138,27 @@ TEST(Extremes, DifferencesThatOverflow) {
                    false);
 }
 
+TEST(Extremes, SumsOfProductsThatOverflow) {
+  // No product of three differences does.
+  const Query crossing =
+      testing::scaled(make_query(Kind::edge_edge, {{2, 0, 0}, {0, 2, 0}, {1.5, 0, -1}, {0, 0, 0}},
+                                 {{-1.5, -1.5, 0}, {0, 0, 0}, {0, 1.5, 1.5}, {2, 0, 0}}),
+                      0x1p340);
+  expect_collision(crossing, true);
+  const auto time = earliest_time(crossing);
+  ASSERT_TRUE(time.has_value());
+  EXPECT_NEAR(time->enclosure.lo, 0.3219, 1e-4);
+  // Two points of about 1, two of about 2^511.
+  constexpr double huge = 0x1p511;
+  const Query mixed =
+      make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 2}, {0, -huge / 2, 0}, {-1.5 * huge, 0, 0}},
+                 {{0, 0, 0}, {0, -1, 2}, {huge, huge, 0}, {huge, 0, 0}});
+  expect_collision(mixed, true);
+  const auto third = earliest_time(mixed);
+  ASSERT_TRUE(third.has_value());
+  EXPECT_EQ(third->rational, "1/3");
+}
+
 TEST(Extremes, AllCoordinatesEqual) {
   for (const double c : {0.0, -0.0, 1.0, smallest, largest, -largest})
     for (const Kind kind : kinds) {

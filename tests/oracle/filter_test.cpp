@@ -329,21 +329,5 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   }
 }
 
-TEST(Filter, OverflowMakesNothingSure) {
-  for (const double scale : {0x1p1023, 0x1p600, 0x1p345}) {
-    expect_right(testing::scaled(testing::falling_vertex(0.25, 0.25, 1, -1), scale));
-    expect_right(testing::scaled(testing::falling_edge(1, -1), scale));
-    expect_right(testing::scaled(testing::falling_vertex(0.75, 0.75, 1, -1), scale));
-  }
-}
-
-TEST(Filter, UnderflowMakesNothingSure) {
-  for (const double scale : {0x1p-1074, 0x1p-1060, 0x1p-500, 0x1p-360}) {
-    expect_right(testing::scaled(testing::falling_vertex(0.25, 0.25, 1, -1), scale));
-    expect_right(testing::scaled(testing::falling_edge(1, -1), scale));
-    expect_right(testing::scaled(testing::falling_vertex(0.75, 0.75, 1, -1), scale));
-  }
-}
-
 }  // namespace
 }  // namespace nearmiss

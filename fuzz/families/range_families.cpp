@@ -1,0 +1,265 @@
+// Products of coordinates at the ends of double's range: no coordinate overflows or underflows, but products
+// of two, three, four or six differences of coordinates do, or their sums. The components of the weights' W are
+// sums of products of two, F of three; their squares are of four and six. A query is first made of small
+// numbers, and then its vertices and axes are scaled by powers of two, which is exact.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "fuzz/families/figures.hpp"
+#include "fuzz/families/tables.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+// --- queries of small numbers -----------------------------------------------------------------------
+
+/// A query before it is scaled.
+struct Draft {
+  Query query;
+  bool scales_vertices = false;  ///< no contact is lost where a vertex is scaled, for it is at the origin
+};
+
+/// Exact contact: in the face, on an edge or in a vertex, at any time of the step, its ends included. One in
+/// three is tangential.
+Draft touching(Random& random, Kind kind) {
+  Contact contact = integer_contact(random, kind);
+  const bool at_origin = random.one_in(2);
+  if (at_origin) move_to_origin(kind, contact, random.integer_vector(random.integer(0, 1) << 4));
+  Vector w = random.integer_vector(1 << random.integer(0, 16));
+  if (random.one_in(3)) {
+    const Vector along_r = random.integer(-4, 4) / 4.0 * contact.r.at(contact.time);
+    const Vector in_plane = random.integer(-4, 4) / 4.0 * contact.q.at(contact.time) + along_r;
+    w = contact.velocity(kind) + in_plane;
+  }
+  return {meet(kind, contact, w), at_origin};
+}
+
+/// Exact contact of small integers, at the origin and inside the step. Everything moves as fast as it is
+/// large, so that a wrong root of F is a time without contact.
+Draft small_touching(Random& random, Kind kind) {
+  const auto path = [&] {
+    const Vector start = random.integer_vector(2);
+    return Path{start, random.integer_vector(2)};
+  };
+  const int eighths = random.integer(0, 8);
+  const int left = kind == Kind::vertex_triangle ? 8 - eighths : 8;
+  Contact contact;
+  contact.alpha = eighths / 8.0;
+  contact.beta = random.integer(0, left) / 8.0;
+  contact.time = random.integer(1, 15) / 16.0;
+  contact.q = path();
+  contact.r = path();
+  move_to_origin(kind, contact, random.integer_vector(2));
+  return {meet(kind, contact, random.integer_vector(random.integer(1, 4))), true};
+}
+
+/// Small integers; in one of four queries one primitive rests.
+Query lattice(Random& random, Kind kind) {
+  const int size = random.integer(1, 4);
+  Query query{.kind = kind};
+  for (double& c : query.x) c = random.integer(-size, size);
+  if (random.one_in(4)) {
+    const bool first = random.one_in(2);
+    for (int i = first ? 0 : split(kind); i < (first ? split(kind) : 4); ++i)
+      query.set_end(i, query.start(i));
+  }
+  return query;
+}
+
+/// Integer points next to a plane that is oblique to the axes: the products in F are far larger than their
+/// sum, and F changes its sign often.
+Query oblique(Random& random, Kind kind) {
+  const Vector P = random.integer_vector(2);
+  const Vector Q = random.integer_vector(2);
+  Query query{.kind = kind};
+  for (int i = 0; i < 4; ++i) {
+    const auto point = [&]() -> Vector {
+      const Vector along_P = random.integer(-3, 3) * P;
+      const Vector in_plane = along_P + random.integer(-3, 3) * Q;
+      return in_plane + random.integer_vector(random.integer(0, 1));
+    };
+    query.set_start(i, point());
+    query.set_end(i, point());
+  }
+  return query;
+}
+
+Query cube(Random& random, Kind kind) {
+  Query query{.kind = kind};
+  for (double& c : query.x) c = random.uniform(-1, 1);
+  return query;
+}
+
+/// Contact at the origin, or a near miss: a weight or the time is outside [0, 1] by a power of two down to ε.
+Draft aimed(Random& random, Kind kind) {
+  Numbers numbers(random);
+  Contact contact = numbers.contact(kind, numbers.speed());
+  move_to_origin(kind, contact, numbers.velocity());
+  return {meet(kind, contact, numbers.velocity()), true};
+}
+
+Draft any_contact(Random& random, Kind kind) {
+  return random.one_in(2) ? touching(random, kind) : small_touching(random, kind);
+}
+
+Draft any_draft(Random& random, Kind kind) {
+  switch (random.integer(0, 5)) {
+    case 0:
+      return {lattice(random, kind), random.one_in(2)};
+    case 1:
+      return {oblique(random, kind), random.one_in(2)};
+    case 2:
+      return {cube(random, kind), random.one_in(2)};
+    case 3:
+      return aimed(random, kind);
+    default:
+      return any_contact(random, kind);
+  }
+}
+
+// --- sizes ------------------------------------------------------------------------------------------
+
+/// The larger magnitudes, of both times, of x_v - x_0, v = 1, 2, 3, along each axis.
+using Differences = std::array<std::array<double, 3>, 3>;
+
+Differences differences(const Query& query) {
+  Differences larger{};
+  for (int v = 1; v < 4; ++v) {
+    const Vector start = query.start(v) - query.start(0);
+    const Vector end = query.end(v) - query.end(0);
+    for (int k = 0; k < 3; ++k)
+      larger[static_cast<std::size_t>(v - 1)][static_cast<std::size_t>(k)] =
+          std::max(std::abs(start[k]), std::abs(end[k]));
+  }
+  return larger;
+}
+
+constexpr std::size_t none = 3;  ///< of the axes
+
+/// The sum of F's products of three differences, one along each axis; or of products of two in the component
+/// of the weights along an axis, which they leave out.
+double sum_of_products(const Query& query, std::size_t left_out) {
+  const Differences d = differences(query);
+  double sum = 0;
+  std::array<std::size_t, 3> axis{0, 1, 2};
+  do {
+    double product = 1;
+    for (std::size_t v = 0; v < 3; ++v) product *= axis[v] == left_out ? 1 : d[v][axis[v]];
+    sum += product;
+  } while (std::next_permutation(axis.begin(), axis.end()));
+  return sum;
+}
+
+void scale_axis(Query& query, std::size_t axis, int exponent) {
+  for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
+}
+
+/// Multiplies an axis by the largest multiple of 1/8 that leaves the exponent of the sum of products as it is:
+/// an overflow of what is two or three times as large is then likely.
+void fill_binade(Query& query, std::size_t axis, double sum) {
+  const double mantissa = std::ldexp(sum, -std::ilogb(sum));
+  const double factor = (std::ceil(16 / mantissa) - 1) / 8;
+  for (std::size_t i = axis; i < 24; i += 3) query.x[i] *= factor;
+}
+
+/// Scales the axes, but for the one that is left out, so that the sum of products is in [2^x, 2^(x + 1)),
+/// unless it is zero: all by the same power of two, as far as x allows, or each by its own, up to 2^spread
+/// more or less.
+void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
+  const double sum = sum_of_products(query, left_out);
+  int exponent = x;
+  if (sum != 0) {
+    exponent -= std::ilogb(sum);
+    if (!random.one_in(4)) fill_binade(query, (left_out + 1) % 3, sum);
+  }
+  const auto first = static_cast<std::size_t>(random.integer(0, 2));
+  int axes = left_out == none ? 3 : 2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t axis = (first + i) % 3;
+    if (axis == left_out) continue;
+    const int part = exponent / axes + (axes == 1 ? 0 : random.integer(-spread, spread));
+    scale_axis(query, axis, part);
+    exponent -= part;
+    --axes;
+  }
+}
+
+/// Makes two of the vertices up to 2^512 times as large or small as the others, or gives each its own size.
+void scale_vertices(Random& random, Query& query) {
+  const int half = random.integer(-256, 256);
+  std::array<int, 4> exponents{-half, -half, half, half};
+  if (random.one_in(2)) std::swap(exponents[1], exponents[2]);
+  if (random.one_in(2))
+    for (int& exponent : exponents) exponent = random.integer(-100, 100);
+  for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], exponents[i / 3 % 4]);
+}
+
+/// Scales products of two. The other axis is scaled like them, so that F overflows or underflows too, or so
+/// that F stays up to 2^60 farther inside the range.
+void scale_products_of_two(Random& random, Query& query, int x, int spread) {
+  const auto left_out = static_cast<std::size_t>(random.integer(0, 2));
+  scale_products(random, query, left_out, x, spread);
+  const int inward = random.integer(0, 60);
+  scale_axis(query, left_out, random.one_in(4) ? x / 2 : x > 0 ? -inward : inward);
+}
+
+/// Half of the queries have coordinates of one size, in the others vertices or axes have sizes of their own.
+Query scaled_to(Random& random, const Draft& draft, int x) {
+  Query query = shuffled(random, draft.query);
+  const bool mixed = random.one_in(2);
+  const bool by_vertex = mixed && draft.scales_vertices;
+  if (by_vertex) scale_vertices(random, query);
+  const int spread = mixed && !by_vertex ? 200 : 0;
+  const int half = static_cast<int>(std::floor(x / 2.0));
+  const int sort = random.integer(0, 7);
+  if (sort < 2)
+    scale_products_of_two(random, query, x, spread);
+  else if (sort == 2)
+    scale_products_of_two(random, query, half, spread);
+  else
+    scale_products(random, query, none, sort == 3 ? half : x, spread);
+  return query;
+}
+
+// --- families ---------------------------------------------------------------------------------------
+
+Query planted(Random& random, Kind kind, double x) {
+  const Draft draft = any_contact(random, kind);
+  return scaled_to(random, draft, static_cast<int>(x));
+}
+
+Query any(Random& random, Kind kind, double x) {
+  const Draft draft = any_draft(random, kind);
+  const Query query = scaled_to(random, draft, static_cast<int>(x));
+  return random.one_in(8) ? nudged(random, query, random.integer(1, 4), 4) : query;
+}
+
+Family family(std::string name, std::string about, bool is_planted, Parameter parameter) {
+  Family made = with_parameter(std::move(name), std::move(about), std::move(parameter));
+  made.planted = is_planted;
+  made.compare_all = true;
+  made.block_cases = 4;  // exact arithmetic takes its time
+  return made;
+}
+
+}  // namespace
+
+std::vector<Family> range_families() {
+  const std::string about = "products of 2, 3, 4 or 6 differences of coordinates add up to about 2^x";
+  return {
+      family("near-overflow", "products of coordinates, or their sums, overflow, or nearly so", false,
+             {about, 1016, 1025, true, any}),
+      family("near-overflow-planted", "the same, in exact contact", true, {about, 1016, 1025, true, planted}),
+      family("near-underflow", "products of coordinates become subnormal or zero, or nearly so", false,
+             {about, -1090, -1006, true, any}),
+      family("near-underflow-planted", "the same, in exact contact", true,
+             {about, -1090, -1006, true, planted}),
+  };
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,41 @@
+// Pieces of Gappa scripts: products of factors 1 + δ, and rational numbers.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "tests/proofs/numbers.hpp"
+
+namespace nearmiss::proofs {
+
+inline std::string script_text(const Rational& x) {
+  return fmt::format("({} / {})", numerator(x).str(), denominator(x).str());
+}
+inline std::string script_text(double x) { return fmt::format("{:a}", x); }
+
+/// The factors of one script, each with a variable δ of its own.
+class Factors {
+ public:
+  /// (1 + δ) ... with so many variables, each at most `size` in magnitude.
+  std::string product(int count, double size) {
+    std::string text = "1";
+    for (int i = 0; i < count; ++i) {
+      const std::string name = fmt::format("d{}", count_++);
+      text += fmt::format(" * (1 + {})", name);
+      ranges_ += fmt::format("{}{} in [{:a}, {:a}]", ranges_.empty() ? "" : " /\\ ", name, -size, size);
+    }
+    return fmt::format("({})", text);
+  }
+
+  /// The script that asks for a goal.
+  [[nodiscard]] std::string script(const std::string& goal) const {
+    return fmt::format("{{ {}{}{} }}\n", ranges_, ranges_.empty() ? "" : " -> ", goal);
+  }
+
+ private:
+  int count_ = 0;
+  std::string ranges_;
+};
+
+}  // namespace nearmiss::proofs

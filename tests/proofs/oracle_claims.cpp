@@ -1,0 +1,151 @@
+// The rounding constants of oracle/, a row each.
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/search.hpp"
+#include "tests/proofs/claim.hpp"
+#include "tests/proofs/oracle_errors.hpp"
+#include "tests/proofs/oracle_proofs.hpp"
+#include "tests/proofs/oracle_seen.hpp"
+
+namespace nearmiss::proofs {
+
+namespace {
+
+using namespace certified;
+
+/// A claim about the roundings of results, in units of U and w or M.
+template <class Real, class Number>
+Claim rounding(std::string name, double claimed, Results results, const std::string& vectors,
+               Rational (*size)(const Inputs&)) {
+  constexpr bool words = std::is_same_v<Number, WordNumber>;
+  const ResultsAt<Number> at(results);
+  const std::string unit = vectors.size() == 3 ? "U M" : "U w";
+  name += words ? ", in double words" : ", in double";
+  return {name,
+          "oracle/patch.hpp",
+          unit,
+          claimed,
+          "Gappa",
+          [=] { return proven_rounding<Real>(results); },
+          [=](const Inputs& inputs) { return at.error(inputs, size(inputs) * Rational(roundoff<Real>)); },
+          [=](Random& random) { return draw_vectors(random, vectors, words); }};
+}
+
+Inputs draw_words(Random& random, double size) {
+  Inputs in;
+  for (const char* name : {"a", "b"}) {
+    in[name] = size * random.uniform(1, 2);
+    in[std::string(name) + ".lo"] = size * 0x1p-53 * random.uniform(-1, 1);
+  }
+  return in;
+}
+/// Double words of opposite signs whose sum loses some bits.
+Inputs draw_sum(Random& random) {
+  Inputs in = draw_words(random, 1);
+  in["b"] = -std::ldexp(in["b"], random.integer(-3, 0));
+  in["b.lo"] = std::ldexp(in["b.lo"], random.integer(-60, 0));
+  return in;
+}
+
+/// Whether components are so small that nothing but underflow counts.
+bool is_tiny(const Inputs& inputs) {
+  return std::all_of(inputs.begin(), inputs.end(), [](const auto& input) {
+    return !is_component(input.first) || std::abs(input.second) <= 0x1p-537;
+  });
+}
+
+/// Such components.
+Inputs draw_tiny(Random& random) {
+  Inputs in = draw_vectors(random, "bc");
+  for (auto& [name, value] : in)
+    if (is_component(name)) value *= 0x1p-537;
+  return in;
+}
+
+Inputs draw_signs(Random& random, const std::string& vectors) {
+  Inputs in = draw_vectors(random, vectors);
+  for (auto& [name, value] : in)
+    if (is_component(name)) value = random.one_in(2) ? 1 : -1;
+  return in;
+}
+
+/// Every input drawn from an interval.
+std::function<Inputs(Random&)> draw_from(const std::map<std::string, std::pair<double, double>>& ranges) {
+  return [ranges](Random& random) {
+    Inputs in;
+    for (const auto& [name, range] : ranges) in[name] = random.uniform(range.first, range.second);
+    return in;
+  };
+}
+
+constexpr auto patch = "oracle/patch.hpp";
+constexpr auto bernstein = "oracle/bernstein.hpp";
+constexpr auto gappa = "Gappa";
+
+void add_polynomials(std::vector<Claim>& claims) {
+  const auto add = [&](Claim claim) { claims.push_back(std::move(claim)); };
+  add(rounding<Traced, double>("weight_rounding", weight_rounding, weight_results<Traced>, "bc", w_of));
+  add(rounding<TracedWord, WordNumber>("weight_rounding", weight_rounding, weight_results<TracedWord>, "bc",
+                                       w_of));
+  add(rounding<Traced, double>("F_rounding", F_rounding, cubic_results<Traced>, "abc", M_of));
+  add(rounding<TracedWord, WordNumber>("F_rounding", F_rounding, cubic_results<TracedWord>, "abc", M_of));
+  const std::pair<double, double> near_zero{-0x1p-52, 0x1p-52};
+  add({"two_leaves", patch, "u w", two_leaves, gappa, [] { return proven_leaves(2, weight_results<Traced>); },
+       seen_leaves, draw_from({{"x", near_zero}, {"y", near_zero}})});
+  add({"three_leaves", patch, "u M", three_leaves, gappa,
+       [] { return proven_leaves(3, cubic_results<Traced>); }, seen_leaves,
+       draw_from({{"x", near_zero}, {"y", near_zero}, {"z", near_zero}})});
+  add({"leaf_growth", patch, "l, L", leaf_growth, gappa, proven_leaf_growth, seen_growth,
+       draw_from({{"p", {0, 1}}, {"q", {0, 1}}, {"ep", {0, 0x1p-50}}, {"eq", {0, 0x1p-50}}})});
+  add(rounding<Traced, double>("part_rounding", part_rounding, part_results<Traced>, "a", A_of));
+  add(rounding<TracedWord, WordNumber>("part_rounding", part_rounding, part_results<TracedWord>, "a", A_of));
+  const ResultsAt<double> weights(weight_results<Traced>);
+  const ResultsAt<double> cubic(cubic_results<Traced>);
+  add({"underflow_products", patch, "H", underflow_products, gappa, proven_underflow_products,
+       [=](const Inputs& in) { return is_tiny(in) ? weights.error(in, Rational(smallest) / 2) : 0; },
+       draw_tiny});
+  add({"headroom, of w", patch, "w", headroom, gappa,
+       [] { return proven_headroom(weight_results<Traced>, 2); },
+       [=](const Inputs& in) { return weights.reach(in, w_of(in)); },
+       [](Random& random) { return draw_signs(random, "bc"); }});
+  add({"headroom, of M", patch, "M", headroom, gappa,
+       [] { return proven_headroom(cubic_results<Traced>, 3); },
+       [=](const Inputs& in) { return cubic.reach(in, M_of(in)); },
+       [](Random& random) { return draw_signs(random, "abc"); }});
+}
+
+void add_others(std::vector<Claim>& claims) {
+  const auto add = [&](Claim claim) { claims.push_back(std::move(claim)); };
+  add({"spread_growth", bernstein, "error + spread", spread_growth, gappa, proven_spread_growth, seen_spread,
+       draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"b2", {-1, 1}}, {"h", {0, 1}}})});
+  add({"slope_errors", bernstein, "error", slope_errors, gappa, proven_slope_errors, seen_slope,
+       draw_from({{"b0", {-1, 1}}, {"b1", {-1, 1}}, {"e", {0, 1}}})});
+  add({"end_rounding", bernstein, "2^-54", end_rounding * 0x1p54, gappa, proven_end_rounding, seen_end,
+       draw_from({{"t", {0.5, 1}}, {"h", {0, 0x1p-50}}})});
+  add({"upper_halves", bernstein, "2^-52", upper_halves * 0x1p52, gappa, proven_upper_halves,
+       seen_upper_halves, [](Random& random) { return draw_words(random, 1); }});
+  add({"zoom_rounding", "oracle/search.hpp", "2^-52", zoom_rounding * 0x1p52, gappa, proven_zoom_rounding,
+       seen_zoom, draw_from({{"b", {0, 1}}, {"e", {0, 1}}, {"x", {0, 1}}})});
+  add({"roundoff, of double", bernstein, "2^-53", roundoff<double> * 0x1p53, gappa, proven_roundoff,
+       seen_roundoff, draw_from({{"x", {0, 0x1p-52}}})});
+  add({"roundoff, of products of double words", bernstein, "2^-103", roundoff<DoubleWord> * 0x1p103, gappa,
+       proven_word_product, seen_word_product, [](Random& random) { return draw_words(random, 1); }});
+  add({"roundoff, of sums of double words", bernstein, "2^-103", roundoff<DoubleWord> * 0x1p103,
+       "3u² / (1 - 4u): Joldes, Muller, Popescu 2017, theorem 3.1; in Coq by Muller, Rideau 2022",
+       [] { return 3 / (1 - 4 * 0x1p-53) / 8; }, seen_word_sum, draw_sum});
+  add({"product_underflow, of double words", bernstein, "2^-1074", product_underflow<DoubleWord>,
+       "argument beside it", [] { return 5.0; }, seen_word_underflow,
+       [](Random& random) { return draw_words(random, std::ldexp(1.0, random.integer(-520, -480))); }});
+}
+
+}  // namespace
+
+std::vector<Claim> oracle_claims() {
+  std::vector<Claim> claims;
+  add_polynomials(claims);
+  add_others(claims);
+  return claims;
+}
+
+}  // namespace nearmiss::proofs

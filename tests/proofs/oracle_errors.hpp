@@ -1,0 +1,45 @@
+// Errors of the filter's arithmetic at given inputs, exactly.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/proofs/claim.hpp"
+#include "tests/proofs/oracle_proofs.hpp"
+
+namespace nearmiss::proofs {
+
+/// The results of templates at inputs: computed in Number, and exactly.
+///
+/// Inputs are components of vectors ("b0y"), with the lower halves of double words behind them ("b0y.lo"; 0 where it is
+/// not given), and times t and s.
+template <class Number>
+class ResultsAt {
+ public:
+  explicit ResultsAt(Results results);
+
+  /// The largest |computed - exact| of all results, in units of `unit`.
+  [[nodiscard]] double error(const Inputs& inputs, const Rational& unit) const;
+  /// The largest magnitude of anything that has a component of every vector as a factor, likewise.
+  [[nodiscard]] double reach(const Inputs& inputs, const Rational& unit) const;
+
+ private:
+  [[nodiscard]] int degree(int instruction) const;
+
+  std::shared_ptr<Trace> trace_ = std::make_shared<Trace>();
+  Program program_;
+  std::vector<int> results_;
+};
+
+/// The magnitude of component x of a; w of component x of b × c; M.
+Rational A_of(const Inputs& inputs);
+Rational w_of(const Inputs& inputs);
+Rational M_of(const Inputs& inputs);
+
+/// Components of some vectors in [-1, 1] and two times, of which t is the earlier one. They are of few bits, or of one size, or
+/// of any, and the lower halves of `words` are within half an ulp.
+Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
+
+}  // namespace nearmiss::proofs

@@ -1,0 +1,88 @@
+// The oracle's templates over Traced: what F, the weights and their bounds compute.
+#pragma once
+
+#include <cctype>
+#include <string>
+
+#include "oracle/patch.hpp"
+#include "tests/proofs/traced.hpp"
+
+namespace nearmiss::proofs {
+
+/// A double word of a traced expression: the same operations, with other errors.
+struct TracedWord {
+  Traced x;
+
+  TracedWord() = default;
+  TracedWord(double constant) : x(constant) {}
+  TracedWord(Traced expression) : x(std::move(expression)) {}
+
+  friend TracedWord operator+(const TracedWord& a, const TracedWord& b) { return a.x + b.x; }
+  friend TracedWord operator-(const TracedWord& a, const TracedWord& b) { return a.x - b.x; }
+  friend TracedWord operator*(const TracedWord& a, const TracedWord& b) { return a.x * b.x; }
+  friend TracedWord operator/(const TracedWord& a, double b) { return a.x / b; }
+};
+
+inline Traced approximate(const Traced& x) { return x; }
+inline Traced approximate(const TracedWord& x) { return x.x; }
+
+}  // namespace nearmiss::proofs
+
+namespace nearmiss::certified {
+
+template <>
+inline constexpr double roundoff<proofs::Traced> = roundoff<double>;
+template <>
+inline constexpr double roundoff<proofs::TracedWord> = roundoff<DoubleWord>;
+template <>
+inline constexpr double product_underflow<proofs::Traced> = product_underflow<double>;
+template <>
+inline constexpr double product_underflow<proofs::TracedWord> = product_underflow<DoubleWord>;
+template <>
+struct BoundOf<proofs::Traced> {
+  using Type = proofs::Traced;
+};
+template <>
+struct BoundOf<proofs::TracedWord> {
+  using Type = proofs::Traced;
+};
+
+}  // namespace nearmiss::certified
+
+namespace nearmiss::proofs {
+
+/// How the components of a vector differ from exact ones.
+enum class Leaves {
+  exact,         ///< not at all
+  rounded_once,  ///< by a factor of 1 ± U
+  given_errors,  ///< by at most `error`
+};
+
+/// A moving vector of inputs: a component is called by the vector, the end of the step and the axis, "a0x"; its
+/// magnitude "Ax", its error "eax".
+template <class Real>
+certified::Motion<Real> traced_motion(Trace& trace, char name, Leaves leaves) {
+  certified::Motion<Real> motion;
+  motion.rounded_once = leaves == Leaves::rounded_once;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string axis(1, "xyz"[k]);
+    const auto input = [&](const std::string& full) { return trace.input(full + axis, 1); };
+    motion.start[k] = input(std::string(1, name) + "0");
+    motion.end[k] = input(std::string(1, name) + "1");
+    motion.magnitude[k] = input(std::string(1, static_cast<char>(std::toupper(name))));
+    motion.error[k] = leaves == Leaves::given_errors ? input(std::string("e") + name) : Traced(0);
+  }
+  return motion;
+}
+
+/// Whether an input is a component of a moving vector.
+inline bool is_component(const std::string& input) {
+  return input.size() == 3 && (input[1] == '0' || input[1] == '1');
+}
+inline std::string magnitude_of(const std::string& input) {
+  if (!is_component(input)) return input;
+  return {static_cast<char>(std::toupper(input[0])), input[2]};
+}
+inline std::string error_of(const std::string& component) { return {'e', component[0], component[2]}; }
+
+}  // namespace nearmiss::proofs

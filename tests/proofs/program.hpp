@@ -1,0 +1,107 @@
+// Expressions as a list of instructions, in which equal ones are one.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tests/proofs/traced.hpp"
+
+namespace nearmiss::proofs {
+
+/// One operation on results of earlier instructions.
+struct Instruction {
+  Operation operation;
+  int left = -1, right = -1;  ///< indices of its operands; -1 where there is none
+  double constant = 0;        ///< value of a constant
+  std::string name{};         ///< of an input
+};
+
+/// Instructions for any number of expressions, operands first. The same operation on the same operands has
+/// the same result, and is one instruction, whether the template wrote it once or twice.
+class Program {
+ public:
+  /// The index of an expression's result; its instructions are added where they are not there yet.
+  int add(const Traced& expression) { return add(*expression.node()); }
+  int add(const Node& node);
+
+  [[nodiscard]] std::size_t size() const { return instructions_.size(); }
+  [[nodiscard]] const Instruction& operator[](int index) const {
+    return instructions_[static_cast<std::size_t>(index)];
+  }
+
+ private:
+  using Key = std::tuple<Operation, int, int, std::uint64_t, std::string>;
+
+  std::vector<Instruction> instructions_;
+  std::map<Key, int> known_;
+};
+
+inline int Program::add(const Node& node) {
+  Instruction one{.operation = node.operation, .name = node.name};
+  if (node.left) one.left = add(*node.left);
+  if (node.right) one.right = add(*node.right);
+  if (node.operation == Operation::constant) one.constant = node.value;
+  const Key key{one.operation, one.left, one.right, std::bit_cast<std::uint64_t>(one.constant), one.name};
+  const auto [place, is_new] = known_.emplace(key, static_cast<int>(instructions_.size()));
+  if (is_new) instructions_.push_back(std::move(one));
+  return place->second;
+}
+
+/// The result of one instruction, from those before it and its input.
+template <class Number>
+Number result_of(const Instruction& one, const std::vector<Number>& results,
+                 const std::map<std::string, Number>& inputs, const Number& epsilon) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  const auto operand = [&](int index) -> const Number& { return results[static_cast<std::size_t>(index)]; };
+  switch (one.operation) {
+    case Operation::input:
+      return inputs.at(one.name);
+    case Operation::constant:
+      return Number(one.constant);
+    case Operation::epsilon:
+      return epsilon;
+    case Operation::negate:
+      return -operand(one.left);
+    case Operation::absolute:
+      return abs(operand(one.left));
+    case Operation::largest:
+      return max(operand(one.left), operand(one.right));
+    case Operation::smallest:
+      return min(operand(one.left), operand(one.right));
+    case Operation::add:
+      return operand(one.left) + operand(one.right);
+    case Operation::subtract:
+      return operand(one.left) - operand(one.right);
+    case Operation::multiply:
+      return operand(one.left) * operand(one.right);
+    case Operation::divide:
+      return operand(one.left) / operand(one.right);
+    case Operation::root:
+      break;
+  }
+  return sqrt(operand(one.left));
+}
+
+/// The results of all instructions with `Number`'s arithmetic: rounded for a floating-point number, exact for
+/// a rational one.
+template <class Number>
+std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
+                             const Number& epsilon) {
+  std::vector<Number> results;
+  results.reserve(program.size());
+  for (int i = 0; i < static_cast<int>(program.size()); ++i)
+    results.push_back(result_of(program[i], results, inputs, epsilon));
+  return results;
+}
+
+}  // namespace nearmiss::proofs

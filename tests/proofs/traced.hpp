@@ -1,0 +1,190 @@
+// A scalar that records what is computed with it, so that a template writes down its own formula.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ccd/steps.hpp"
+
+namespace nearmiss::proofs {
+
+/// A node of an expression. Each operation but the first three and `negate`, `absolute`, `largest`, `smallest`
+/// rounds its result once, to nearest.
+enum class Operation : std::uint8_t {
+  input,     ///< an exact number with a name
+  constant,  ///< an exact number with a value
+  epsilon,   ///< 2u: twice the largest relative error of one rounding
+  negate,
+  absolute,
+  largest,   ///< of two
+  smallest,  ///< of two
+  add,
+  subtract,
+  multiply,
+  divide,
+  root,  ///< the square root
+};
+
+class Traced;
+class Trace;
+
+/// One operation on its operands; immutable, and shared by all expressions that have it.
+struct Node {
+  Operation operation = Operation::constant;
+  std::shared_ptr<const Node> left{}, right{};  ///< null where there is no such operand
+  double value = 0;        ///< of a constant; of any other node its value at the sample of the inputs
+  std::string name{};      ///< of an input
+  Trace* trace = nullptr;  ///< that its inputs belong to; null where there are none
+};
+
+/// A comparison that a template made: left < right, left <= right or left == right. Code after it is reached
+/// under its outcome alone, so a proof about what comes after must have the outcome as a hypothesis, or must
+/// not depend on it.
+struct Decision {
+  enum class Relation : std::uint8_t { less, at_most, equal } relation;
+  std::shared_ptr<const Node> left, right;
+  bool outcome;
+};
+
+/// The inputs of expressions, and the comparisons between these. It must outlive the expressions' last
+/// comparison, and stays where it is.
+class Trace {
+ public:
+  Trace() = default;
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+  /// An exact number. Comparisons are decided as for the sample.
+  Traced input(std::string name, double sample);
+
+  /// All comparisons until now, in their order.
+  [[nodiscard]] const std::vector<Decision>& decisions() const { return decisions_; }
+  void record(Decision decision) { decisions_.push_back(std::move(decision)); }
+
+ private:
+  std::vector<Decision> decisions_;
+};
+
+/// A scalar for the templates of ccd/ and oracle/: each operation makes a node. Comparisons of expressions
+/// with inputs are recorded in their trace, and decided by the inputs' samples. `max`, `min` and `clamp`
+/// found by argument-dependent lookup make nodes and decide nothing; std::max itself would be a comparison.
+class Traced {
+ public:
+  Traced(double constant = 0)
+      : node_(std::make_shared<Node>(Node{.operation = Operation::constant, .value = constant})) {}
+  explicit Traced(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+
+  [[nodiscard]] const std::shared_ptr<const Node>& node() const { return node_; }
+  /// The value for the inputs' samples, in double.
+  [[nodiscard]] double sample() const { return node_->value; }
+  explicit operator double() const { return sample(); }
+
+  friend Traced operator-(const Traced& a) { return made(Operation::negate, -a.sample(), a); }
+  friend Traced operator+(const Traced& a, const Traced& b) {
+    return made(Operation::add, a.sample() + b.sample(), a, &b);
+  }
+  friend Traced operator-(const Traced& a, const Traced& b) {
+    return made(Operation::subtract, a.sample() - b.sample(), a, &b);
+  }
+  friend Traced operator*(const Traced& a, const Traced& b) {
+    return made(Operation::multiply, a.sample() * b.sample(), a, &b);
+  }
+  friend Traced operator/(const Traced& a, const Traced& b) {
+    return made(Operation::divide, a.sample() / b.sample(), a, &b);
+  }
+  Traced& operator+=(const Traced& b) { return *this = *this + b; }
+  Traced& operator-=(const Traced& b) { return *this = *this - b; }
+  Traced& operator*=(const Traced& b) { return *this = *this * b; }
+  Traced& operator/=(const Traced& b) { return *this = *this / b; }
+
+  friend Traced abs(const Traced& a) { return made(Operation::absolute, std::abs(a.sample()), a); }
+  friend Traced sqrt(const Traced& a) { return made(Operation::root, std::sqrt(a.sample()), a); }
+  friend Traced max(const Traced& a, const Traced& b) {
+    return made(Operation::largest, std::max(a.sample(), b.sample()), a, &b);
+  }
+  friend Traced min(const Traced& a, const Traced& b) {
+    return made(Operation::smallest, std::min(a.sample(), b.sample()), a, &b);
+  }
+  friend Traced clamp(const Traced& a, const Traced& lowest, const Traced& highest) {
+    return min(max(a, lowest), highest);
+  }
+  friend Traced ldexp(const Traced& a, int exponent) { return a * std::ldexp(1.0, exponent); }
+  friend bool isfinite(const Traced& a) { return std::isfinite(a.sample()); }
+
+  friend bool operator<(const Traced& a, const Traced& b) {
+    return decided(Decision::Relation::less, a, b, a.sample() < b.sample());
+  }
+  friend bool operator<=(const Traced& a, const Traced& b) {
+    return decided(Decision::Relation::at_most, a, b, a.sample() <= b.sample());
+  }
+  friend bool operator==(const Traced& a, const Traced& b) {
+    return decided(Decision::Relation::equal, a, b, a.sample() == b.sample());
+  }
+  friend bool operator>(const Traced& a, const Traced& b) { return b < a; }
+  friend bool operator>=(const Traced& a, const Traced& b) { return b <= a; }
+  friend bool operator!=(const Traced& a, const Traced& b) { return !(a == b); }
+
+ private:
+  static Traced made(Operation operation, double value, const Traced& a, const Traced* b = nullptr) {
+    const bool alone = b == nullptr || a.node_->trace != nullptr;
+    return Traced(std::make_shared<Node>(Node{.operation = operation,
+                                              .left = a.node_,
+                                              .right = b != nullptr ? b->node_ : nullptr,
+                                              .value = value,
+                                              .trace = alone ? a.node_->trace : b->node_->trace}));
+  }
+
+  static bool decided(Decision::Relation relation, const Traced& a, const Traced& b, bool outcome) {
+    Trace* trace = a.node_->trace != nullptr ? a.node_->trace : b.node_->trace;
+    if (trace != nullptr) trace->record({relation, a.node_, b.node_, outcome});
+    return outcome;
+  }
+
+  std::shared_ptr<const Node> node_;
+};
+
+inline Traced Trace::input(std::string name, double sample) {
+  return Traced(std::make_shared<Node>(
+      Node{.operation = Operation::input, .value = sample, .name = std::move(name), .trace = this}));
+}
+
+/// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
+struct KeptComparisons : AllSteps {
+  std::vector<std::pair<Traced, Traced>>* comparisons;  ///< left, right of left <= right
+
+  explicit KeptComparisons(std::vector<std::pair<Traced, Traced>>& kept) : comparisons(&kept) {}
+};
+
+inline bool at_most(const Traced& a, const Traced& b, const KeptComparisons& steps) {
+  steps.comparisons->emplace_back(a, b);
+  return true;
+}
+
+}  // namespace nearmiss::proofs
+
+template <>
+struct std::numeric_limits<nearmiss::proofs::Traced> : std::numeric_limits<double> {
+  static nearmiss::proofs::Traced epsilon() {
+    using namespace nearmiss::proofs;
+    return Traced(std::make_shared<Node>(
+        Node{.operation = Operation::epsilon, .value = std::numeric_limits<double>::epsilon()}));
+  }
+  static nearmiss::proofs::Traced infinity() { return std::numeric_limits<double>::infinity(); }
+  static nearmiss::proofs::Traced max() { return std::numeric_limits<double>::max(); }
+};
+
+/// Costs are double's, so that Eigen adds in the order in which it adds doubles without vector instructions.
+template <>
+struct Eigen::NumTraits<nearmiss::proofs::Traced> : Eigen::NumTraits<double> {
+  using Real = nearmiss::proofs::Traced;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum { RequireInitialization = 1 };
+};
