@@ -4,9 +4,18 @@ import path from 'node:path';
 import { source } from './copy.mjs';
 import { applied, readDefects } from './list.mjs';
 
-const defects = readDefects();
-for (const defect of defects) {
+/** What is wrong with a defect, or nothing. */
+function complaint(defect) {
   const text = readFileSync(path.join(source, defect.file), 'utf8');
-  if (applied(defect, text) === text) throw new Error(`${defect.name} changes nothing`);
+  try {
+    return applied(defect, text) === text ? `${defect.name}: changes nothing` : undefined;
+  } catch (error) {
+    return error.message;
+  }
 }
-console.log(`${defects.length} defects apply`);
+
+const defects = readDefects();
+const complaints = defects.map(complaint).filter(Boolean);
+for (const each of complaints) console.error(each);
+console.log(`${defects.length - complaints.length} of ${defects.length} defects apply`);
+process.exitCode = complaints.length > 0 ? 1 : 0;

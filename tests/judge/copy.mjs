@@ -40,7 +40,7 @@ export class Copy {
       if (!names.includes(name)) rmSync(path.join(this.folder, 'oracle', name));
     for (const name of names) this.#write(`oracle/${name}`, readFileSync(path.join(source, 'oracle', name), 'utf8'));
     if (existsSync(path.join(this.build, 'build.ninja'))) return;
-    const quick = [`-DCMAKE_PROJECT_nearmiss_INCLUDE=${path.join(here, 'quick.cmake')}`, '-DCMAKE_CXX_FLAGS_RELEASE=-O1'];
+    const quick = [`-DCMAKE_PROJECT_nearmiss_INCLUDE=${path.join(here, 'quick.cmake')}`];
     const { code, output } = await run('cmake', ['--preset', 'release', ...quick], { cwd: this.folder });
     if (code !== 0) throw new Error(`${this.folder}: cmake failed\n${output}`);
   }

@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   std::string line;
   try {
-    const double most = arguments.empty() ? 200000 : parse_number(arguments[0], "QUERIES");
+    const double most = arguments.empty() ? 100000 : parse_number(arguments[0], "QUERIES");
     place.seed = static_cast<std::uint64_t>(arguments.size() < 2 ? 1 : parse_number(arguments[1], "SEED"));
     catch_all_ends();
     line = hunt_until(static_cast<std::uint64_t>(most));

@@ -1,4 +1,4 @@
-// Hunts every defect of the list. Usage: run.mjs [--jobs N] [--only REGEX] [--again] [--queries N] [--steps hunter,...]
+// Hunts every defect of the list. Usage: run.mjs [--jobs N] [--only REGEX] [--every N] [--again] [--queries N] [--steps hunter,...]
 //
 // Results are kept after every defect, so that the same command goes on where it stopped; --again asks once more about
 // what nothing found. build/judge/results.json and table.txt say what found each, and how soon. Exit code 1: something
@@ -16,6 +16,7 @@ const { values: options } = parseArgs({
   options: {
     jobs: { type: 'string', default: '2' },
     only: { type: 'string', default: '' },
+    every: { type: 'string', default: '1' },
     queries: { type: 'string' },
     steps: { type: 'string', default: steps.map(({ name }) => name).join() },
     again: { type: 'boolean', default: false },
@@ -66,7 +67,8 @@ async function work(copy, queue) {
 }
 
 mkdirSync(folder, { recursive: true });
-const chosen = defects.filter(({ name, file }) => new RegExp(options.only).test(`${name} in ${file}`));
+const chosen = defects.filter(({ name, file }) => new RegExp(options.only).test(`${name} in ${file}`))
+  .filter((_, number) => number % Number(options.every) === 0);
 const queue = chosen.filter((defect) => {
   const known = results[defect.name];
   if (known?.key !== keyOf(defect) || known.by === 'compiler') return true;
