@@ -1,5 +1,10 @@
-// The list of defects, defects.txt: reads it, and applies a defect to the text of a file.
-import { readFileSync } from 'node:fs';
+// The list of defects, defects/*.txt: reads it, and applies a defect to the text of a file.
+//
+//   NAME in FILE (2 of 3): what is wrong then
+//   - the text to find; blanks and line ends match any others; once in the file, or the second of three places
+//   + the text instead
+//   = for what nothing finds: why it changes no answer, or what would find it
+import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -27,10 +32,11 @@ function parseDefect(lines, group) {
 }
 
 /** All defects, in the order of the list. */
-export function readDefects(file = path.join(here, 'defects.txt')) {
+export function readDefects(folder = path.join(here, 'defects')) {
   const defects = [];
   let group = '';
-  for (const block of readFileSync(file, 'utf8').split(/\n\s*\n/)) {
+  const text = readdirSync(folder).sort().map((name) => readFileSync(path.join(folder, name), 'utf8')).join('\n');
+  for (const block of text.split(/\n\s*\n/)) {
     const lines = block.split('\n').filter((line) => line.trim() !== '' && !line.startsWith('#'));
     const title = /^== (.+) ==$/.exec(lines[0] ?? '');
     if (title) group = title[1];

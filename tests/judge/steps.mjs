@@ -25,6 +25,7 @@ const tests = (name) => async (copy) => {
 /** CTest: the first test that fails, of those with a name like this. */
 const ctest = (pattern) => async (copy) => {
   const { code, output } = await run('ctest', ['-R', pattern, '--stop-on-failure'], { cwd: copy.build });
+  if (output.includes('No tests were found')) throw new Error(`no test is called ${pattern}`);
   if (code === 0) return undefined;
   return { what: /Test +#\d+: (\S+)/g.exec(output.split('\n').find((line) => line.includes('***')) ?? '')?.[1] ?? pattern };
 };

@@ -1,4 +1,4 @@
-# Included by the copies' project(): what the oracle's sources include from elsewhere is compiled once, not for every
+# Included by project() in the copies of tests/judge/copy.mjs: what the oracle's sources include from elsewhere is compiled once, not for every
 # defect. The files for wider instructions have flags of their own, which no other's headers fit.
 function(nearmiss_precompile)
   set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
