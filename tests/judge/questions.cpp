@@ -10,6 +10,7 @@
 #include "oracle/features.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/oracle.hpp"
+#include "oracle/sturm.hpp"
 
 namespace nearmiss {
 
@@ -117,9 +118,9 @@ std::string features_against(const RootCount& count, const Query& query) {
 }
 
 std::string exact_answers_disagree(const Query& query, bool exact) {
-  const Answers answers = ask_others(query, exact);
-  if (const std::string parts = answers.disagreement(); !parts.empty()) return "three answers: " + parts;
-  return features_against(answers.sturm, query);
+  if (const std::string parts = ask_others(query, exact).disagreement(); !parts.empty())
+    return "three answers: " + parts;
+  return features_against(count_roots(query), query);
 }
 
 std::string slow_answers_disagree(const Query& query, bool exact) {
