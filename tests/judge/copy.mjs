@@ -1,0 +1,78 @@
+// A copy of the tree whose oracle can be altered: all else are links to the source.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { applied, here } from './list.mjs';
+
+export const source = path.resolve(here, '../..');
+
+/** Runs a command at low priority: its exit code (null where it was killed) and all that it printed. */
+export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
+  return new Promise((resolve) => {
+    const child = spawn('nice', ['-n', '2', command, ...args], { cwd, env: { ...process.env, ...env } });
+    let output = '';
+    for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => (output += data));
+    const timer = setTimeout(() => child.kill('SIGKILL'), 1000 * seconds);
+    child.on('close', (code) => {
+      clearTimeout(timer);
+      resolve({ code, output });
+    });
+  });
+}
+
+/** One copy, with a build folder of its own. */
+export class Copy {
+  constructor(folder) {
+    this.folder = folder;
+    this.build = path.join(folder, 'build/release');
+  }
+
+  /** Makes the copy, or makes its oracle that of the source again; configures it where that has not been done. */
+  async prepare() {
+    mkdirSync(path.join(this.folder, 'oracle'), { recursive: true });
+    for (const name of readdirSync(source)) {
+      const link = path.join(this.folder, name);
+      if (['.git', 'build', 'oracle'].includes(name) || existsSync(link)) continue;
+      symlinkSync(path.join(source, name), link);
+    }
+    const names = readdirSync(path.join(source, 'oracle'));
+    for (const name of readdirSync(path.join(this.folder, 'oracle')))
+      if (!names.includes(name)) rmSync(path.join(this.folder, 'oracle', name));
+    for (const name of names) this.#write(`oracle/${name}`, readFileSync(path.join(source, 'oracle', name), 'utf8'));
+    if (existsSync(path.join(this.build, 'build.ninja'))) return;
+    const quick = [`-DCMAKE_PROJECT_nearmiss_INCLUDE=${path.join(source, 'tools/cmake/judge_copies.cmake')}`];
+    const { code, output } = await run('cmake', ['--preset', 'release', ...quick], { cwd: this.folder });
+    if (code !== 0) throw new Error(`${this.folder}: cmake failed\n${output}`);
+  }
+
+  /** Alters the oracle, calls `work`, and takes the defect back. */
+  async with(defect, work) {
+    const original = readFileSync(path.join(source, defect.file), 'utf8');
+    this.#write(defect.file, applied(defect, original));
+    this.altered = true;
+    try {
+      return await work();
+    } finally {
+      this.#write(defect.file, original);
+    }
+  }
+
+  /** Builds a target; what the compiler says where that fails, else nothing. */
+  async make(target) {
+    // A defect is compiled once, and precompiled headers take a cache longer than the compiler takes.
+    const env = this.altered ? { CCACHE_DISABLE: '1' } : { CCACHE_BASEDIR: this.folder, CCACHE_NOHASHDIR: '1' };
+    const { code, output } = await run('ninja', ['-j1', '-C', this.build, target], { cwd: this.folder, env });
+    return code === 0 ? undefined : output;
+  }
+
+  /** Whether the build knows a target. */
+  async knows(target) {
+    const { code } = await run('ninja', ['-C', this.build, '-t', 'query', target], { cwd: this.folder });
+    return code === 0;
+  }
+
+  #write(name, text) {
+    const file = path.join(this.folder, name);
+    if (!existsSync(file) || readFileSync(file, 'utf8') !== text) writeFileSync(file, text);
+  }
+}

@@ -1,0 +1,118 @@
+// Hunts for a disagreement within the oracle: usage: judge_hunter [QUERIES [SEED]].
+//
+// All families in turn, a block of queries of each, until two parts of the oracle disagree, one dies or takes
+// too long, or QUERIES are over. One line of output, "found WHAT FAMILY:SEED:INDEX QUERIES" or
+// "nothing QUERIES"; exit code 1 where something was found.
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "corpus/query_text.hpp"
+#include "fuzz/families/families.hpp"
+#include "tests/judge/questions.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Where the hunt is: for the message of a signal.
+struct Place {
+  const char* family = "";
+  std::uint64_t seed = 0;
+  std::uint64_t index = 0;
+  std::uint64_t queries = 0;
+};
+Place place;  // NOLINT: a signal's handler sees nothing else
+
+std::string found(const std::string& what) {
+  return fmt::format("found {} {}:{}:{} {}\n", what, place.family, place.seed, place.index, place.queries);
+}
+
+/// CPU time for one query, far above what any takes; a defect can make a search endless.
+constexpr int seconds_per_query = 20;
+
+void restart_clock() {
+  const itimerval limit{{0, 0}, {seconds_per_query, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
+extern "C" void say_where_it_ended(int signal) {
+  std::array<char, 256> line;
+  const char* const what = signal == SIGPROF ? "hang" : signal == SIGXCPU ? "slow" : "crash";
+  const int size =
+      std::snprintf(line.data(), line.size(), "found %s %s:%llu:%llu %llu\n", what, place.family,
+                    static_cast<unsigned long long>(place.seed), static_cast<unsigned long long>(place.index),
+                    static_cast<unsigned long long>(place.queries));
+  const auto written = write(STDOUT_FILENO, line.data(), static_cast<std::size_t>(size));
+  _exit(written == size ? 1 : 3);
+}
+
+/// A crash, an endless search or one that takes all memory ends with a line about the query.
+void catch_all_ends() {
+  static std::array<char, 1 << 16> stack;  // a handler of its own: the stack may be what has overflowed
+  const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
+  sigaltstack(&other, nullptr);
+  struct sigaction action {};
+  action.sa_handler = say_where_it_ended;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPROF, SIGXCPU})
+    sigaction(signal, &action, nullptr);
+  constexpr rlim_t memory = rlim_t{2} << 30;
+  const rlimit bytes{memory, memory};
+  setrlimit(RLIMIT_AS, &bytes);
+  constexpr rlim_t minutes = 5;  // all queries take a few seconds
+  const rlimit seconds{60 * minutes, 60 * minutes + 1};
+  setrlimit(RLIMIT_CPU, &seconds);
+}
+
+/// The line of what was found in a block of a family's queries, or "".
+std::string hunt(const Family& family, std::uint64_t first, std::uint64_t count) {
+  const std::uint64_t before = place.queries;
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(family, place.seed, first + i));
+  const auto go_to = [&](std::size_t i) {
+    place.index = first + i;
+    place.queries = before + i + 1;
+    restart_clock();
+  };
+  place.family = family.name.c_str();
+  const auto disagreement = first_disagreement(queries, first, go_to);
+  go_to(disagreement ? disagreement->at : count - 1);
+  return disagreement ? found(disagreement->what) : "";
+}
+
+std::string hunt_until(std::uint64_t most) {
+  constexpr std::uint64_t block = 50;
+  for (std::uint64_t first = 0;; first += block)
+    for (const Family& family : families()) {
+      if (place.queries >= most) return fmt::format("nothing {}\n", place.queries);
+      if (std::string line = hunt(family, first, block); !line.empty()) return line;
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss
+
+int main(int argc, char** argv) {
+  using namespace nearmiss;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::string line;
+  try {
+    const double most = arguments.empty() ? 100000 : parse_number(arguments[0], "QUERIES");
+    place.seed = static_cast<std::uint64_t>(arguments.size() < 2 ? 1 : parse_number(arguments[1], "SEED"));
+    catch_all_ends();
+    line = hunt_until(static_cast<std::uint64_t>(most));
+  } catch (const std::exception& error) {
+    line = found(fmt::format("exception: {}", error.what()));
+  }
+  std::fputs(line.c_str(), stdout);
+  return line.starts_with("nothing") ? 0 : 1;
+}

@@ -1,0 +1,138 @@
+// Times, distances and translations against exact decisions.
+#include <algorithm>
+#include <boost/multiprecision/gmp.hpp>
+#include <cmath>
+#include <limits>
+
+#include "oracle/oracle.hpp"
+#include "oracle/proximity.hpp"
+#include "oracle/sturm.hpp"
+#include "oracle/translation.hpp"
+#include "tests/judge/questions.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The double above; the double below a number that is not negative, 0 below 0.
+double above(double x) { return std::nextafter(x, infinity); }
+double below(double x) { return std::nextafter(x, 0.0); }
+
+using Rational = boost::multiprecision::mpq_rational;
+
+/// A rational as a double, where it is one.
+std::optional<double> as_double(const Rational& x) {
+  const auto d = x.convert_to<double>();
+  if (std::isfinite(d) && Rational(d) == x) return d;
+  return std::nullopt;
+}
+
+/// The motion until t, where doubles have it.
+std::optional<Query> until(const Query& query, double t) {
+  Query cut = query;
+  for (std::size_t k = 0; k < 12; ++k) {
+    const Rational start(query.x[k]);
+    const auto end = as_double(start + Rational(t) * (Rational(query.x[12 + k]) - start));
+    if (!end) return std::nullopt;
+    cut.x[12 + k] = *end;
+  }
+  return cut;
+}
+
+/// Whether the query until t collides, by Sturm sequences, if doubles can say it.
+std::optional<bool> collides_until(const Query& query, double t) {
+  const auto cut = until(query, t);
+  if (!cut) return std::nullopt;
+  return count_roots(*cut).collision;
+}
+
+std::string enclosure_disagreement(const Enclosure& d, bool collision) {
+  if (!(0 <= d.lo && d.lo <= d.hi)) return "distance: no enclosure";
+  if (collision) return d.hi == 0 ? "" : "distance: not zero";
+  if (d.hi == 0) return "distance: zero";
+  const bool is_narrow = d.hi - d.lo <= 1e-3 * d.hi || d.hi <= above(d.lo);
+  return is_narrow || d.hi == infinity ? "" : "distance: wide";
+}
+
+/// The smallest distance of two vertices at t = 0 and t = 1, about.
+double vertex_distance(const Query& query) {
+  double smallest = infinity;
+  for (int i = 0; i < split(query.kind); ++i)
+    for (int j = split(query.kind); j < 4; ++j) {
+      smallest = std::min(smallest, (query.start(i) - query.start(j)).stableNorm());
+      smallest = std::min(smallest, (query.end(i) - query.end(j)).stableNorm());
+    }
+  return smallest;
+}
+
+/// Whether a bound is exceeded, said in two ways.
+bool comparisons_agree(const Query& query, double bound) {
+  return distance_exceeds(query, bound) == !comes_within(query, bound);
+}
+
+}  // namespace
+
+std::string distance_disagreement(const Query& query, bool collision) {
+  const Enclosure d = minimum_distance(query);
+  if (std::string what = enclosure_disagreement(d, collision); !what.empty()) return what;
+  const Enclosure rough = closest_approach(query);
+  if (!(rough.lo <= d.hi && d.lo <= rough.hi)) return "distance: enclosures apart";
+  if (collision) return distance_exceeds(query, 0) ? "distance: exceeds zero" : "";
+  if (d.hi == infinity) return "";
+  constexpr double rounding = 1e-12;
+  if (d.lo > (1 + rounding) * vertex_distance(query) && std::isfinite(vertex_distance(query)))
+    return "distance: above that of vertices";
+  if (!comes_within(query, d.hi)) return "distance: upper end";
+  if (d.lo > 0 && comes_within(query, below(d.lo))) return "distance: lower end";
+  if (rough.lo > 0 && comes_within(query, below(rough.lo))) return "distance: lower end of intervals";
+  if (std::isfinite(rough.hi) && !comes_within(query, rough.hi)) return "distance: upper end of intervals";
+  for (const double bound : {below(d.lo), d.lo + (d.hi - d.lo) / 2, d.hi})
+    if (!comparisons_agree(query, bound)) return "distance: comparisons";
+  if (d.hi > 0x1p-900 && closest_ratio(query, d.hi) < d.lo / d.hi * (1 - rounding)) return "distance: ratio";
+  return "";
+}
+
+std::string time_disagreement(const Query& query, bool collision) {
+  const auto time = earliest_time(query);
+  if (time.has_value() != collision) return "time: of no collision";
+  if (!time) return "";
+  const auto [lo, hi] = time->enclosure;
+  if (!(0 <= lo && lo <= hi && hi <= 1 && hi <= above(lo))) return "time: no enclosure";
+  if (!time->rational.empty()) {
+    const Rational exact(time->rational);
+    if (exact < Rational(lo) || exact > Rational(hi)) return "time: rational";
+    if (lo == hi && exact != Rational(lo)) return "time: rational";
+  }
+  // Multiples of 2^-bits around the time: the fewer bits, the more often doubles have the motion until then.
+  for (const int bits : {4, 12, 30}) {
+    const double at = std::ldexp(std::ceil(std::ldexp(hi, bits)), -bits);
+    if (collides_until(query, at) == false) return "time: too early";
+    const double before = std::ldexp(std::ceil(std::ldexp(lo, bits)) - 1, -bits);
+    if (before >= 0 && collides_until(query, before) == true) return "time: too late";
+  }
+  return "";
+}
+
+std::string translation_disagreement(const Query& query) {
+  Query moved = query;
+  for (int i = 0; i < 4; ++i) {
+    const int first = i < split(query.kind) ? 0 : split(query.kind);
+    moved.set_end(i, query.start(i) + (query.end(first) - query.start(first)));
+  }
+  if (!is_finite(moved)) return "";
+  const bool is_exact = std::all_of(moved.x.begin(), moved.x.end(),
+                                    [](double c) { return std::abs(c) < 0x1p50 && c == std::round(c); });
+  for (const Query& each : {query, moved}) {
+    const RelativeMotion motion = relative_motion(each);
+    if (is_exact && &each != &query && motion == RelativeMotion::other && each == moved)
+      return "translation: not seen";
+    if (motion == RelativeMotion::other) continue;
+    const auto meets = meets_by_translation(each);
+    if (meets && *meets != count_roots(each).collision) return "translation: meets";
+  }
+  return "";
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,13 @@
+# Included by project() in the copies of tests/judge/copy.mjs: what the oracle's sources include from elsewhere is compiled once, not for every
+# defect. The files for wider instructions have flags of their own, which no other's headers fit.
+function(nearmiss_precompile)
+  set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
+    <CGAL/Exact_predicates_inexact_constructions_kernel.h> <boost/multiprecision/gmp.hpp> <Eigen/Core> <Eigen/Geometry>)
+  target_precompile_headers(nearmiss_oracle PRIVATE ${numbers} <algorithm> <functional> <memory> <optional> <sstream> <vector>)
+  set(oracle ${PROJECT_SOURCE_DIR}/oracle)
+  set_source_files_properties(${oracle}/batch_sse2.cpp ${oracle}/batch_avx2.cpp ${oracle}/batch_avx512.cpp DIRECTORY oracle
+    PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  target_precompile_headers(oracle_tests PRIVATE ${numbers} <gtest/gtest.h> <gmock/gmock.h> <random> <vector>)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/oracle/root_test.cpp DIRECTORY tests PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+cmake_language(DEFER CALL nearmiss_precompile)
