@@ -12,20 +12,20 @@
 
 namespace nearmiss {
 
-/// What each of some methods says of a query. The methods must outlive this.
+/// The answers of some methods to a query. The methods must outlive this.
 class Answers {
  public:
   Answers(std::span<const Method> methods, std::vector<Answer> answers);
 
   [[nodiscard]] std::span<const Answer> all() const { return answers_; }
 
-  /// What the first complete method says.
+  /// The answer of the first complete method.
   [[nodiscard]] bool collision() const;
 
   /// Whether all that is said fits together: no two methods contradict each other about the collision, the
   /// boundary or the number of roots, and the complete ones all say whether there is a collision.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// What does not, such as "collision (no: exact; yes: sturm)"; "" where they agree. The filter in front of
+  /// The contradictions, such as "collision (no: exact; yes: sturm)"; "" where they agree. The filter in front of
   /// the methods takes part where its answer is given.
   [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
 

@@ -33,6 +33,11 @@ struct WordNumber {
   friend WordNumber abs(const WordNumber& a) { return a.x.hi < 0 ? -a : a; }
 };
 
+/// a / b; 0 where b is.
+inline double ratio(const Rational& a, const Rational& b) {
+  return b == 0 ? 0 : Rational(a / b).convert_to<double>();
+}
+
 inline Rational exactly(double x) { return Rational(x); }
 inline Rational exactly(const WordNumber& x) { return Rational(x.x.hi) + Rational(x.x.lo); }
 

@@ -41,11 +41,6 @@ bool are_in_step(const Inputs& inputs) {
   return is_in_step("t") && is_in_step("s");
 }
 
-/// 0 where there is nothing to compare with.
-double ratio(const Rational& a, const Rational& b) {
-  return b == 0 ? 0 : Rational(a / b).convert_to<double>();
-}
-
 Rational magnitude(const Inputs& inputs, char vector, char axis) {
   const auto at = [&](char end) { return std::abs(inputs.at({vector, end, axis})); };
   return Rational(std::max(at('0'), at('1')));

@@ -1,7 +1,6 @@
 // Errors of the filter's arithmetic at given inputs, exactly.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>

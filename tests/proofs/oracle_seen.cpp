@@ -14,11 +14,6 @@ using namespace certified;
 
 constexpr double u = 0x1p-53;
 
-/// 0 where there is nothing to compare with.
-double ratio(const Rational& a, const Rational& b) {
-  return b == 0 ? 0 : Rational(a / b).convert_to<double>();
-}
-
 }  // namespace
 
 /// The relative error of a product of leaves that are 1, each the rounded value of what an input says, in units of u.
