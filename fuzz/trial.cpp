@@ -48,9 +48,9 @@ class Truth {
     return contact_;
   }
 
-  /// A false positive's distance / bound, from above.
+  /// A false positive's distance / bound.
   struct Distance {
-    double ratio;
+    double ratio;  ///< from above, in the right bin of a Histogram
     bool exceeds;  ///< certainly above 1; otherwise certainly not
   };
   Distance distance(double bound) {
@@ -61,13 +61,19 @@ class Truth {
     return distances_.back().second;
   }
 
+  /// `distance`'s ratio to a part in a thousand.
+  [[nodiscard]] double precise_ratio(double bound, double ratio) const {
+    return ratio == 1 ? ratio : std::min(closest_ratio(query_, bound), ratio);
+  }
+
  private:
   [[nodiscard]] Distance measured_distance(double bound) const {
-    const double ratio = closest_ratio(query_, bound);
-    if (ratio < 1) return {ratio, false};
-    if (distance_exceeds(query_, bound))  // a bound of 0 is refuted by any distance
-      return {std::min(ratio, std::numeric_limits<double>::max()), true};
-    return {std::min(minimum_distance(query_).hi / bound, 1.0), false};
+    if (bound == 0) return {std::numeric_limits<double>::max(), true};  // refuted by any distance
+    const Enclosure ratio = distance_in_units(query_, bound, Histogram::lower_border);
+    if (ratio.hi <= 1) return {ratio.hi, false};
+    if (distance_exceeds(query_, bound))
+      return {std::min(ratio.hi, std::numeric_limits<double>::max()), true};
+    return {1, false};
   }
 
   const Query& query_;
@@ -212,6 +218,8 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
           const auto distance = judge.distance(unit);
           outcome.ratio = distance.ratio;
           outcome.bound_refuted = claims && distance.exceeds;
+          if (outcome.bound_refuted || counts[s]->keeps(outcome.ratio))
+            outcome.ratio = judge.precise_ratio(unit, outcome.ratio);
         }
       }
       counts[s]->add(outcome, query, [&] { return batch.provenance(i); });

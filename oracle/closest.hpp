@@ -1,25 +1,122 @@
-// Closest points of the two figures of a query at one time, in plain floating point: a guess that
-// distance.cpp certifies. Nothing relies on its accuracy.
+// The closest points of the two primitives of a query at one time.
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
-#include "ccd/query.hpp"
+#include "oracle/vertex_differences.hpp"
 
-namespace nearmiss {
+namespace nearmiss::certified {
 
-/// Weights of the four vertices: those of each primitive are not negative and add up to 1, but for rounding.
-/// The point of a primitive is the weighted sum of its vertices.
-using Weights = std::array<double, 4>;
+inline DoubleWord quotient(const DoubleWord& a, const DoubleWord& b) {
+  const double first = a.hi / b.hi;
+  const DoubleWord rest = a - DoubleWord(first) * b;
+  return DoubleWord(first) + DoubleWord(rest.hi / b.hi);
+}
+template <class Real>
+Real quotient(const Real& a, const Real& b) {
+  return a / b;
+}
 
-/// A guess of the closest points, and of the direction from the second primitive to the first between them:
-/// the normal where the points are inside of triangle or edges, for there it is not lost in rounding.
-struct Closest {
-  Weights weights{};
-  Vector3<double> direction;
+/// The parts of the primitives in which closest points are.
+struct Features {
+  enum class Type : std::uint8_t {
+    vertices,         ///< of each primitive: `vertex` and `from`
+    vertex_and_edge,  ///< `vertex` of one, and the edge `from`, `to` of the other or of its triangle
+    interiors,        ///< within vertex and triangle, or within both edges
+  };
+  Type type{};
+  std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// The closest points of point and triangle, or of two segments, degenerate ones included.
-Closest closest_points(Kind kind, const std::array<Vector3<double>, 4>& x);
+/// Points of the two primitives, and how far apart they are. The points are in the primitives exactly: their
+/// weights are numbers that are not negative and add up to 1. That they are closest is a guess.
+template <class Real>
+struct ClosestPoints {
+  Features features;
+  Vec<Real> difference;  ///< from the second primitive's point to the first one's
+  Vec<Real> velocity;    ///< its derivative, with these weights
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
 
-}  // namespace nearmiss
+/// The first vertex of the second primitive.
+constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size_t>(split(kind)); }
+
+namespace detail {
+
+template <class Real>
+void take_closer(ClosestPoints<Real>& best, const Features& features, const Vec<Real>& difference,
+                 const Vec<Real>& velocity) {
+  const double squared = to_double(dot(difference, difference));
+  // Where there is a tie, the later one: interiors come last, and have the normal.
+  if (squared <= best.squared_distance) best = {features, difference, velocity, squared};
+}
+
+/// A vertex and the edge (from, to) of the other primitive.
+template <class Real>
+void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t from, std::size_t to,
+                   ClosestPoints<Real>& best) {
+  const Vec<Real> p = x.position(vertex, from);
+  const Vec<Real> edge = x.position(to, from);
+  const Real squared_length = dot(edge, edge);
+  Real weight(0);
+  if (to_double(squared_length) > 0) weight = quotient(dot(p, edge), squared_length);
+  Features features{Features::Type::vertex_and_edge, vertex, from, to};
+  if (!(to_double(weight) > 0)) {
+    weight = Real(0);
+    features = {Features::Type::vertices, vertex, from, to};
+  } else if (!(to_double(Real(1) - weight) > 0)) {
+    weight = Real(1);
+    features = {Features::Type::vertices, vertex, to, from};
+  }
+  const Vec<Real> difference = p - weight * edge;
+  const Vec<Real> velocity = x.velocity(vertex, from) - weight * x.velocity(to, from);
+  const bool in_first = vertex < second_primitive(x.differences().kind());
+  take_closer(best, features, in_first ? difference : -difference, in_first ? velocity : -velocity);
+}
+
+/// Within triangle or edges, where the normal N at p = q a + r b + N c has its foot: with the weights a, b >= 0,
+/// a + b <= 1 for a triangle, a, b <= 1 for edges.
+template <class Real>
+void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
+  const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
+  // Triangle: x0 - x1 = a (x2 - x1) + b (x3 - x1) + ...; edges: x0 - x2 = a (x0 - x1) + b (x3 - x2) + ...
+  const std::size_t origin = is_triangle ? 1 : 2;
+  const std::size_t q_to = is_triangle ? 2 : 0;
+  const Vec<Real> p = x.position(0, origin);
+  const Vec<Real> q = x.position(q_to, 1);
+  const Vec<Real> r = x.position(3, origin);
+  const Vec<Real> N = cross(q, r);
+  const Real squared = dot(N, N);
+  if (!(to_double(squared) > 0)) return;
+  const Real a = quotient(dot(N, cross(p, r)), squared);
+  const Real b = quotient(dot(N, cross(q, p)), squared);
+  const auto is_positive = [](const Real& w) { return to_double(w) >= 0; };
+  const bool is_inside =
+      is_triangle ? is_positive(Real(1) - a - b) : is_positive(Real(1) - a) && is_positive(Real(1) - b);
+  if (!(is_positive(a) && is_positive(b) && is_inside)) return;
+  take_closer(best, {Features::Type::interiors}, p - (a * q + b * r),
+              x.velocity(0, origin) - (a * x.velocity(q_to, 1) + b * x.velocity(3, origin)));
+}
+
+}  // namespace detail
+
+template <class Real>
+ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
+  ClosestPoints<Real> best;
+  if (x.differences().kind() == Kind::vertex_triangle) {
+    detail::consider_edge(x, 0, 1, 2, best);
+    detail::consider_edge(x, 0, 2, 3, best);
+    detail::consider_edge(x, 0, 3, 1, best);
+  } else {
+    detail::consider_edge(x, 0, 2, 3, best);
+    detail::consider_edge(x, 1, 2, 3, best);
+    detail::consider_edge(x, 2, 0, 1, best);
+    detail::consider_edge(x, 3, 0, 1, best);
+  }
+  detail::consider_interiors(x, best);
+  return best;
+}
+
+}  // namespace nearmiss::certified

@@ -20,6 +20,10 @@ struct DoubleWord {
   explicit operator double() const { return hi; }
 };
 
+inline bool operator<(const DoubleWord& a, const DoubleWord& b) {
+  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+
 /// a + b exactly.
 inline DoubleWord two_sum(double a, double b) {
   const double s = a + b;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace nearmiss::certified {
 
@@ -17,7 +18,25 @@ struct Powers {
 
   [[nodiscard]] Real at(const Real& t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
   [[nodiscard]] Real slope(const Real& t) const { return c[1] + t * (2 * c[2] + t * (3 * c[3])); }
+  [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
+
+/// A root near 0 of a cubic that is not zero there, by Laguerre's method, which is quick at multiple roots too; nothing where a
+/// step says that there is none.
+inline std::optional<double> root_near_zero(const Powers<double>& F) {
+  double t = 0;
+  constexpr int most_steps = 10;
+  for (int i = 0; i < most_steps; ++i) {
+    const double value = F.at(t);
+    if (std::abs(value) <= 1e-9 * std::abs(F.c[0])) break;
+    const double G = F.slope(t) / value;
+    const double H = G * G - F.curvature(t) / value;
+    const double discriminant = 2 * (3 * H - G * G);
+    if (!(discriminant >= 0)) return std::nullopt;
+    t -= 3 / (G + std::copysign(std::sqrt(discriminant), G));
+  }
+  return t;
+}
 
 /// The same cubic in powers.
 template <class Real>

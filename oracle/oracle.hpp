@@ -1,6 +1,7 @@
 // The truth about a query, in exact arithmetic.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,15 +59,18 @@ std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
 /// or they are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// The same by interval arithmetic alone: lo is 0 for a collision, but hi need not be. It is as narrow where
-/// double intervals can tell: not where the distance is below about 2^-45 of the figures' extent, or of the
-/// rounding of coordinates' differences.
-Enclosure closest_approach(const Query& query, double relative_width = 1e-3);
+/// How near the ends of an enclosure have to be: the smallest lower end that is enough beside an upper end, 0 where any
+/// is. It may not grow while the upper end falls.
+using NeededDistance = std::function<double(double hi)>;
 
-/// closest_approach / bound, from above: to a part in a thousand, and near 1 to 1e-9.
-double closest_ratio(const Query& query, double bound);
+/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with lo >=
+/// needed(hi), or as near to that as doubles of the distance can be.
+Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// A time in [0, 1] at which the figures are about as near to each other as they come: for pictures.
+/// The same from above, to a part in a thousand, and near 1 to 1e-9; infinite where the unit is 0.
+double closest_ratio(const Query& query, double unit);
+
+/// A time in [0, 1] at which the primitives are about as near to each other as they come: for pictures.
 double closest_time(const Query& query);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.

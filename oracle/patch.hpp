@@ -8,6 +8,7 @@
 
 #include "ccd/query.hpp"
 #include "oracle/bernstein.hpp"
+#include "oracle/vectors.hpp"
 
 // A query is decided in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
 //   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
@@ -68,9 +69,6 @@ inline constexpr double headroom = 4;
 /// What is added for underflow.
 template <class Real>
 inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
-
-template <class Real>
-using Vec = std::array<Real, 3>;
 
 /// A vector that moves linearly over a part of the step.
 template <class Real>

@@ -23,7 +23,8 @@ std::string statistics_csv(const Statistics& statistics) {
   std::string text =
       "subject,kind,family,queries,collisions,positives,false_negatives,false_negative_rate_upper_95,"
       "false_positives,false_positive_rate,false_positive_rate_from,false_positive_rate_to,refuted_bounds,"
-      "median_fp_distance_over_bound,q99_fp_distance_over_bound,max_fp_distance_over_bound,ns_per_query";
+      "median_fp_distance_over_bound_from,median_fp_distance_over_bound_to,"
+      "q99_fp_distance_over_bound_from,q99_fp_distance_over_bound_to,max_fp_distance_over_bound,ns_per_query";
   for (const auto fault : fault_names)
     if (fault != "none") text += fmt::format(",fault_{}", fault);
   text += ",median_ns,q99_ns";
@@ -36,8 +37,10 @@ std::string statistics_csv(const Statistics& statistics) {
     text += fmt::format("{},{},{},{},{},{},{},{},", field(key.subject), short_name(key.kind),
                         field(key.family), c.queries, c.collisions, c.positives, c.false_negatives,
                         clopper_pearson_upper(c.false_negatives, c.collisions));
-    text += fmt::format("{},{},{},{},{},{},{},{},{}", c.false_positives, c.false_positive_rate(), rate.lo,
-                        rate.hi, c.refuted_bounds, c.ratio_quantile(0.5), c.ratio_quantile(0.99),
+    const Bin median = c.ratio_quantile(0.5);
+    const Bin q99 = c.ratio_quantile(0.99);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", c.false_positives, c.false_positive_rate(),
+                        rate.lo, rate.hi, c.refuted_bounds, median.from, median.to, q99.from, q99.to,
                         c.max_ratio(), c.timed_queries == 0 ? "" : fmt::format("{}", c.ns_per_query()));
     for (std::size_t i = 1; i < fault_count; ++i) text += fmt::format(",{}", c.faults[i]);
     for (const double part : {0.5, 0.99})

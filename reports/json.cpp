@@ -29,8 +29,9 @@ ordered_json rates_json(const Counts& counts) {
   json["false_positive_rate"] = counts.false_positive_rate();
   json["false_positive_rate_interval_95"] = {of_false_positives.lo, of_false_positives.hi};
   json["refuted_bounds"] = counts.refuted_bounds;
-  json["median_fp_distance_over_bound"] = counts.ratio_quantile(0.5);
-  json["q99_fp_distance_over_bound"] = counts.ratio_quantile(0.99);
+  const auto range = [](const Bin& bin) { return ordered_json{bin.from, bin.to}; };
+  json["median_fp_distance_over_bound"] = range(counts.ratio_quantile(0.5));
+  json["q99_fp_distance_over_bound"] = range(counts.ratio_quantile(0.99));
   json["max_fp_distance_over_bound"] = counts.max_ratio();
   json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
   return json;

@@ -116,8 +116,8 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["oracle"]["complaint"] = oracle_complaint(campaign.statistics);
   json["error_against_time"] = trade_offs_json(campaign.statistics);
   json["histogram_borders"] = ordered_json::array();
-  for (std::size_t i = 0; i <= Histogram::bin_count; ++i)
-    json["histogram_borders"].push_back(Histogram::border(i));
+  for (std::size_t i = 0; i < Histogram::bin_count; ++i)
+    json["histogram_borders"].push_back(Histogram::border(i));  // the last bin has no upper one
   json["findings_total"] = campaign.findings().size();
   json["findings"] = ordered_json::array();
   for (const ShownFinding& each : shown_findings(campaign)) {

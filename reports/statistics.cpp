@@ -9,19 +9,28 @@
 namespace nearmiss {
 
 double Histogram::border(std::size_t i) {
-  return std::pow(10.0, lowest_decade + static_cast<double>(i) / per_decade);
+  if (i == 0) return 0;
+  if (i == bin_count) return std::numeric_limits<double>::infinity();
+  return std::pow(10.0, lowest_decade + static_cast<double>(i - 1) / per_decade);
 }
 
-void Histogram::add(double ratio) {
-  // The borders decide, not a logarithm, so that a ratio of 1 is never counted below the bound.
-  static const auto inner_borders = [] {
-    std::array<double, bin_count - 1> borders{};
-    for (std::size_t i = 0; i < borders.size(); ++i) borders[i] = border(i + 1);
-    return borders;
+namespace {
+
+/// The borders decide, not a logarithm, so that a ratio of 1 is never counted below the bound.
+std::size_t bin_of(double ratio) {
+  static const auto borders = [] {
+    std::array<double, Histogram::bin_count - 1> inner{};
+    for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = Histogram::border(i + 1);
+    return inner;
   }();
-  const auto above = std::upper_bound(inner_borders.begin(), inner_borders.end(), ratio);
-  ++bins[static_cast<std::size_t>(above - inner_borders.begin())];
+  return static_cast<std::size_t>(std::upper_bound(borders.begin(), borders.end(), ratio) - borders.begin());
 }
+
+}  // namespace
+
+double Histogram::lower_border(double ratio) { return border(bin_of(ratio)); }
+
+void Histogram::add(double ratio) { ++bins[bin_of(ratio)]; }
 
 void Histogram::merge(const Histogram& other) {
   for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
@@ -44,10 +53,9 @@ std::size_t quantile_bin(const std::array<std::uint64_t, n>& bins, double part, 
 
 }  // namespace
 
-double Histogram::quantile(double part) const {
+Bin Histogram::quantile(double part) const {
   const std::size_t i = quantile_bin(bins, part, bin_count);
-  if (i == bin_count) return 0;
-  return i == bin_count - 1 ? std::numeric_limits<double>::max() : border(i + 1);
+  return i == bin_count ? Bin{} : Bin{border(i), border(i + 1)};
 }
 
 namespace {
@@ -121,7 +129,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
     ++false_by_stage[stage];
     distances.add(outcome.ratio);
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
-    if (farthest.size() < far_cases || outcome.ratio >= farthest.back().ratio) {
+    if (keeps(outcome.ratio)) {
       farthest.push_back({outcome.ratio, query, provenance()});
       keep_farthest(farthest);
     }

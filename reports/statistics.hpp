@@ -19,24 +19,32 @@
 
 namespace nearmiss {
 
+/// The part of a scale in which a number is known to be.
+struct Bin {
+  double from = 0;
+  double to = 0;
+
+  bool operator==(const Bin&) const = default;
+};
+
 /// Counts of the distances of false positives, as fractions of the bound that the subject claims: log-spaced
-/// bins, four to a decade from 10^-16 to 10^1. What is below (a distance of 0 in double included) or above is
-/// counted in the first or the last bin.
+/// bins, four to a decade from 10^-16 to 10^1, one for everything below them and one for everything above.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;
   static constexpr int highest_decade = 1;
-  static constexpr std::size_t bin_count = (highest_decade - lowest_decade) * per_decade;
+  static constexpr std::size_t bin_count = (highest_decade - lowest_decade) * per_decade + 2;
 
   std::array<std::uint64_t, bin_count> bins{};
 
   void add(double ratio);
   void merge(const Histogram& other);
-  /// The lower border of bin i; that of bin_count is the upper border of the last one.
+  /// The lower border of bin i, which is in it: 0 for the first bin. That of bin_count is infinite.
   static double border(std::size_t i);
-  /// What a part of all, in (0, 1], does not exceed: the upper border of its bin, which is the largest double
-  /// for the last one. 0 where there is none.
-  [[nodiscard]] double quantile(double part) const;
+  /// That of the bin of a ratio.
+  static double lower_border(double ratio);
+  /// The bin of the ratio that a part of all, in (0, 1], does not exceed; (0, 0) where there is none.
+  [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;
 };
@@ -80,7 +88,8 @@ struct FarCase {
 struct Outcome {
   Verdict verdict;
   bool collision = false;
-  /// Of a false positive: certified distance over [0, 1] / claimed bound. A subject that claims no bound is
+  /// Of a false positive: certified distance over [0, 1] / claimed bound, from above and in the right bin of a
+  /// Histogram; to a part in a thousand if it may be among the farthest. A subject that claims no bound is
   /// measured by wang's for the same pair.
   double ratio = 0;
   bool bound_refuted = false;  ///< certainly farther away than claimed
@@ -124,9 +133,14 @@ struct Counts {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
-  /// Distance / bound that a part of the false positives does not exceed, to a quarter of a decade.
-  [[nodiscard]] double ratio_quantile(double part) const {
-    return std::min(distances.quantile(part), max_ratio());
+  /// Whether a false positive so far away would be kept among the farthest.
+  [[nodiscard]] bool keeps(double ratio) const {
+    return farthest.size() < far_cases || ratio >= farthest.back().ratio;
+  }
+  /// Where the distance / bound is that a part of the false positives does not exceed: its bin, up to the largest.
+  [[nodiscard]] Bin ratio_quantile(double part) const {
+    const Bin bin = distances.quantile(part);
+    return {bin.from, std::min(bin.to, max_ratio())};
   }
   /// Not a number where nothing was timed.
   [[nodiscard]] double ns_per_query() const {

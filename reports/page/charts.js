@@ -57,7 +57,8 @@ function rateRows() {
   const isShownElsewhere = (family) => family.endsWith("/") || isStep(family) ||
     Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
   return countRows(true).filter((row) => row.false_positives > 0 && !isShownElsewhere(row.family))
-    .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1] }));
+    .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
+      median: row.median_fp_distance_over_bound[1] }));
 }
 
 function drawRates() {
@@ -81,7 +82,7 @@ function drawRates() {
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "false_positives", title: "false positives" },
     { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", format: ".3~%" },
     { field: "lo", title: "from", format: ".3~%" }, { field: "hi", title: "to", format: ".3~%" },
-    { field: "median_fp_distance_over_bound", title: "median distance / bound", format: ".3~g" },
+    { field: "median", title: "median distance / bound, at most", format: ".3~g" },
     { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
   const separators = { data: { values: families.slice(1).map((family) => ({ family })) },
     mark: { type: "rule", color: color("--line") }, encoding: { y: { ...y, bandPosition: 0 } } };
@@ -101,34 +102,41 @@ function drawRates() {
 }
 
 function drawDistances() {
+  // The first bin begins at 0 and the last one does not end: each is drawn as wide as its neighbour.
   const borders = report.histogram_borders;
+  const [width, last] = [borders[2] / borders[1], borders.length - 1];
+  const begins = borders.map((border, i) => (i === 0 ? borders[1] / width : border));
+  const ends = borders.map((border, i) => (i === last ? border * width : borders[i + 1]));
   const values = [];
   for (const row of countRows(false)) {
     let notFarther = 0;
     if (row.false_positives === 0) continue;
     row.fp_distance_histogram.forEach((n, i) => {
       notFarther += n;
-      values.push({ subject: row.subject, kind: row.kind, from: borders[i], to: borders[i + 1], count: n,
-        share: notFarther / row.false_positives });
+      values.push({ subject: row.subject, kind: row.kind, begin: begins[i], end: ends[i], count: n, share: notFarther / row.false_positives,
+        distance: i === last ? `at least ${short(borders[i])}` : `${short(borders[i])} to ${short(borders[i + 1])}` });
     });
   }
-  const used = values.filter((v) => v.count > 0).map((v) => v.from);
+  const used = values.filter((v) => v.count > 0).map((v) => v.begin);
   const hue = chosenColor();
-  const first = borders[Math.max(0, borders.indexOf(Math.min(...used)) - 1)];
+  const first = begins[Math.max(0, begins.indexOf(Math.min(...used)) - 1)];
+  const label = `datum.value < ${begins[0] * 1.1} ? '0' : datum.value > ${ends[last] * 0.9} ? '∞' : format(datum.value, '.0e')`;
+  const decades = borders.filter((border, i) => i % 8 === 1 && border > 1.1 * first);
   const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
     encoding: { x: { field: "bound", type: "quantitative" } } };
   const panel = (kind, field, title, interpolate, scale) => ({
     width: panelWidth(420, 190), height: 200, title: title === "" ? undefined : kindTitles[kind],
     layer: [
       {
-        transform: [{ filter: `datum.kind === "${kind}" && datum.from >= ${first}` }],
+        transform: [{ filter: `datum.kind === "${kind}" && datum.begin >= ${first}` }],
         mark: { type: "line", interpolate, strokeWidth: 2 },
         encoding: {
-          x: { field: field === "count" ? "from" : "to", type: "quantitative", title: "distance / bound", scale: { type: "log", domain: [first, 10] },
-            axis: { format: ".0e", tickCount: 8, labelAngle: -40 } },
+          x: { field: field === "count" ? "begin" : "end", type: "quantitative", title: "distance / bound",
+            scale: { type: "log", domain: [first, ends[last]], nice: false },
+            axis: { values: [first, ...decades, ends[last]], labelExpr: label, labelAngle: -40 } },
           y: { field, type: "quantitative", title, ...scale },
           color: hue,
-          tooltip: [{ field: "subject" }, { field: "from", format: ".3e" }, { field: "to", format: ".3e" }, { field: "count" },
+          tooltip: [{ field: "subject" }, { field: "distance", title: "distance / bound" }, { field: "count" },
             { field: "share", title: "not farther", format: ".2%" }],
         },
       },

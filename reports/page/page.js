@@ -102,7 +102,7 @@ function drawCounts() {
     count("false positives", "false_positives"),
     { title: "rate (95 %)", number: (r) => r.false_positive_rate,
       text: (r) => `${percent(r.false_positive_rate)} (${percentRange(r.false_positive_rate_interval_95)})` },
-    figure("median dist.", "median_fp_distance_over_bound"), figure("99 % dist.", "q99_fp_distance_over_bound"),
+    range("median dist.", "median_fp_distance_over_bound"), range("99 % dist.", "q99_fp_distance_over_bound"),
     { ...largest, text: (r) => { const far = farthestOf(r); return far ? made("a", largest.text(r), { href: far.file }) : "–"; } },
     count("beyond", "refuted_bounds", true), ...(rows.some(faults) ? [noAnswer] : []),
     figure("ns / query", "ns_per_query"), quantile("median ns", "median_ns"), quantile("99 % ns", "q99_ns"),

@@ -12,6 +12,9 @@ function fraction(x) {
 }
 const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fraction(x)} of the bound`);
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
+/** The range in which a number is known to be. */
+const range = (title, field) => ({ title, number: (r) => r[field][1],
+  text: (r) => (r[field][1] > 0 ? `${short(r[field][0])}–${short(r[field][1])}` : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 
 /** A new element; `content` is text, a node, or a list of these. */

@@ -72,7 +72,7 @@ double farthest(const Subject& subject, std::uint64_t searches) {
     const Query query = search(far_search(subject), i);
     if (!subject.decide(query).hit || collides(query)) continue;
     EXPECT_FALSE(distance_exceeds(query, subject.distance_bound(query)));
-    ratio = std::max(ratio, closest_approach(query).lo / subject.distance_bound(query));
+    ratio = std::max(ratio, minimum_distance(query).lo / subject.distance_bound(query));
   }
   return ratio;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/approach.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/proximity.hpp"
 #include "oracle/sturm.hpp"
@@ -77,8 +78,10 @@ bool comparisons_agree(const Query& query, double bound) {
 std::string distance_disagreement(const Query& query, bool collision) {
   const Enclosure d = minimum_distance(query);
   if (std::string what = enclosure_disagreement(d, collision); !what.empty()) return what;
-  const Enclosure rough = closest_approach(query);
-  if (!(rough.lo <= d.hi && d.lo <= rough.hi)) return "distance: enclosures apart";
+  const certified::VertexDifferences differences(query);
+  const auto approach = certified::closest_approach(differences, [](double upper) { return 0.999 * upper; });
+  if (!(approach.lower <= approach.upper)) return "distance: no bounds";
+  if (collision && approach.lower > 0) return "distance: apart at a collision";
   if (collision) return distance_exceeds(query, 0) ? "distance: exceeds zero" : "";
   if (d.hi == infinity) return "";
   constexpr double rounding = 1e-12;
@@ -86,11 +89,14 @@ std::string distance_disagreement(const Query& query, bool collision) {
     return "distance: above that of vertices";
   if (!comes_within(query, d.hi)) return "distance: upper end";
   if (d.lo > 0 && comes_within(query, below(d.lo))) return "distance: lower end";
-  if (rough.lo > 0 && comes_within(query, below(rough.lo))) return "distance: lower end of intervals";
-  if (std::isfinite(rough.hi) && !comes_within(query, rough.hi)) return "distance: upper end of intervals";
   for (const double bound : {below(d.lo), d.lo + (d.hi - d.lo) / 2, d.hi})
     if (!comparisons_agree(query, bound)) return "distance: comparisons";
-  if (d.hi > 0x1p-900 && closest_ratio(query, d.hi) < d.lo / d.hi * (1 - rounding)) return "distance: ratio";
+  if (d.hi < 0x1p-900) return "";
+  if (closest_ratio(query, d.hi) < d.lo / d.hi * (1 - rounding)) return "distance: ratio";
+  // To a factor of two: a search of its own.
+  const Enclosure wide = distance_in_units(query, d.hi, [](double hi) { return hi / 2; });
+  if (wide.lo > 1 + rounding || wide.hi < d.lo / d.hi * (1 - rounding)) return "distance: enclosures apart";
+  if (2 * wide.lo < wide.hi) return "distance: too wide";
   return "";
 }
 

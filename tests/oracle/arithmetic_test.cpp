@@ -41,7 +41,7 @@ std::vector<double> answers(const std::vector<Query>& queries) {
     all.push_back(collides_exactly(query) ? 1 : 0);
     const auto time = earliest_time(query);
     all.insert(all.end(), {time ? time->enclosure.lo : 2, time ? time->enclosure.hi : 2});
-    for (const Enclosure& each : {minimum_distance(query), closest_approach(query)})
+    for (const Enclosure& each : {minimum_distance(query), minimum_distance(query, 1e-9)})
       all.insert(all.end(), {each.lo, each.hi});
     all.insert(all.end(), {closest_ratio(query, 0x1p-20), closest_time(query),
                            distance_exceeds(query, 0x1p-1060) ? 1.0 : 0.0});

@@ -62,7 +62,7 @@ TEST(Distance, NothingExceedsAnInfiniteBound) {
   EXPECT_FALSE(distance_exceeds(falling_vertex(0.25, 0.25, 3, 2), std::numeric_limits<double>::infinity()));
 }
 
-TEST(Distance, IsKnownFarBelowWhatIntervalsCanTell) {
+TEST(Distance, IsKnownFarBelowWhatDoublesResolve) {
   // A vertex 2^-200 above a triangle of size 1; and one that passes an edge so near.
   expect_encloses(falling_vertex(0.25, 0.25, 1, 0x1p-200), 0x1p-200);
   expect_encloses(falling_vertex(-0x1p-200, 0.5, 1, -1), 0x1p-200);
@@ -75,7 +75,7 @@ TEST(Distance, IsKnownFarBelowWhatIntervalsCanTell) {
 TEST(Distance, FromTheOriginDoesNotMatterWhereDifferencesAreExact) {
   Query query = falling_vertex(0.25, 0.25, 3, 2);
   for (double& c : query.x) c = 4 * c + 0x1p52;
-  const Enclosure d = closest_approach(query);
+  const Enclosure d = minimum_distance(query);
   EXPECT_LE(d.lo, 8);
   EXPECT_GE(d.hi, 8);
   EXPECT_LE(d.hi - d.lo, 0.01);
@@ -86,12 +86,12 @@ TEST(Distance, ItsRatioToABoundIsKnownWhereItOverflows) {
   EXPECT_NEAR(closest_ratio(query, 4), 0.5, 1e-3);
   EXPECT_NEAR(closest_ratio(query, 2), 1, 1e-8);
   for (std::size_t z = 2; z < 24; z += 3) query.x[z] = query.x[z] == 0 ? -0x1p1023 : 0x1.8p1023;
-  EXPECT_EQ(closest_approach(query).hi, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(minimum_distance(query).hi, std::numeric_limits<double>::infinity());
   EXPECT_NEAR(closest_ratio(query, 0x1p1020), 20, 0.02);
   EXPECT_EQ(closest_ratio(query, 0), std::numeric_limits<double>::infinity());
 }
 
-TEST(ComesWithin, AgreesWithTheEnclosuresOfIntervals) {
+TEST(ComesWithin, AgreesWithEnclosures) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   for (int i = 0; i < 400; ++i) {
@@ -101,7 +101,7 @@ TEST(ComesWithin, AgreesWithTheEnclosuresOfIntervals) {
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
     if (collides(query)) continue;
-    const Enclosure d = closest_approach(query, 1e-9);
+    const Enclosure d = minimum_distance(query, 1e-9);
     EXPECT_TRUE(comes_within(query, d.hi));
     if (d.lo > 0) {
       EXPECT_FALSE(comes_within(query, d.lo * (1 - 1e-15)));

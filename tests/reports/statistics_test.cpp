@@ -31,31 +31,50 @@ TEST(Histogram, ARatioOfOneIsNotCountedBelowTheBound) {
   EXPECT_EQ(histogram.bins[at_one], 1);
 }
 
-TEST(Histogram, WhatIsOutsideIsCountedInTheFirstOrLastBin) {
+TEST(Histogram, WhatIsBelowOrAboveItsBordersStandsInABinOfItsOwn) {
   Histogram histogram;
   histogram.add(0);
-  histogram.add(1e-300);
+  histogram.add(std::nextafter(1e-16, 0));
+  histogram.add(1e-16);
+  histogram.add(std::nextafter(10.0, 0));
+  histogram.add(10);
   histogram.add(1e300);
   EXPECT_EQ(histogram.bins.front(), 2);
-  EXPECT_EQ(histogram.bins.back(), 1);
+  EXPECT_EQ(histogram.bins[1], 1);
+  EXPECT_EQ(histogram.bins[Histogram::bin_count - 2], 1);
+  EXPECT_EQ(histogram.bins.back(), 2);
 }
 
-TEST(Histogram, AQuantileIsTheUpperBorderOfItsBin) {
+TEST(Histogram, ARatioIsInItsBin) {
+  for (double ratio = 1e-18; ratio < 100; ratio *= 1.1) {
+    Histogram histogram;
+    histogram.add(ratio);
+    const Bin bin = histogram.quantile(0.5);
+    EXPECT_LE(bin.from, ratio);
+    EXPECT_LT(ratio, bin.to);
+    EXPECT_EQ(bin.from, Histogram::lower_border(ratio));
+    EXPECT_EQ(bin.from, Histogram::lower_border(bin.from));
+  }
+}
+
+TEST(Histogram, AQuantileIsABin) {
   Histogram histogram;
-  EXPECT_EQ(histogram.quantile(0.5), 0);
-  for (int i = 0; i < 99; ++i) histogram.add(0.01);
-  histogram.add(0.5);
-  EXPECT_DOUBLE_EQ(histogram.quantile(0.5), std::pow(10, -1.75));
-  EXPECT_DOUBLE_EQ(histogram.quantile(0.99), std::pow(10, -1.75));
-  EXPECT_DOUBLE_EQ(histogram.quantile(1), std::pow(10, -0.25));
+  EXPECT_EQ(histogram.quantile(0.5), Bin{});
+  for (int i = 0; i < 99; ++i) histogram.add(0.012);
+  histogram.add(1000);
+  for (const double part : {0.5, 0.99}) {
+    EXPECT_DOUBLE_EQ(histogram.quantile(part).from, 0.01);
+    EXPECT_DOUBLE_EQ(histogram.quantile(part).to, std::pow(10, -1.75));
+  }
+  EXPECT_EQ(histogram.quantile(1), (Bin{10, std::numeric_limits<double>::infinity()}));
 }
 
 TEST(Counts, AQuantileOfDistancesIsNeverBeyondTheFarthest) {
   Counts counts;
   counts.add(false_positive(0.5), query, here);
-  EXPECT_EQ(counts.ratio_quantile(0.5), 0.5);
+  EXPECT_EQ(counts.ratio_quantile(0.5).to, 0.5);
   counts.add(false_positive(1000), query, here);
-  EXPECT_EQ(counts.ratio_quantile(0.99), 1000);  // the last bin has no border above
+  EXPECT_EQ(counts.ratio_quantile(0.99), (Bin{10, 1000}));  // the last bin has no border above
 }
 
 TEST(Counts, EachOutcomeIsCountedOnce) {

@@ -1,0 +1,28 @@
+// The smallest distance of two primitives over the step, by floating-point arithmetic with proven bounds.
+#pragma once
+
+#include <functional>
+
+#include "ccd/query.hpp"
+#include "oracle/vertex_differences.hpp"
+
+namespace nearmiss::certified {
+
+/// How near an enclosure's lower end has to be to its upper end: the smallest that is enough, 0 where any is.
+/// It may not grow while the upper end falls.
+using Needed = std::function<double(double upper)>;
+
+/// lower <= the smallest distance over [0, 1] <= upper, in the unit of the differences.
+struct Approach {
+  double lower = 0;
+  double upper = 0;
+  double time = 0;      ///< when the distance is about `upper`
+  bool enough = false;  ///< whether lower >= needed(upper)
+};
+
+/// Looks at times around which the distance is smallest, and at others until certified bounds around all of
+/// them cover the step: in double where that resolves the distance, else in double words, and at last with 384
+/// bits. These resolve distances down to about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices.
+Approach closest_approach(const VertexDifferences& differences, const Needed& needed);
+
+}  // namespace nearmiss::certified

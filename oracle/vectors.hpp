@@ -1,0 +1,55 @@
+// Vectors of three numbers of any type.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace nearmiss::certified {
+
+template <class Real>
+using Vec = std::array<Real, 3>;
+
+template <class Real>
+Vec<Real> operator+(const Vec<Real>& v, const Vec<Real>& w) {
+  return {v[0] + w[0], v[1] + w[1], v[2] + w[2]};
+}
+template <class Real>
+Vec<Real> operator-(const Vec<Real>& v, const Vec<Real>& w) {
+  return {v[0] - w[0], v[1] - w[1], v[2] - w[2]};
+}
+template <class Real>
+Vec<Real> operator-(const Vec<Real>& v) {
+  return {-v[0], -v[1], -v[2]};
+}
+template <class Real>
+Vec<Real> operator*(const Real& factor, const Vec<Real>& v) {
+  return {factor * v[0], factor * v[1], factor * v[2]};
+}
+template <class Real>
+Real dot(const Vec<Real>& v, const Vec<Real>& w) {
+  return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+}
+template <class Real>
+Vec<Real> cross(const Vec<Real>& v, const Vec<Real>& w) {
+  return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+}
+
+inline double length(const Vec<double>& v) { return std::sqrt(dot(v, v)); }
+
+/// Within 2^-53 of a number; the double itself for double.
+template <class Real>
+double to_double(const Real& x) {
+  return static_cast<double>(x);
+}
+template <class Real>
+Vec<double> to_double(const Vec<Real>& v) {
+  return {to_double(v[0]), to_double(v[1]), to_double(v[2])};
+}
+/// The same numbers in another type.
+template <class Real>
+Vec<Real> of_double(const Vec<double>& v) {
+  return {Real(v[0]), Real(v[1]), Real(v[2])};
+}
+
+}  // namespace nearmiss::certified

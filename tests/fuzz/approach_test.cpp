@@ -1,0 +1,72 @@
+// What the search for the smallest distance resolves in queries of families.
+#include "oracle/approach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "fuzz/families/families.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss::certified {
+namespace {
+
+std::vector<Query> queries_of(const char* family, std::uint64_t count) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family(family), 20, i));
+  return queries;
+}
+
+TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
+  int apart = 0;
+  for (const char* family :
+       {"planted-ulp", "grazing", "parallel", "sliver", "stiff", "aspect", "offset", "scale",
+        "near-parallel-edges", "needle", "static-pair", "rigid", "end-contact", "even-roots", "triple-root"})
+    for (const Query& query : queries_of(family, 200)) {
+      if (collides(query)) continue;
+      ++apart;
+      // Nothing is required below 2^-300 of the differences.
+      const Approach approach = closest_approach(
+          VertexDifferences(query), [](double upper) { return upper < 0x1p-300 ? 0 : 0.999 * upper; });
+      EXPECT_TRUE(approach.enough) << family;
+    }
+  EXPECT_GT(apart, 1000);
+}
+
+TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
+  for (const Query& query : queries_of("planted", 100)) {
+    const Approach approach =
+        closest_approach(VertexDifferences(query), [](double upper) { return 0.5 * upper; });
+    EXPECT_FALSE(approach.enough);
+    EXPECT_EQ(approach.lower, 0);
+    EXPECT_LT(approach.upper, 0x1p-40);
+  }
+}
+
+TEST(DistanceInUnits, LiesInOneBin) {
+  const auto decade = [](double hi) { return hi < 1e-16 ? 0 : std::pow(10, std::floor(std::log10(hi))); };
+  int resolved = 0;
+  for (const Query& query : queries_of("end-contact", 400)) {
+    if (collides(query)) continue;
+    const Enclosure distance = minimum_distance(query);
+    const Enclosure ratio = distance_in_units(query, 0x1p-9, decade);
+    EXPECT_GE(ratio.lo, decade(ratio.hi));
+    EXPECT_LE(ratio.lo * 0x1p-9, distance.hi);
+    EXPECT_GE(ratio.hi * 0x1p-9, distance.lo);
+    resolved += ratio.lo > 0 ? 1 : 0;
+  }
+  EXPECT_GT(resolved, 50);
+}
+
+/// A query of which double intervals once said that it was at 4.85e-08 of its bound.
+TEST(DistanceInUnits, ASliversDistanceIsKnown) {
+  const Query query = make_query(find_family("sliver"), 77, 454);
+  const Enclosure distance = minimum_distance(query);
+  EXPECT_LE(distance.lo, 0x1.7ap-59);
+  EXPECT_GE(distance.hi, 0x1.79c4p-59);
+  EXPECT_LE(distance.hi - distance.lo, 1e-3 * distance.hi);
+}
+
+}  // namespace
+}  // namespace nearmiss::certified

@@ -1,0 +1,203 @@
+// The certified bounds of distances: their errors against rational arithmetic.
+#include "oracle/separation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/gmp.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "oracle/moment.hpp"
+#include "oracle/proximity.hpp"
+
+namespace nearmiss::certified {
+namespace {
+
+using Rational = boost::multiprecision::mpq_rational;
+using Exact = std::array<Rational, 3>;
+
+/// The vertices of a query at a time, exactly, in the unit of its differences.
+class ExactVertices {
+ public:
+  ExactVertices(const Query& query, const VertexDifferences& differences, const Rational& t)
+      : query_(query), t_(t) {
+    const int exponent = differences.exponent();
+    for (int i = 0; i < std::abs(exponent); ++i) unit_ *= exponent > 0 ? Rational(2) : Rational(1, 2);
+  }
+
+  [[nodiscard]] Exact position(std::size_t i, std::size_t j) const {
+    return difference(i, j, [&](const Rational& start, const Rational& end) {
+      return Rational((1 - t_) * start + t_ * end);
+    });
+  }
+  [[nodiscard]] Exact velocity(std::size_t i, std::size_t j) const {
+    return difference(i, j, [](const Rational& start, const Rational& end) { return Rational(end - start); });
+  }
+
+ private:
+  template <class Formula>
+  [[nodiscard]] Exact difference(std::size_t i, std::size_t j, const Formula& formula) const {
+    Exact v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = [&](std::size_t time) {
+        return Rational(Rational(query_.x[12 * time + 3 * i + k]) -
+                        Rational(query_.x[12 * time + 3 * j + k]));
+      };
+      v[k] = formula(at(0), at(1)) / unit_;
+    }
+    return v;
+  }
+
+  const Query& query_;
+  Rational t_, unit_ = 1;
+};
+
+Exact cross(const Exact& v, const Exact& w) {
+  return {Rational(v[1] * w[2] - v[2] * w[1]), Rational(v[2] * w[0] - v[0] * w[2]),
+          Rational(v[0] * w[1] - v[1] * w[0])};
+}
+Rational dot(const Exact& v, const Exact& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+Exact exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
+
+/// Coordinates of one size, of sizes of their own, and so large or small that differences overflow or products underflow.
+std::vector<Query> all_sorts(int each) {
+  std::mt19937_64 random(20);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  std::vector<Query> queries;
+  for (const auto& [smallest, largest] :
+       {std::pair{0, 0}, {-60, 0}, {-1040, -1000}, {1000, 1023}, {-300, 300}, {-1070, 1023}}) {
+    std::uniform_int_distribution<int> exponent(smallest, largest);
+    for (int i = 0; i < each; ++i) {
+      Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+      for (double& c : query.x) c = std::ldexp(coordinate(random), exponent(random));
+      queries.push_back(query);
+    }
+  }
+  return queries;
+}
+
+/// Every coefficient is within its error of the exact one; the largest share of an error that is used.
+double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
+  double most = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Rational miss = abs(Rational(product.coefficients[i]) - exact[i]);
+    const double share = Rational(miss / Rational(product.errors[i])).convert_to<double>();
+    EXPECT_LE(share, 1) << "coefficient " << i;
+    most = std::max(most, share);
+  }
+  return most;
+}
+
+template <class Real>
+struct Precision : ::testing::Test {};
+using Reals = ::testing::Types<double, DoubleWord>;
+TYPED_TEST_SUITE(Precision, Reals);
+
+TYPED_TEST(Precision, NormalsProductsAreWithinTheirErrors) {
+  for (const Query& query : all_sorts(60))
+    for (const double t : {0.0, 0.3, 1.0}) {
+      const VertexDifferences differences(query);
+      const Separation separation = separate_by_normal(VerticesAt<TypeParam>(differences, TypeParam(t)));
+      const ExactVertices x(query, differences, Rational(t));
+      const bool triangle = query.kind == Kind::vertex_triangle;
+      const std::size_t origin = triangle ? 1 : 2;
+      const std::size_t q_to = triangle ? 2 : 0;
+      const Exact q = x.position(q_to, 1), r = x.position(3, origin), p = x.position(0, origin);
+      const Exact v = x.velocity(q_to, 1), w = x.velocity(3, origin), u = x.velocity(0, origin);
+      std::array<Rational, 4> F{Rational(dot(cross(q, r), p)),
+                                Rational(dot(cross(v, r), p) + dot(cross(q, w), p) + dot(cross(q, r), u)),
+                                Rational(dot(cross(v, w), p) + dot(cross(v, r), u) + dot(cross(q, w), u)),
+                                Rational(dot(cross(v, w), u))};
+      if ((F[0] < 0) != (separation.products[0].coefficients[0] < 0) &&
+          abs(F[0]) > Rational(separation.products[0].errors[0]))
+        for (Rational& c : F) c = -c;  // the sign that the distance has
+      if (abs(F[0]) > Rational(separation.products[0].errors[0])) expect_within(separation.products[0], F);
+      EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]),
+                dot(cross(q, r), cross(q, r)));
+    }
+}
+
+TYPED_TEST(Precision, EdgesProductsAreWithinTheirErrors) {
+  const Vec<double> direction{0.6, -0.64, 0.48};
+  for (const Query& query : all_sorts(60))
+    for (const double t : {0.0, 0.3, 1.0}) {
+      const VertexDifferences differences(query);
+      const VerticesAt<TypeParam> rounded(differences, TypeParam(t));
+      const Separation separation = separate_by_edge(rounded, 2, 3, direction);
+      if (separation.count == 0) continue;
+      const ExactVertices x(query, differences, Rational(t));
+      const Vec<double> edge = to_double(rounded.position(3, 2));
+      const Exact k = exactly((1 / certified::dot(edge, edge)) * certified::cross(direction, edge));
+      const Exact n0 = cross(x.position(3, 2), k), n1 = cross(x.velocity(3, 2), k);
+      EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]), dot(n0, n0));
+      EXPECT_GE(Rational(separation.length[1]) * Rational(separation.length[1]), dot(n1, n1));
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < second_primitive(query.kind); ++i)
+        for (std::size_t j = second_primitive(query.kind); j < 4; ++j) {
+          if (j == 3) continue;
+          const Exact p = x.position(i, j), w = x.velocity(i, j);
+          ASSERT_LT(count, separation.count);
+          expect_within(
+              separation.products[count++],
+              {Rational(dot(n0, p)), Rational(dot(n0, w) + dot(n1, p)), Rational(dot(n1, w)), Rational(0)});
+        }
+      EXPECT_EQ(count, separation.count);
+    }
+}
+
+TYPED_TEST(Precision, ConstantsProductsAreWithinTheirErrors) {
+  const Vec<double> direction{0.6, -0.64, 0.48};
+  for (const Query& query : all_sorts(60)) {
+    const VertexDifferences differences(query);
+    const Separation separation =
+        separate_by_constant(VerticesAt<TypeParam>(differences, TypeParam(0.3)), direction);
+    const ExactVertices x(query, differences, Rational(0.3));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < second_primitive(query.kind); ++i)
+      for (std::size_t j = second_primitive(query.kind); j < 4; ++j)
+        expect_within(separation.products[count++],
+                      {Rational(dot(exactly(direction), x.position(i, j))),
+                       Rational(dot(exactly(direction), x.velocity(i, j))), Rational(0), Rational(0)});
+    EXPECT_EQ(count, separation.count);
+  }
+}
+
+TYPED_TEST(Precision, UpperBoundsAreAboveTheDistance) {
+  for (const Query& query : all_sorts(10))
+    for (const double t : {0.0, 0.3, 1.0}) {
+      const VertexDifferences differences(query);
+      const Moment moment = look(VerticesAt<TypeParam>(differences, TypeParam(t)));
+      const double upper = std::ldexp(moment.upper, differences.exponent());
+      if (std::isfinite(upper)) {
+        EXPECT_TRUE(comes_within(query, std::nextafter(upper, HUGE_VAL))) << query.x[0];
+      }
+    }
+}
+
+TEST(CertifiedReach, EndsWhereAProductFallsBelowTheDistance) {
+  Separation separation;
+  separation.length = {2, 0, 0};
+  separation.add({6, -1, 0, 0}, {});  // (6 - s) / 2 is at least 2 until s = 2
+  EXPECT_EQ(certified_reach(separation, 2, 1, 1), 1);
+  const double forward = certified_reach(separation, 2, 1, 8);
+  EXPECT_LE(forward, 2);
+  EXPECT_GT(forward, 1.99);
+  EXPECT_EQ(certified_reach(separation, 2, -1, 8), 8);
+  EXPECT_EQ(certified_reach(separation, 3.1, 1, 8), 0);
+  separation.add({5, 0, -1, 0}, {});  // 5 - s² is 4 at s = 1
+  EXPECT_LE(certified_reach(separation, 2, 1, 8), 1);
+  EXPECT_LE(certified_reach(separation, 2, -1, 8), 1);
+}
+
+TEST(CertifiedReach, AnErrorOrALongerNormalEndsItSooner) {
+  Separation separation;
+  separation.length = {1, 0.5, 0.25};
+  separation.add({4, 0, 0, 0}, {0, 0.5, 0, 0.125});
+  // 4 - s / 2 - s³ / 8 - 1 - s / 2 - s² / 4 is zero at s = 1.687...
+  EXPECT_LE(certified_reach(separation, 1, 1, 8), 1.6875);
+  EXPECT_GT(certified_reach(separation, 1, 1, 8), 1.68);
+}
+
+}  // namespace
+}  // namespace nearmiss::certified
