@@ -61,9 +61,10 @@ class Truth {
     return distances_.back().second;
   }
 
-  /// `distance`'s ratio to a part in a thousand.
+  /// `distance`'s ratio to a part in a thousand, unless it is below all borders of a Histogram.
   [[nodiscard]] double precise_ratio(double bound, double ratio) const {
-    return ratio == 1 ? ratio : std::min(closest_ratio(query_, bound), ratio);
+    if (ratio == 1 || Histogram::lower_border(ratio) == 0) return ratio;
+    return std::min(closest_ratio(query_, bound), ratio);
   }
 
  private:

@@ -89,8 +89,8 @@ struct Outcome {
   Verdict verdict;
   bool collision = false;
   /// Of a false positive: certified distance over [0, 1] / claimed bound, from above and in the right bin of a
-  /// Histogram; to a part in a thousand if it may be among the farthest. A subject that claims no bound is
-  /// measured by wang's for the same pair.
+  /// Histogram; to a part in a thousand if it may be among the farthest, but for those in the first bin. A subject
+  /// that claims no bound is measured by wang's for the same pair.
   double ratio = 0;
   bool bound_refuted = false;  ///< certainly farther away than claimed
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "reports/statistics.hpp"
+
 namespace nearmiss {
 
 std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t to_the_left) {
@@ -46,6 +48,8 @@ constexpr double infinite = std::numeric_limits<double>::max();
 
 std::string fraction_of_bound(double ratio) {
   if (ratio == infinite) return "inf";
+  if (ratio > 0 && Histogram::lower_border(ratio) == 0)
+    return fmt::format("below {:g}", Histogram::border(1));
   std::string text;
   for (int digits = 3; digits <= 17; ++digits) {
     text = fmt::format("{:.{}g}", ratio, digits);

@@ -18,8 +18,8 @@ std::string with_separators(std::uint64_t number);
 /// A part of all as "12.3 %"; "" of nothing.
 std::string percent(std::uint64_t part, std::uint64_t all);
 
-/// Three digits, or as many as it takes to tell what is below 1 from 1; "inf" for the largest double, which
-/// stands for any distance where 0 is claimed.
+/// Three digits, or as many as it takes to tell what is below 1 from 1; "below 1e-16" of a ratio that is given from
+/// above only; "inf" for the largest double, which stands for any distance where 0 is claimed.
 std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", or "beyond a bound of 0".

@@ -4,8 +4,10 @@
 const integer = (n) => n.toLocaleString("en-US");
 const short = (x) =>
   x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
-/** Three digits, or as many as it takes to tell what is below 1 from 1. */
+/** Three digits, or as many as it takes to tell what is below 1 from 1; what is below all borders is known from above only. */
 function fraction(x) {
+  const lowest = report.histogram_borders[1];
+  if (x > 0 && x < lowest) return `below ${short(lowest)}`;
   for (let digits = 3; x > 0.9 && x < 1; ++digits)
     if (Number(x.toPrecision(digits)) < 1) return Number(x.toPrecision(digits)).toString();
   return short(x);
