@@ -100,6 +100,16 @@ TEST(Root, KnowsWhetherItIsRational) {
   EXPECT_FALSE(roots[3].as_rational());
 }
 
+TEST(Root, ARationalRootIsFoundInAWideInterval) {
+  for (int denominator = 3; denominator < 20; denominator += 2)
+    for (int numerator = 1; numerator < denominator; ++numerator) {
+      auto roots =
+          roots_in_step(polynomial({-static_cast<double>(numerator), static_cast<double>(denominator)}));
+      ASSERT_EQ(roots.size(), 1U);
+      EXPECT_EQ(roots[0].as_rational(), CGAL::Gmpq(numerator, denominator));
+    }
+}
+
 TEST(Root, BecomesAsNarrowAsOneLikes) {
   auto roots = roots_in_step(polynomial({-0.5, 0, 1}));
   ASSERT_EQ(roots.size(), 1);
