@@ -2,8 +2,9 @@
 "use strict";
 
 /** The largest double stands for a distance over a bound of 0: JSON has no infinity. */
+const withInfinity = (value) => (Array.isArray(value) ? value.map(withInfinity) : value === Number.MAX_VALUE ? Infinity : value);
 const report = JSON.parse(document.getElementById("report").textContent,
-  (key, value) => (value === Number.MAX_VALUE && /over_bound$|^ratio$/.test(key) ? Infinity : value));
+  (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
 /** [{subject, kind, family, ...counts}]; family is "" for the sum over families. */
 function countRows(byFamily) {
