@@ -16,7 +16,7 @@ const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fra
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
 /** The range in which a number is known to be. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
-  text: (r) => (r[field][1] > 0 ? `${short(r[field][0])}–${short(r[field][1])}` : "–") });
+  text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 
 /** A new element; `content` is text, a node, or a list of these. */
