@@ -71,8 +71,8 @@ Moment look(const VerticesAt<Real>& x) {
   Moment moment;
   moment.features = features;
   const double distance = std::sqrt(closest.squared_distance);
-  // The points' difference is made of at most three differences of vertices, with weights up to 1, and misses
-  // by at most 7.1 U of the sum of their reaches; the interiors' weights may add up to 1 + 2 U.
+  // The points' difference is a sum of at most three vertex differences, rounded four times each, with exact weights up to
+  // 1: three more roundings at most. The interiors' weights may add up to 1 + 2 U.
   moment.upper = distance * (1 + 0x1p-48) + 12 * roundoff<Real> * differences.total_reach() + least_distance;
   const Vec<double> difference = to_double(closest.difference);
   const Vec<double> velocity = to_double(closest.velocity);

@@ -19,19 +19,21 @@
 //   the turning edge loses nothing;
 // - N(t), the normal of the triangle, or of both edges: all products are ±F, the coplanarity cubic.
 //
-// Errors of the coefficients, in units of U = roundoff<Real>, the relative error of one operation. A vector x_i - x_j is within R
-// = reach(i, j), and its velocity w within 2 R; both are known to 4.01 U R (VerticesAt). A dot product of v
-// and w rounds by 3.01 U |v| |w|; a cross product by 2.01 U |v| |w| in each component, 3.5 U |v| |w| in all.
+// Errors of the coefficients. Each is a sum of products of one component of each of two or three vectors, and each such
+// product is rounded at most n times on its way into the coefficient, which leaves it within n U of itself (U =
+// roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the magnitudes of the
+// products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for two, to at most a b;
+// the components of a cross product make up a vector of at most 2/√3 a b. A vector x_i - x_j is within R = reach(i,
+// j), and its velocity within 2 R. So the errors, in units of U times the lengths, are:
 //
-// - constant n: n·x misses by (4.01 + 3.01) U |n| R, n·w by (4.01 + 2 · 3.01) U |n| R: taken 8 and 16.
-// - n = e × k, with E for the edge, K = |k|: n(0) misses by 4.01 + 3.5 = 7.6 U E K, its derivative by 4.01 + 2 · 3.5 =
-//   11.1. The coefficients: n(0)·x by 7.6 + 4.01 + 3.01 < 14.7; n(0)·w + n'·x by (2 · 7.6 + 4.01 + 2 · 3.01) +
-//   (11.1 + 2 · 4.01 + 2 · 3.01) + 4 < 54.5; n'·w by 2 · 11.1 + 2 · 4.01 + 4 · 3.01 < 42.3, of E K R: taken 16, 64, 64.
-// - N = q × r, with Q and R_r: N(0) misses by 2 · 4.01 + 3.5 < 11.6, the linear coefficient by 2 (4.01 + 2 · 4.01 + 2 ·
-//   3.5) + 4 < 42.1, the quadratic one by 4 · 4.01 + 4 · 3.5 < 30.1, and they are at most 1, 4, 4 times Q R_r: taken
-//   16, 64, 64. F's: N0·p by 11.6 + 4.01 + 3.01 < 18.7; N1·p + N0·w by (42.1 + 4 · 4.01 + 4 · 3.01) + (2 · 11.6 + 4.01 +
-//   2 · 3.01) + 6 < 109.5; N2·p + N1·w by (30.1 + 4 · 4.01 + 4 · 3.01) + (2 · 42.1 + 4 · 4.01 + 8 · 3.01) + 12 <
-//   194.6; N2·w by 2 · 30.1 + 4 · 4.01 + 8 · 3.01 < 100.4, of Q R_r R: taken 24, 144, 288, 192.
+//                             n            lengths      error     taken
+//   n·x, n·w                  7, 5         1, 2         7, 10     8, 16
+//   (e × k)·x                 13, 12, 9    1, 4, 4      15.1, 55.5, 41.6   16, 64, 64
+//   e × k                     6, 4         1, 2         7, 9.3    16, 32
+//   F                         17, 17, 15, 11   1, 6, 12, 8   19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
+//   N                         10, 9, 6     1, 4, 4      11.6, 41.6, 27.8   16, 64, 64
+//
+// tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
 //
 // What is taken too much has room for second orders in U and for the roundings of the bounds themselves. Coefficients are
 // rounded to double (2^-53 of each, taken 2^-52). Underflow, at most 2^-1021 for each of less than 100 operations and
@@ -103,7 +105,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   const double unit = roundoff<Real> * differences.reach(to, from) * length(key);
 
   Separation separation;
-  separation.length = {longest(to_double(n0), 16 * unit), longest(to_double(n1), 16 * unit), 0};
+  separation.length = {longest(to_double(n0), 16 * unit), longest(to_double(n1), 32 * unit), 0};
   const auto add = [&](std::size_t i, std::size_t j) {
     const Vec<Real> p = x.position(i, j);
     const Vec<Real> w = x.velocity(i, j);

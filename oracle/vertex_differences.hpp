@@ -52,9 +52,9 @@ class VertexDifferences {
   double total_reach_;
 };
 
-/// The vertices at one time: 1 - t, products, sum and, in double, the differences' rounding leave a component
-/// of a position within 4.01 U of its largest magnitude in the step, and one of a velocity, which is at most
-/// twice as large, too (U = roundoff<Real>).
+/// The vertices at one time. Each component of a position is made of two products that are rounded at most four
+/// times: 1 - t, product and sum, and in double the difference itself, which with more than 106 bits is the
+/// rounded sum of a double word's halves. A velocity is rounded twice, and at most twice as large.
 template <class Real>
 class VerticesAt {
  public:

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <random>
@@ -12,6 +14,31 @@
 #include "oracle/proximity.hpp"
 
 namespace nearmiss::certified {
+
+/// How often the products that a number is a sum of are rounded, at most. A vertex difference is the sum of two
+/// doubles here, which counts as the rounding that it has in double.
+struct Roundings {
+  int count = 0;
+
+  Roundings() = default;
+  explicit Roundings(double /*exact*/) {}
+  static Roundings of(int roundings) {
+    Roundings r;
+    r.count = roundings;
+    return r;
+  }
+  explicit operator double() const { return count; }
+
+  friend Roundings operator+(const Roundings& a, const Roundings& b) {
+    return of(std::max(a.count, b.count) + 1);
+  }
+  friend Roundings operator-(const Roundings& a, const Roundings& b) { return a + b; }
+  friend Roundings operator*(const Roundings& a, const Roundings& b) { return of(a.count + b.count + 1); }
+  friend Roundings operator-(const Roundings& a) { return a; }
+};
+template <>
+inline constexpr double roundoff<Roundings> = 1;
+
 namespace {
 
 using Rational = boost::multiprecision::mpq_rational;
@@ -173,6 +200,51 @@ TYPED_TEST(Precision, UpperBoundsAreAboveTheDistance) {
         EXPECT_TRUE(comes_within(query, std::nextafter(upper, HUGE_VAL))) << query.x[0];
       }
     }
+}
+
+/// Each error is at least the number of roundings times what the products' magnitudes add up to at most.
+void expect_room(const Product& product, const std::array<double, 4>& sizes) {
+  constexpr double second_orders = 1.02;  // and the roundings of the error itself
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_GE(product.errors[i], second_orders * product.coefficients[i] * sizes[i]) << i;
+}
+
+constexpr double three_vectors = 1.154700538379252;  // 2 / √3, rounded up
+
+TEST(Separation, ErrorsHaveRoomForAllRoundings) {
+  for (const Query& query : all_sorts(6)) {
+    const VertexDifferences differences(query);
+    const VerticesAt<Roundings> x(differences, Roundings(0.3));
+    const std::size_t second = second_primitive(query.kind);
+
+    const Vec<double> direction{0.6, -0.64, 0.48};
+    const Separation constant = separate_by_constant(x, direction);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < second; ++i)
+      for (std::size_t j = second; j < 4; ++j) {
+        const double size = length(direction) * differences.reach(i, j);
+        expect_room(constant.products[n++], {size, 2 * size, 0, 0});
+      }
+
+    const bool triangle = query.kind == Kind::vertex_triangle;
+    const std::size_t origin = triangle ? 1 : 2;
+    const std::size_t q_to = triangle ? 2 : 0;
+    const double area = three_vectors * differences.reach(q_to, 1) * differences.reach(3, origin);
+    const double volume = area * differences.reach(0, origin);
+    const Separation normal = separate_by_normal(x);
+    expect_room(normal.products[0], {volume, 6 * volume, 12 * volume, 8 * volume});
+  }
+}
+
+// Of vectors: the exact lengths are compared in the tests above; here the numbers of roundings alone.
+TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
+  const Query query = all_sorts(1)[0];
+  const VertexDifferences differences(query);
+  const VerticesAt<Roundings> x(differences, Roundings(0.3));
+  const auto counts = [](const Separation& separation) { return separation.products[0].coefficients; };
+  EXPECT_EQ(counts(separate_by_constant(x, {0.6, -0.64, 0.48})), (std::array<double, 4>{7, 5, 0, 0}));
+  EXPECT_EQ(counts(separate_by_edge(x, 2, 3, {0.6, -0.64, 0.48})), (std::array<double, 4>{13, 12, 9, 0}));
+  EXPECT_EQ(counts(separate_by_normal(x)), (std::array<double, 4>{17, 17, 15, 11}));
 }
 
 TEST(CertifiedReach, EndsWhereAProductFallsBelowTheDistance) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "ccd/error.hpp"
 #include "tests/queries.hpp"
@@ -21,6 +22,18 @@ TEST(ExactSubject, AnswersWithoutAnyTolerance) {
   EXPECT_FALSE(exact->decide(testing::falling_vertex(0.5, 0.5, 1, 0x1p-1074)).hit);
   EXPECT_TRUE(exact->decide(Query{}).hit);
   EXPECT_EQ(exact->distance_bound(Query{}), 0);
+}
+
+TEST(ExactSubject, AnswersEachOfManyQueries) {
+  std::vector<Query> queries;
+  for (int i = 0; i < 1000; ++i)
+    queries.push_back(testing::falling_vertex(0.25, 0.25, 1, i % 3 == 0 ? 0.5 : -0.5));
+  for (const SubjectInfo& info : exact_subjects()) {
+    std::vector<Verdict> verdicts(queries.size());
+    try_make_exact(info.name)->decide(queries, verdicts);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      EXPECT_EQ(verdicts[i].hit, i % 3 != 0) << info.name << ' ' << i;
+  }
 }
 
 TEST(ExactSubject, RefusesWhatIsNotFinite) {

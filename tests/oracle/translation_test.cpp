@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "oracle/oracle.hpp"
@@ -29,6 +30,20 @@ Query translating_query(std::mt19937_64& random, Kind kind, bool rest) {
     query.set_end(i, p + velocities[i < split(kind) ? 0 : 1]);
   }
   return query;
+}
+
+// The triangle rises by 1 - 2^-60, which is no double; the vertex just touches it at t = 1.
+TEST(Translation, AVelocityThatIsNoDoubleIsNotRounded) {
+  Query query{.kind = Kind::vertex_triangle};
+  const std::array<Vector3<double>, 4> points{
+      {{0.25, 0.25, -1}, {0, 0, 0x1p-60}, {1, 0, 0x1p-60}, {0, 1, 0x1p-60}}};
+  for (int i = 0; i < 4; ++i) {
+    query.set_start(i, points[static_cast<std::size_t>(i)]);
+    query.set_end(i, {points[static_cast<std::size_t>(i)][0], points[static_cast<std::size_t>(i)][1], 1});
+  }
+  EXPECT_TRUE(collides_exactly(query));
+  EXPECT_EQ(relative_motion(query), RelativeMotion::translation);
+  EXPECT_NE(meets_by_translation(query), std::optional(false));
 }
 
 TEST(Translation, AgreesWithExactArithmetic) {
