@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,11 +21,11 @@ using nlohmann::ordered_json;
 
 bool is_random(const std::string& family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
 
-/// The rates of one counter that are compared, intervals not yet told.
-std::vector<std::pair<std::string_view, Rate>> rates_of(const Counts& counts) {
-  return {{"false negatives", {counts.false_negatives, counts.collisions, {}}},
-          {"false positives", {counts.false_positives, counts.queries - counts.collisions, {}}},
-          {"no answer", {counts.faults_total(), counts.queries, {}}}};
+/// The rates of one counter that are compared.
+std::vector<std::pair<std::string_view, Share>> rates_of(const Counts& counts) {
+  return {{"false negatives", {counts.false_negatives, counts.collisions}},
+          {"false positives", {counts.false_positives, counts.queries - counts.collisions}},
+          {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
 /// All rates that both campaigns have, changed or not.
@@ -69,6 +71,66 @@ std::vector<Signature> only_in(const Campaign& one, const Campaign& other) {
   return signatures;
 }
 
+/// The queries of a subject; of the oracle all.
+std::uint64_t queries_of(const Statistics& statistics, const std::string& subject) {
+  if (subject.empty()) return statistics.oracle_total().queries;
+  std::uint64_t queries = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == subject) queries += counts.queries;
+  return queries;
+}
+
+std::uint64_t times(const Statistics& statistics, const Signature& signature) {
+  const auto seen = statistics.seen.find(signature);
+  return seen == statistics.seen.end() ? 0 : seen->second;
+}
+
+/// How many signatures a campaign with `ratio` times as many queries brings that were not seen before, from
+/// how many were seen once, twice and so on: the series of Good and Toulmin 1956, for a larger campaign its first term.
+double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
+  double expected = 0;
+  for (const std::uint64_t times : seen) {
+    if (ratio > 1)
+      expected += times == 1 ? ratio : 0;
+    else
+      expected -= std::pow(-ratio, static_cast<double>(times));
+  }
+  return std::max(expected, 0.0);
+}
+
+/// Signatures against the baseline's.
+void compare_signatures(const Statistics& now, const Statistics& before, Changes& changes) {
+  // By what failed, and of which subject: how often each signature was seen before.
+  std::map<std::pair<Finding::What, std::string>, std::vector<std::uint64_t>> seen_before;
+  for (const auto& [signature, count] : before.seen)
+    seen_before[{signature.what, signature.subject}].push_back(count);
+  std::set<Signature> all;
+  for (const Statistics* each : {&now, &before})
+    for (const auto& [signature, count] : each->seen) all.insert(signature);
+  const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, all.size()));
+  for (const auto& [name, count] : now.seen) {
+    const Signature& signature = name;
+    const bool fails_anyway =
+        !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
+    const auto share_of = [&](const Statistics& statistics) {
+      const std::uint64_t seen = times(statistics, signature);
+      return Share{seen, std::max(seen, queries_of(statistics, signature.subject))};
+    };
+    const Share earlier = share_of(before);
+    const bool is_unseen = earlier.count == 0;
+    if (fails_anyway ? fisher_test(share_of(now), earlier).more < level : is_unseen)
+      changes.new_signatures.push_back(signature);
+    else if (is_unseen)
+      changes.unseen_signatures.push_back(signature);
+  }
+  for (const auto& [what, seen] : seen_before) {
+    const auto queries = static_cast<double>(queries_of(before, what.second));
+    if (!what.second.empty() && queries > 0)
+      changes.expected_unseen +=
+          expected_unseen(seen, static_cast<double>(queries_of(now, what.second)) / queries);
+  }
+}
+
 ordered_json signatures_json(const std::vector<Signature>& signatures) {
   ordered_json json = ordered_json::array();
   for (const Signature& each : signatures)
@@ -76,14 +138,15 @@ ordered_json signatures_json(const std::vector<Signature>& signatures) {
   return json;
 }
 
-ordered_json rate_json(const Rate& rate) {
-  return {{"count", rate.count},
-          {"total", rate.total},
-          {"rate", static_cast<double>(rate.count) / static_cast<double>(rate.total)},
-          {"interval", {rate.interval.lo, rate.interval.hi}}};
+ordered_json rate_json(const Share& share) {
+  const Interval interval = clopper_pearson(share.count, share.total);
+  return {{"count", share.count},
+          {"total", share.total},
+          {"rate", static_cast<double>(share.count) / static_cast<double>(share.total)},
+          {"interval_95", {interval.lo, interval.hi}}};
 }
 
-std::string text_of(const Rate& rate) {
+std::string text_of(const Share& rate) {
   return fmt::format("{} of {}", with_separators(rate.count), with_separators(rate.total));
 }
 
@@ -99,21 +162,17 @@ bool Changes::for_the_worse() const {
 }
 
 Changes changes(const Campaign& now, const Campaign& baseline) {
-  Changes changes{.new_signatures = only_in(now, baseline),
+  Changes changes{.new_signatures = {},
+                  .unseen_signatures = {},
                   .gone_signatures = only_in(baseline, now),
                   .rates = pairs_of_rates(now.statistics, baseline.statistics),
                   .compared_rates = 0,
                   .facts = changed_facts(now, baseline)};
+  compare_signatures(now.statistics, baseline.statistics, changes);
   changes.compared_rates = changes.rates.size();
-  // Where nothing has changed two intervals are disjoint only if one of them misses the true rate.
-  const double risk =
-      false_alarm_risk / (2 * static_cast<double>(std::max<std::size_t>(1, changes.rates.size())));
-  for (ChangedRate& each : changes.rates)
-    for (Rate* rate : {&each.before, &each.now})
-      rate->interval = clopper_pearson(rate->count, rate->total, risk);
-  std::erase_if(changes.rates, [](const ChangedRate& each) {
-    return each.before.interval.lo <= each.now.interval.hi && each.now.interval.lo <= each.before.interval.hi;
-  });
+  const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, changes.rates.size()));
+  for (ChangedRate& each : changes.rates) each.p = fisher_test(each.now, each.before).either();
+  std::erase_if(changes.rates, [&](const ChangedRate& each) { return each.p >= level; });
   return changes;
 }
 
@@ -130,7 +189,10 @@ std::string describe(const Changes& changes) {
 ordered_json changes_json(const Changes& changes) {
   ordered_json json;
   json["new_signatures"] = signatures_json(changes.new_signatures);
+  json["unseen_signatures"] = signatures_json(changes.unseen_signatures);
+  json["expected_unseen"] = changes.expected_unseen;
   json["gone_signatures"] = signatures_json(changes.gone_signatures);
+  json["level"] = false_alarm_risk;
   json["compared_rates"] = changes.compared_rates;
   json["changed_rates"] = ordered_json::array();
   for (const ChangedRate& each : changes.rates)
@@ -139,6 +201,7 @@ ordered_json changes_json(const Changes& changes) {
                                      {"kind", short_name(each.key.kind)},
                                      {"family", each.key.family},
                                      {"worse", each.worse()},
+                                     {"p", each.p},
                                      {"before", rate_json(each.before)},
                                      {"now", rate_json(each.now)}});
   json["changed_facts"] = ordered_json::array();

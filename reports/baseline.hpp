@@ -12,20 +12,17 @@
 
 namespace nearmiss {
 
-/// So many of so many, and what the true rate may be.
-struct Rate {
-  std::uint64_t count = 0;
-  std::uint64_t total = 0;
-  Interval interval;
-};
-
-/// A rate that is certainly another one than it was.
+/// A rate that differs by more than chance explains.
 struct ChangedRate {
   std::string_view what;  ///< "false negatives", "false positives" or "no answer"
   Key key;
-  Rate before, now;
+  Share before, now;
+  double p = 1;  ///< of Fisher's exact test: how likely such a difference is where the rates are the same
 
-  [[nodiscard]] bool worse() const { return now.interval.lo > before.interval.hi; }
+  [[nodiscard]] bool worse() const {
+    return static_cast<double>(now.count) / static_cast<double>(now.total) >
+           static_cast<double>(before.count) / static_cast<double>(before.total);
+  }
 };
 
 /// A fact of the runs that differs: all of its values, joined by " | ".
@@ -34,7 +31,11 @@ struct ChangedFact {
 };
 
 struct Changes {
-  std::vector<Signature> new_signatures;   ///< ways to fail that the baseline has not
+  /// Ways to fail that are new, or more frequent than chance explains.
+  std::vector<Signature> new_signatures;
+  /// Those of a subject that fails anyway which the baseline has not, but as rarely as chance explains.
+  std::vector<Signature> unseen_signatures;
+  double expected_unseen = 0;              ///< about how many of these chance alone brings
   std::vector<Signature> gone_signatures;  ///< that only the baseline has
   std::vector<ChangedRate> rates;
   std::size_t compared_rates = 0;
@@ -44,12 +45,16 @@ struct Changes {
   [[nodiscard]] bool for_the_worse() const;
 };
 
-/// How likely it is that `changes` names any rate although all are what they were.
+/// How likely it is that `changes` names any rate although all are what they were; and any way to fail.
 inline constexpr double false_alarm_risk = 1e-3;
 
-/// Compares the rates of all families that both campaigns have. A rate has changed where the two intervals of
-/// Clopper and Pearson are disjoint; their risks are false_alarm_risk shared out among all comparisons
-/// (Bonferroni). Cases and meshes, which are no random samples, are left out.
+/// Compares the rates of all families that both campaigns have, by Fisher's exact test. Cases and meshes, which are no
+/// random samples, are left out.
+///
+/// Where a subject has not failed in some way at all, neither in the baseline, any such failure is new, and so is one of the
+/// oracle. A subject that fails brings a few unseen signatures every time. There a signature counts where Fisher's exact
+/// test says that it is more frequent, among the subject's queries, than chance explains. Both tests share
+/// false_alarm_risk out among all their comparisons (Bonferroni).
 Changes changes(const Campaign& now, const Campaign& baseline);
 
 /// A line for each change; "" where there is none.

@@ -1,6 +1,7 @@
 #include "reports/confidence.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/hypergeometric.hpp>
 
 namespace nearmiss {
 
@@ -24,6 +25,32 @@ double clopper_pearson_upper(std::uint64_t count, std::uint64_t total) { return 
 
 Interval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk) {
   return {lower(count, total, risk / 2), upper(count, total, risk / 2)};
+}
+
+namespace {
+
+/// P(X >= count) and P(X <= count), where X has values from `least` on.
+template <class Distribution, class Number>
+FisherTest tails(const Distribution& distribution, Number count, Number least) {
+  return {count == least ? 1 : cdf(complement(distribution, count - 1)), cdf(distribution, count)};
+}
+
+}  // namespace
+
+FisherTest fisher_test(const Share& now, const Share& before) {
+  const std::uint64_t total = now.total + before.total;
+  const std::uint64_t counted = now.count + before.count;
+  if (counted == 0 || counted == total || now.total == 0 || before.total == 0) return {};
+  constexpr std::uint64_t largest_total = 1ULL << 31;
+  constexpr std::uint64_t most_counted = 1000000;
+  if (total > largest_total || counted > most_counted)
+    return tails(
+        Binomial(static_cast<double>(counted), static_cast<double>(now.total) / static_cast<double>(total)),
+        static_cast<double>(now.count), 0.0);
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned>(n); };
+  const boost::math::hypergeometric_distribution<> drawn(number(counted), number(now.total), number(total));
+  const std::uint64_t least = counted > before.total ? counted - before.total : 0;
+  return tails(drawn, number(now.count), number(least));
 }
 
 }  // namespace nearmiss

@@ -1,6 +1,7 @@
 // Confidence bounds of rates.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace nearmiss {
@@ -20,5 +21,21 @@ struct Interval {
 /// The two-sided interval of Clopper and Pearson: the true rate is below it with probability `risk` / 2 at
 /// most, and above it likewise. [0, 1] where nothing was looked at.
 Interval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
+
+/// Something that was counted, and among how many: count <= total.
+struct Share {
+  std::uint64_t count = 0, total = 0;
+};
+
+/// Fisher's exact test of two shares: how likely it is, where both have the same rate, that `now` is at least as
+/// large against `before`, given their sum; and at least as small. Of more than 2^31 in all, or a million counted, by
+/// a binomial distribution, which says a larger probability.
+struct FisherTest {
+  double more = 1, less = 1;
+
+  /// Two-sided: twice the smaller one, 1 at most.
+  [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
+};
+FisherTest fisher_test(const Share& now, const Share& before);
 
 }  // namespace nearmiss

@@ -49,17 +49,22 @@ function drawBaseline() {
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   for (const way of ways(baseline.new_signatures)) say(`New: ${way}.`, true);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
+  if (baseline.unseen_signatures.length > 0)
+    say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but as rare as chance explains ` +
+      `(about ${short(Math.round(baseline.expected_unseen))} were to be expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
   for (const way of ways(baseline.gone_signatures)) say(`Not seen any more: ${way}.`);
   say(baseline.changed_rates.length === 0
-    ? `None of ${integer(baseline.compared_rates)} rates is outside its confidence interval.`
-    : `${worse} of ${integer(baseline.compared_rates)} rates are worse and ${baseline.changed_rates.length - worse} better: ` +
-      "confidence intervals are disjoint.", worse > 0);
+    ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (Fisher's exact test, ` +
+      `level ${baseline.level} for all together).`
+    : `${worse} of ${integer(baseline.compared_rates)} rates are worse and ${baseline.changed_rates.length - worse} better than chance ` +
+      `explains (Fisher's exact test, level ${baseline.level} for all together).`, worse > 0);
   const rate = (title, when) => ({ title, number: (r) => r[when].rate,
-    text: (r) => `${percent(r[when].rate)} (${percentRange(r[when].interval)}), ${integer(r[when].count)} of ${integer(r[when].total)}` });
+    text: (r) => `${percent(r[when].rate)} (${percentRange(r[when].interval_95)}), ${integer(r[when].count)} of ${integer(r[when].total)}` });
   if (baseline.changed_rates.length > 0)
     fillTable(element("changed-rates"), [
       { title: "rate", text: (r) => r.what, bad: (r) => r.worse }, text("subject", "subject"), text("kind", "kind"),
       text("family", "family"), rate("before", "before"), rate("now", "now"),
+      { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
     ], baseline.changed_rates);
   const pair = (title, field, form = short) => ({ title, number: (r) => r.now[field],
     text: (r) => `${r.before ? form(r.before[field]) : "–"} → ${form(r.now[field])}` });
@@ -71,7 +76,7 @@ function drawBaseline() {
   if (baseline.changed_facts.length > 0)
     element("changed-facts").textContent = "The runs differ in: " +
       baseline.changed_facts.map((fact) => `${fact.name} (${fact.before || "none"} → ${fact.now || "none"})`).join("; ") +
-      ". So counts differ; rates are compared by their confidence intervals.";
+      ". So counts differ, and rates are compared.";
 }
 
 // --- counts ---------------------------------------------------------------------------------------
