@@ -26,12 +26,12 @@
 // the components of a cross product make up a vector of at most 2/√3 a b. A vector x_i - x_j is within R = reach(i,
 // j), and its velocity within 2 R. So the errors, in units of U times the lengths, are:
 //
-//                             n            lengths      error     taken
-//   n·x, n·w                  7, 5         1, 2         7, 10     8, 16
-//   (e × k)·x                 13, 12, 9    1, 4, 4      15.1, 55.5, 41.6   16, 64, 64
-//   e × k                     6, 4         1, 2         7, 9.3    16, 32
-//   F                         17, 17, 15, 11   1, 6, 12, 8   19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
-//   N                         10, 9, 6     1, 4, 4      11.6, 41.6, 27.8   16, 64, 64
+//               n                lengths        error                       taken
+//   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
+//   (e × k)·x   13, 12, 9        1, 4, 4        15.1, 55.5, 41.6            16, 64, 64
+//   e × k       6, 4             1, 2           7, 9.3                      16, 32
+//   F           17, 17, 15, 11   1, 6, 12, 8    19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
+//   N           10, 9, 6         1, 4, 4        11.6, 41.6, 27.8            16, 64, 64
 //
 // tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
 //
