@@ -31,7 +31,7 @@ struct ChangedFact {
 };
 
 struct Changes {
-  /// Ways to fail that are new, or more frequent than chance explains.
+  /// Ways to fail that are new, or more frequent than chance explains; in order.
   std::vector<Signature> new_signatures;
   /// Those of a subject that fails anyway which the baseline has not, but as rarely as chance explains.
   std::vector<Signature> unseen_signatures;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -121,8 +122,8 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["findings_total"] = campaign.findings().size();
   json["findings"] = ordered_json::array();
   for (const ShownFinding& each : shown_findings(campaign)) {
-    const bool is_new =
-        context.baseline && !context.baseline->statistics.seen.contains(signature_of(each.finding));
+    const bool is_new = since && std::binary_search(since->new_signatures.begin(),
+                                                    since->new_signatures.end(), signature_of(each.finding));
     json["findings"].push_back(finding_json(campaign, each, is_new));
   }
   json["farthest"] = ordered_json::array();
