@@ -203,7 +203,7 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 9")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 10")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {
