@@ -86,8 +86,8 @@ inline constexpr std::size_t constraint_count = 18;
 /// an edge is reported by VE itself, or is within D of an end of the edge when VE's length or weight test
 /// fails.
 ///
-/// A pair that does not collide may have its p within 2B at t = 1: the errors of its weights double at most, and so does
-/// the distance of a false positive from an edge's line.
+/// A pair that does not collide may have its p within 2B at t = 1: the errors of its weights double at most, and so
+/// does the distance of a false positive from an edge's line.
 ///
 /// (2) and (3) print min of the distances of the two ways to be a false positive; it must be max. (2) has E
 /// fixed, (3) too, as 21/4 ε^½ and 4 ε^½, which leaves 4 ε^½ beside η. That the quadrilateral's shorter edge

@@ -63,7 +63,7 @@ class Truth {
 
   /// `distance`'s ratio to a part in a thousand, unless it is below all borders of a Histogram.
   [[nodiscard]] double precise_ratio(double bound, double ratio) const {
-    if (ratio == 1 || Histogram::lower_border(ratio) == 0) return ratio;
+    if (Histogram::lower_border(ratio) == 0) return ratio;
     return std::min(closest_ratio(query_, bound), ratio);
   }
 
@@ -72,7 +72,7 @@ class Truth {
     if (bound == 0) return {std::numeric_limits<double>::max(), true};  // refuted by any distance
     const Enclosure ratio = distance_in_units(query_, bound, Histogram::lower_border);
     if (ratio.hi <= 1) return {ratio.hi, false};
-    if (distance_exceeds(query_, bound))
+    if (ratio.lo > 1 || distance_exceeds(query_, bound))
       return {std::min(ratio.hi, std::numeric_limits<double>::max()), true};
     return {1, false};
   }

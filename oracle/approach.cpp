@@ -23,7 +23,7 @@ class Search {
     times_.reserve(16);
     times_.push_back(look_at(Real(0)));
     times_.push_back(look_at(Real(1)));
-    if (has_valley(times_[0], times_[1])) descend(times_[0], times_[1]);
+    descend(times_[0], times_[1]);
     constexpr int most_gaps = 300;
     for (int i = 0; i < most_gaps && required_ > 0; ++i) {
       const auto gap = first_gap();
@@ -60,8 +60,7 @@ class Search {
 
   /// In double where that is enough; then at the double nearest to t.
   Time look_at(const Real& t) {
-    const double rough = to_double(t);
-    Time time{Real(rough), look(VerticesAt<double>(differences_, rough)), false};
+    Time time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
     return resolves(time.moment) ? time : look_precisely(t);
   }
@@ -78,7 +77,7 @@ class Search {
     const double least = std::max(required_, 0.3 * moment.upper);
     constexpr double small = 0.03;
     return error <= small * least * separation.length[0] && separation.products[0].coefficients[0] > 0 &&
-           12 * roundoff<double> * differences_.total_reach() <= small * moment.upper;
+           points_error<double>(differences_) <= small * moment.upper;
   }
 
   void note(const Time& time) {
@@ -88,12 +87,10 @@ class Search {
     required_ = needed_(upper_);
   }
 
-  /// Whether the distance falls behind one time and grows before another one.
-  static bool has_valley(const Time& a, const Time& b) { return a.moment.slope < 0 && b.moment.slope > 0; }
-
-  /// Goes down to a minimum of the distance in the valley between a and b: by each end's guess of where it is, or
-  /// by halves where these do not help.
+  /// Goes down to a minimum of the distance between a and b, if it falls behind a and grows before b: by each end's
+  /// guess of where the minimum is, or by halves if these do not help.
   void descend(Time a, Time b) {
+    if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
     constexpr int most_steps = 60;
     int slow_steps = 0;
     double width = to_double(b.t - a.t);
@@ -111,7 +108,7 @@ class Search {
     }
   }
 
-  /// Where the end with the steeper slope sees the minimum, if that is between both.
+  /// The minimum as the end with the steeper slope predicts it; the middle if no prediction is between both ends.
   static Real guess_between(const Time& a, const Time& b, double width) {
     const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
     const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
@@ -157,8 +154,7 @@ class Search {
     if (a_is_improved || b_is_improved) return true;
     if (gap.covered_before == 0 && gap.covered_behind == 0) return false;
 
-    Real t = guess_in(gap);
-    if (!(a.t < t && t < b.t)) t = inside(gap);
+    const Real t = guess_in(gap);
     if (!(a.t < t && t < b.t)) return false;
     const Time before = a;  // times_ grows
     const Time behind = b;
@@ -166,12 +162,12 @@ class Search {
     insert(next);
     constexpr double near = 2;
     if (next.moment.upper > near * upper_) return true;
-    if (has_valley(before, next)) descend(before, next);
-    if (has_valley(next, behind)) descend(next, behind);
+    descend(before, next);
+    descend(next, behind);
     return true;
   }
 
-  /// Where an end of the gap sees a new minimum in it, or somewhere else in it.
+  /// A new minimum that an end of the gap predicts in it, if there is one; else some other time in it.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -180,9 +176,12 @@ class Search {
     };
     const Time& a = times_[gap.before];
     const Time& b = times_[gap.before + 1];
-    if (sees(a.moment, a.moment.step)) return a.t + Real(a.moment.step);
-    if (sees(b.moment, gap.width + b.moment.step)) return b.t + Real(b.moment.step);
-    return inside(gap);
+    std::optional<Real> guess;
+    if (sees(a.moment, a.moment.step))
+      guess = a.t + Real(a.moment.step);
+    else if (sees(b.moment, gap.width + b.moment.step))
+      guess = b.t + Real(b.moment.step);
+    return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
   /// A time in a gap: behind the end that covers less, since that is where the distance is small, a few times as far

@@ -49,7 +49,7 @@ template <class Real>
 void take_closer(ClosestPoints<Real>& best, const Features& features, const Vec<Real>& difference,
                  const Vec<Real>& velocity) {
   const double squared = to_double(dot(difference, difference));
-  // Where there is a tie, the later one: interiors come last, and have the normal.
+  // A tie goes to the later candidate: the interiors come last, and have the normal.
   if (squared <= best.squared_distance) best = {features, difference, velocity, squared};
 }
 
@@ -81,12 +81,10 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
   const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
-  // Triangle: x0 - x1 = a (x2 - x1) + b (x3 - x1) + ...; edges: x0 - x2 = a (x0 - x1) + b (x3 - x2) + ...
-  const std::size_t origin = is_triangle ? 1 : 2;
-  const std::size_t q_to = is_triangle ? 2 : 0;
-  const Vec<Real> p = x.position(0, origin);
-  const Vec<Real> q = x.position(q_to, 1);
-  const Vec<Real> r = x.position(3, origin);
+  const NormalPairs pairs = normal_pairs(x.differences().kind());
+  const Vec<Real> p = x.position(pairs.p);
+  const Vec<Real> q = x.position(pairs.q);
+  const Vec<Real> r = x.position(pairs.r);
   const Vec<Real> N = cross(q, r);
   const Real squared = dot(N, N);
   if (!(to_double(squared) > 0)) return;
@@ -97,7 +95,7 @@ void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
       is_triangle ? is_positive(Real(1) - a - b) : is_positive(Real(1) - a) && is_positive(Real(1) - b);
   if (!(is_positive(a) && is_positive(b) && is_inside)) return;
   take_closer(best, {Features::Type::interiors}, p - (a * q + b * r),
-              x.velocity(0, origin) - (a * x.velocity(q_to, 1) + b * x.velocity(3, origin)));
+              x.velocity(pairs.p) - (a * x.velocity(pairs.q) + b * x.velocity(pairs.r)));
 }
 
 }  // namespace detail

@@ -1,5 +1,5 @@
-// The smallest distance over the step: certified bounds in floating-point arithmetic, and exact comparisons where these do not
-// resolve it.
+// The smallest distance over the step: certified bounds in floating-point arithmetic, and exact comparisons if these
+// do not resolve it.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-// Guesses about a cubic by its Bernstein coefficients, in double or in lanes: nothing here is certified.
+// Guesses about a cubic, in double or in lanes: nothing here is certified.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct Powers {
   [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
 
-/// A root near 0 of a cubic that is not zero there, by Laguerre's method, which is quick at multiple roots too; nothing where a
-/// step says that there is none.
+/// A root near 0 of a cubic that is not zero there, by Laguerre's method, which is quick at multiple roots too;
+/// nothing if a step says that there is none.
 inline std::optional<double> root_near_zero(const Powers<double>& F) {
   double t = 0;
   constexpr int most_steps = 10;
@@ -38,7 +38,13 @@ inline std::optional<double> root_near_zero(const Powers<double>& F) {
   return t;
 }
 
-/// The same cubic in powers.
+/// The extremum nearest to 0; the inflection point if there is none.
+inline double extremum_near_zero(const Powers<double>& F) {
+  const double discriminant = std::max(F.c[2] * F.c[2] - 3 * F.c[1] * F.c[3], 0.0);
+  return -F.c[1] / (F.c[2] + std::copysign(std::sqrt(discriminant), F.c[2]));
+}
+
+/// The cubic with these Bernstein coefficients.
 template <class Real>
 Powers<Real> in_powers(const std::array<Real, 4>& b) {
   return {{b[0], 3 * (b[1] - b[0]), 3 * (b[0] + b[2] - 2 * b[1]), b[3] - b[0] + 3 * (b[1] - b[2])}};
@@ -71,7 +77,8 @@ inline double root_between(const Powers<double>& F, double F_0, double F_1, doub
   return std::clamp(t, 0.0, 1.0);
 }
 
-/// Where in (0, 1) it has an extremum, the first of two; any other number, or NaN, where it has none there.
+/// The first extremum in (0, 1) of the cubic with these Bernstein coefficients; any other number, or NaN, if there is
+/// none.
 template <class Real>
 Real extremum(const std::array<Real, 4>& b) {
   using std::max;

@@ -47,33 +47,37 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
 /// For interiors: the distance is |F| / |N|, and N changes little while F goes to zero, or to its extremum. (The
 /// difference of the points says less: while they slide along each other, rounding is all of its component along
 /// the velocity.)
-inline void predict(Moment& moment, double distance, const std::array<double, 4>& F) {
+inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
-  if (!(F[0] > 0)) return;
-  moment.slope = F[1] / F[0];
-  if (const auto root = root_near_zero({F})) {
+  if (!(F.c[0] > 0)) return;
+  moment.slope = F.c[1] / F.c[0];
+  if (const auto root = root_near_zero(F)) {
     moment.step = *root;
     moment.predicted = 0;
-    return;
+  } else {
+    moment.step = extremum_near_zero(F);
+    moment.predicted = distance * std::max(0.0, F.at(moment.step) / F.c[0]);
   }
-  const double discriminant = std::max(F[2] * F[2] - 3 * F[1] * F[3], 0.0);
-  moment.step = -F[1] / (F[2] + std::copysign(std::sqrt(discriminant), F[2]));
-  moment.predicted = distance * std::max(0.0, Powers<double>{F}.at(moment.step) / F[0]);
 }
 
 }  // namespace detail
 
+/// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences, which
+/// are rounded four times each, with exact weights up to 1: at most three more roundings. The weights of interiors may
+/// add up to 1 + 2 U.
+template <class Real>
+double points_error(const VertexDifferences& differences) {
+  return 12 * roundoff<Real> * differences.total_reach();
+}
+
 template <class Real>
 Moment look(const VerticesAt<Real>& x) {
-  const VertexDifferences& differences = x.differences();
   const ClosestPoints<Real> closest = closest_points(x);
   const Features& features = closest.features;
   Moment moment;
   moment.features = features;
   const double distance = std::sqrt(closest.squared_distance);
-  // The points' difference is a sum of at most three vertex differences, rounded four times each, with exact weights up to
-  // 1: three more roundings at most. The interiors' weights may add up to 1 + 2 U.
-  moment.upper = distance * (1 + 0x1p-48) + 12 * roundoff<Real> * differences.total_reach() + least_distance;
+  moment.upper = distance * (1 + 0x1p-48) + points_error<Real>(x.differences()) + least_distance;
   const Vec<double> difference = to_double(closest.difference);
   const Vec<double> velocity = to_double(closest.velocity);
   moment.direction = detail::direction_of(difference);
@@ -90,28 +94,27 @@ Moment look(const VerticesAt<Real>& x) {
     }
     case Features::Type::interiors:
       moment.separations.push_back(separate_by_normal(x));
-      detail::predict(moment, distance, moment.separations[0].products[0].coefficients);
+      detail::predict(moment, distance, {moment.separations[0].products[0].coefficients});
       break;
   }
   return moment;
 }
 
-/// Adds the separations that fit the features less well at this time, but may do so for longer: where edges are nearly
-/// parallel the normal turns much faster than the direction between the closest points does.
+/// Adds the separations that fit the features less well at this time, but may do so for longer: if edges are nearly
+/// parallel, the normal turns much faster than the direction between the closest points.
 template <class Real>
 void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   moment.has_all = true;
   const Features& features = moment.features;
-  const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
   Vec<double> direction = moment.direction;
   if (features.type == Features::Type::interiors) {
-    // The normal, which rounding does not turn as it turns the difference of points so near.
-    const Vec<double> N = to_double(
-        cross(x.position(is_triangle ? 2 : 1, is_triangle ? 1 : 0), x.position(3, is_triangle ? 1 : 2)));
-    direction = detail::direction_of(N);
+    // Rounding turns the normal less than the difference of points so near.
+    const NormalPairs pairs = normal_pairs(x.differences().kind());
+    direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
     if (dot(direction, moment.direction) < 0) direction = -direction;
+  } else {
+    moment.separations.push_back(separate_by_normal(x));
   }
-  if (features.type != Features::Type::interiors) moment.separations.push_back(separate_by_normal(x));
   if (features.type != Features::Type::vertices)
     moment.separations.push_back(separate_by_constant(x, direction));
   const auto add_edge = [&](std::size_t from, std::size_t to) {
@@ -120,7 +123,7 @@ void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
                           (features.from == from || features.from == to);
     if (!is_there) moment.separations.push_back(separate_by_edge(x, from, to, direction));
   };
-  if (is_triangle)
+  if (x.differences().kind() == Kind::vertex_triangle)
     for (const std::size_t from : {1U, 2U, 3U}) add_edge(from, from % 3 + 1);
   else
     for (const std::size_t from : {0U, 2U}) add_edge(from, from + 1);

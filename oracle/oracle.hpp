@@ -59,12 +59,12 @@ std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
 /// or they are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// How near the ends of an enclosure have to be: the smallest lower end that is enough beside an upper end, 0 where any
-/// is. It may not grow while the upper end falls.
+/// How near the ends of an enclosure have to be: the smallest lower end that is enough beside an upper end; 0 if any
+/// is enough. It may not grow while the upper end falls.
 using NeededDistance = std::function<double(double hi)>;
 
-/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with lo >=
-/// needed(hi), or as near to that as doubles of the distance can be.
+/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with
+/// lo >= needed(hi), or as near to that as doubles of the distance can be.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
 /// The same from above, to a part in a thousand, and near 1 to 1e-9; infinite where the unit is 0.

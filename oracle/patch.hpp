@@ -151,13 +151,6 @@ CrossBound<Real> cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::
   return {w4, miss(i, j) + miss(j, i)};
 }
 
-template <class Real>
-Real cross_component(const Vec<Real>& v, const Vec<Real>& w, std::size_t k) {
-  const std::size_t i = (k + 1) % 3;
-  const std::size_t j = (k + 2) % 3;
-  return v[i] * w[j] - v[j] * w[i];
-}
-
 /// Component k of p × q.
 template <class Real>
 Bernstein<Real, 3> cross_component(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
@@ -187,9 +180,6 @@ Bernstein<Real, 4> coplanarity(const Motion<Real>& a, const Motion<Real>& b, con
     w1[k] = cross_component(b.start, c.end, k) + cross_component(b.end, c.start, k);
     w2[k] = cross_component(b.end, c.end, k);
   }
-  const auto dot = [](const Vec<Real>& v, const Vec<Real>& w) {
-    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
-  };
   Bound<Real> M4 = 0;
   Bound<Real> L = 0;
   Bound<Real> reach = 0;  // Σ (A_k + e_k)

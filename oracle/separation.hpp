@@ -10,9 +10,9 @@
 #include "oracle/closest.hpp"
 
 // For any vector n(t) the distance of the primitives, which are the convex hulls of their vertices, is at least the
-// smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first one and j of the second. Around a time t0, with
-// s = t - t0, three kinds of n make these products polynomials that lose nothing at t0 where n(t0) is the direction
-// between closest points:
+// smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first one and j of the second. Around a
+// time t0, with s = t - t0, three kinds of n make these products polynomials that lose nothing at t0 if n(t0) is
+// the direction between closest points:
 //
 // - constant: linear products;
 // - edge(t) × k with a constant k: quadratic; the products of both vertices of that edge are the same, so that
@@ -35,9 +35,9 @@
 //
 // tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
 //
-// What is taken too much has room for second orders in U and for the roundings of the bounds themselves. Coefficients are
-// rounded to double (2^-53 of each, taken 2^-52). Underflow, at most 2^-1021 for each of less than 100 operations and
-// 2^-537 for a length, is far below `least_distance`, of which there is one in each error.
+// The excess covers second orders in U and the rounding of the bounds themselves. Coefficients are rounded to
+// double: 2^-53 of each, taken 2^-52. Underflow, at most 2^-1021 for each of less than 100 operations and 2^-537
+// for a length, is far below `least_distance`, which is added to each error.
 
 namespace nearmiss::certified {
 
@@ -50,8 +50,8 @@ struct Product {
   std::array<double, 4> errors{};
 };
 
-/// One direction n(s) with its products: the distance is at least products / |n| at every s. |n(s)| is at most length[0] + length[1] |s| +
-/// length[2] s².
+/// One direction n(s) with its products: at every s the distance is at least the smallest product over |n|, which is
+/// at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
   std::array<Product, 4> products{};
   std::size_t count = 0;
@@ -65,7 +65,7 @@ struct Separation {
   }
 };
 
-/// An upper bound of the length of a vector of which each component is rounded to double, and which misses by `error`.
+/// An upper bound of the length of a vector that is known to `error`, with each component rounded to double.
 inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }
@@ -125,19 +125,17 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
 template <class Real>
 Separation separate_by_normal(const VerticesAt<Real>& x) {
   const VertexDifferences& differences = x.differences();
-  const bool is_triangle = differences.kind() == Kind::vertex_triangle;
-  const std::size_t origin = is_triangle ? 1 : 2;
-  const std::size_t q_to = is_triangle ? 2 : 0;
-  const Vec<Real> q = x.position(q_to, 1);
-  const Vec<Real> r = x.position(3, origin);
-  const Vec<Real> p = x.position(0, origin);
-  const Vec<Real> v = x.velocity(q_to, 1);
-  const Vec<Real> w = x.velocity(3, origin);
-  const Vec<Real> u = x.velocity(0, origin);
+  const NormalPairs pairs = normal_pairs(differences.kind());
+  const Vec<Real> q = x.position(pairs.q);
+  const Vec<Real> r = x.position(pairs.r);
+  const Vec<Real> p = x.position(pairs.p);
+  const Vec<Real> v = x.velocity(pairs.q);
+  const Vec<Real> w = x.velocity(pairs.r);
+  const Vec<Real> u = x.velocity(pairs.p);
   const Vec<Real> N0 = cross(q, r);
   const Vec<Real> N1 = cross(v, r) + cross(q, w);
   const Vec<Real> N2 = cross(v, w);
-  const double area = roundoff<Real> * differences.reach(q_to, 1) * differences.reach(3, origin);
+  const double area = roundoff<Real> * differences.reach(pairs.q) * differences.reach(pairs.r);
 
   Separation separation;
   separation.length = {longest(to_double(N0), 16 * area), longest(to_double(N1), 64 * area),
@@ -146,7 +144,7 @@ Separation separate_by_normal(const VerticesAt<Real>& x) {
                           to_double(dot(N2, p) + dot(N1, u)), to_double(dot(N2, u))};
   if (F[0] < 0)
     for (double& c : F) c = -c;
-  const double volume = area * differences.reach(0, origin);
+  const double volume = area * differences.reach(pairs.p);
   separation.add(F, {24 * volume, 144 * volume, 288 * volume, 192 * volume});
   return separation;
 }

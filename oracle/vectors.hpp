@@ -30,9 +30,16 @@ template <class Real>
 Real dot(const Vec<Real>& v, const Vec<Real>& w) {
   return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
 }
+/// Component k of v × w.
+template <class Real>
+Real cross_component(const Vec<Real>& v, const Vec<Real>& w, std::size_t k) {
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  return v[i] * w[j] - v[j] * w[i];
+}
 template <class Real>
 Vec<Real> cross(const Vec<Real>& v, const Vec<Real>& w) {
-  return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+  return {cross_component(v, w, 0), cross_component(v, w, 1), cross_component(v, w, 2)};
 }
 
 inline double length(const Vec<double>& v) { return std::sqrt(dot(v, v)); }

@@ -1,4 +1,4 @@
-// Where the vertices of a query are, seen from each other.
+// Positions of a query's vertices relative to each other.
 #pragma once
 
 #include <array>
@@ -11,8 +11,23 @@
 
 namespace nearmiss::certified {
 
-/// The differences x_i - x_j of all pairs of vertices at both ends of the step, in a unit of their own, 2^exponent, in which
-/// the largest component is between 1 and 2 (all are 0 where all vertices are one).
+/// The difference of two vertices, x_to - x_from.
+struct VertexPair {
+  std::size_t to, from;
+};
+
+/// The vectors p, q and r with the normal N = q × r and the coplanarity cubic F = ±N · p: x0 - x1, x2 - x1 and x3 -
+/// x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
+struct NormalPairs {
+  VertexPair p, q, r;
+};
+constexpr NormalPairs normal_pairs(Kind kind) {
+  if (kind == Kind::vertex_triangle) return {{0, 1}, {2, 1}, {3, 1}};
+  return {{0, 2}, {0, 1}, {3, 2}};
+}
+
+/// The differences x_i - x_j of all pairs of vertices at both ends of the step, in a unit of their own,
+/// 2^exponent, in which the largest component is between 1 and 2 (all are 0 if all vertices coincide).
 ///
 /// A difference of doubles is a double word exactly. Bringing it to the unit is exact too, but for underflow:
 /// by at most 2^-1073 of the unit, far below `least_distance`. Differences that would overflow are taken of
@@ -25,6 +40,7 @@ class VertexDifferences {
   [[nodiscard]] int exponent() const { return exponent_; }
   /// The largest distance of x_i and x_j over [0, 1] is at most this.
   [[nodiscard]] double reach(std::size_t i, std::size_t j) const { return pair_of(i, j).reach; }
+  [[nodiscard]] double reach(VertexPair pair) const { return reach(pair.to, pair.from); }
   /// The sum of all six.
   [[nodiscard]] double total_reach() const { return total_reach_; }
 
@@ -67,10 +83,12 @@ class VerticesAt {
   [[nodiscard]] Vec<Real> position(std::size_t i, std::size_t j) const {
     return of(i, j, [&](const Real& start, const Real& end) { return early_ * start + t_ * end; });
   }
+  [[nodiscard]] Vec<Real> position(VertexPair pair) const { return position(pair.to, pair.from); }
   /// Its derivative by t.
   [[nodiscard]] Vec<Real> velocity(std::size_t i, std::size_t j) const {
     return of(i, j, [](const Real& start, const Real& end) { return end - start; });
   }
+  [[nodiscard]] Vec<Real> velocity(VertexPair pair) const { return velocity(pair.to, pair.from); }
 
  private:
   template <class Formula>

@@ -71,22 +71,14 @@ std::vector<Signature> only_in(const Campaign& one, const Campaign& other) {
   return signatures;
 }
 
-/// The queries of a subject; of the oracle all.
-std::uint64_t queries_of(const Statistics& statistics, const std::string& subject) {
-  if (subject.empty()) return statistics.oracle_total().queries;
-  std::uint64_t queries = 0;
-  for (const auto& [key, counts] : statistics.counts)
-    if (key.subject == subject) queries += counts.queries;
-  return queries;
+/// How often a signature was seen, among the queries of its subject.
+Share share_of(const Statistics& statistics, const Signature& signature) {
+  const std::uint64_t seen = statistics.times_seen(signature);
+  return {seen, std::max(seen, statistics.queries_of(signature.subject))};
 }
 
-std::uint64_t times(const Statistics& statistics, const Signature& signature) {
-  const auto seen = statistics.seen.find(signature);
-  return seen == statistics.seen.end() ? 0 : seen->second;
-}
-
-/// How many signatures a campaign with `ratio` times as many queries brings that were not seen before, from
-/// how many were seen once, twice and so on: the series of Good and Toulmin 1956, for a larger campaign its first term.
+/// How many signatures a campaign with `ratio` times as many queries brings that were not seen before, from how
+/// often each one was seen: the series of Good and Toulmin 1956; for a larger campaign, its first term.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -104,30 +96,23 @@ void compare_signatures(const Statistics& now, const Statistics& before, Changes
   std::map<std::pair<Finding::What, std::string>, std::vector<std::uint64_t>> seen_before;
   for (const auto& [signature, count] : before.seen)
     seen_before[{signature.what, signature.subject}].push_back(count);
-  std::set<Signature> all;
-  for (const Statistics* each : {&now, &before})
-    for (const auto& [signature, count] : each->seen) all.insert(signature);
-  const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, all.size()));
-  for (const auto& [name, count] : now.seen) {
-    const Signature& signature = name;
+  const std::size_t comparisons = now.seen.size() + changes.gone_signatures.size();
+  const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, comparisons));
+  for (const auto& [signature, count] : now.seen) {
+    const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
         !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
-    const auto share_of = [&](const Statistics& statistics) {
-      const std::uint64_t seen = times(statistics, signature);
-      return Share{seen, std::max(seen, queries_of(statistics, signature.subject))};
-    };
-    const Share earlier = share_of(before);
-    const bool is_unseen = earlier.count == 0;
-    if (fails_anyway ? fisher_test(share_of(now), earlier).more < level : is_unseen)
+    const bool is_new = fails_anyway
+                            ? fisher_test(share_of(now, signature), share_of(before, signature)).more < level
+                            : is_unseen;
+    if (is_new)
       changes.new_signatures.push_back(signature);
     else if (is_unseen)
       changes.unseen_signatures.push_back(signature);
   }
   for (const auto& [what, seen] : seen_before) {
-    const auto queries = static_cast<double>(queries_of(before, what.second));
-    if (!what.second.empty() && queries > 0)
-      changes.expected_unseen +=
-          expected_unseen(seen, static_cast<double>(queries_of(now, what.second)) / queries);
+    const Share queries{now.queries_of(what.second), before.queries_of(what.second)};
+    if (queries.total != 0) changes.expected_unseen += expected_unseen(seen, queries.rate());
   }
 }
 
@@ -142,7 +127,7 @@ ordered_json rate_json(const Share& share) {
   const Interval interval = clopper_pearson(share.count, share.total);
   return {{"count", share.count},
           {"total", share.total},
-          {"rate", static_cast<double>(share.count) / static_cast<double>(share.total)},
+          {"rate", share.rate()},
           {"interval_95", {interval.lo, interval.hi}}};
 }
 

@@ -25,6 +25,9 @@ Interval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk =
 /// Something that was counted, and among how many: count <= total.
 struct Share {
   std::uint64_t count = 0, total = 0;
+
+  /// Not a number if there is nothing to count among.
+  [[nodiscard]] double rate() const { return static_cast<double>(count) / static_cast<double>(total); }
 };
 
 /// Fisher's exact test of two shares: how likely it is, where both have the same rate, that `now` is at least as

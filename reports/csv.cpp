@@ -67,8 +67,8 @@ std::string findings_csv(const Campaign& campaign) {
   std::string text = "what,subject,signature,seen,kind,family,provenance,distance_over_bound,shrunk,query\n";
   for (const Finding& f : campaign.findings())
     text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", name(f.what), field(f.subject), field(f.signature),
-                        campaign.statistics.times_seen(f), short_name(f.query.kind), field(f.family),
-                        field(f.provenance), f.ratio, to_line(f.shrunk), to_line(f.query));
+                        campaign.statistics.times_seen(signature_of(f)), short_name(f.query.kind),
+                        field(f.family), field(f.provenance), f.ratio, to_line(f.shrunk), to_line(f.query));
   return text;
 }
 

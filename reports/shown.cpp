@@ -41,8 +41,8 @@ std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (++count[signature_of(finding)] <= shown_of_each)
-      result.push_back(
-          shown(finding, campaign.statistics.times_seen(finding), ++number[{finding.what, finding.subject}]));
+      result.push_back(shown(finding, campaign.statistics.times_seen(signature_of(finding)),
+                             ++number[{finding.what, finding.subject}]));
   return result;
 }
 

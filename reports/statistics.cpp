@@ -204,9 +204,16 @@ OracleCounts Statistics::oracle_total() const {
   return sum;
 }
 
-std::uint64_t Statistics::times_seen(const Finding& finding) const {
-  const auto it = seen.find(signature_of(finding));
+std::uint64_t Statistics::times_seen(const Signature& signature) const {
+  const auto it = seen.find(signature);
   return it == seen.end() ? 0 : it->second;
+}
+
+std::uint64_t Statistics::queries_of(const std::string& subject) const {
+  std::uint64_t queries = 0;
+  for (const auto& [key, each] : counts)
+    if (key.subject == subject) queries += each.queries;
+  return queries;
 }
 
 namespace {

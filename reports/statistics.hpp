@@ -137,7 +137,7 @@ struct Counts {
   [[nodiscard]] bool keeps(double ratio) const {
     return farthest.size() < far_cases || ratio >= farthest.back().ratio;
   }
-  /// Where the distance / bound is that a part of the false positives does not exceed: its bin, up to the largest.
+  /// The bin of the distance / bound that a part of the false positives does not exceed; it ends at the largest.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};
@@ -233,8 +233,10 @@ struct Statistics {
   [[nodiscard]] std::map<Key, Counts> by_subject_and_kind() const;
   /// The oracle's counters summed over families and kinds.
   [[nodiscard]] OracleCounts oracle_total() const;
-  /// How often a query failed as this one does.
-  [[nodiscard]] std::uint64_t times_seen(const Finding& finding) const;
+  /// How often a query failed in this way.
+  [[nodiscard]] std::uint64_t times_seen(const Signature& signature) const;
+  /// The queries of a subject.
+  [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;
   [[nodiscard]] std::uint64_t faults() const;

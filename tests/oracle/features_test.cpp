@@ -91,12 +91,10 @@ TEST(Features, KnowFiguresWithoutANormal) {
 
 TEST(Features, FitTheSecondAnswer) {
   std::mt19937_64 random(3);
-  std::uniform_int_distribution<int> coordinate(-2, 2);
   int collisions = 0;
   int at_border = 0;
   for (int i = 0; i < 4000; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-    for (double& c : query.x) c = coordinate(random);
+    const Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], 2);
     SCOPED_TRACE(i);
     const auto features = contact_features(query);
     const RootCount count = count_roots(query);

@@ -54,10 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Range, ThreeAnswers, ::testing::Values(1, 2, 3, 1000));
 
 TEST_P(ThreeAnswers, AgreeOnIntegers) {
   std::mt19937_64 random(7);
-  std::uniform_int_distribution<int> coordinate(-GetParam(), GetParam());
   for (int i = 0; i < 2000; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-    for (double& c : query.x) c = coordinate(random);
+    const Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], GetParam());
     SCOPED_TRACE(i);
     expect_agreement(query);
     if (HasFatalFailure()) return;
@@ -67,10 +65,8 @@ TEST_P(ThreeAnswers, AgreeOnIntegers) {
 // There every patch of the boundary is flat, and many touch the origin between t = 0 and t = 1 alone.
 TEST_P(ThreeAnswers, AgreeOnIntegersOfAPlaneAndOfALine) {
   std::mt19937_64 random(7);
-  std::uniform_int_distribution<int> coordinate(-GetParam(), GetParam());
   for (int i = 0; i < 2000; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-    for (double& c : query.x) c = coordinate(random);
+    Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], GetParam());
     for (std::size_t z = 2; z < 24; z += 3) query.x[z] = 0;
     expect_agreement(query);
     for (std::size_t y = 1; y < 24; y += 3) query.x[y] = 2 * query.x[y - 1];

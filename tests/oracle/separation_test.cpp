@@ -87,7 +87,8 @@ Exact cross(const Exact& v, const Exact& w) {
 Rational dot(const Exact& v, const Exact& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 Exact exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-/// Coordinates of one size, of sizes of their own, and so large or small that differences overflow or products underflow.
+/// Coordinates of one size, of sizes of their own, and so large or small that differences overflow or products
+/// underflow.
 std::vector<Query> all_sorts(int each) {
   std::mt19937_64 random(20);
   std::uniform_real_distribution<double> coordinate(-1, 1);

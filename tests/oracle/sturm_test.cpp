@@ -68,10 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Range, Agreement, ::testing::Values(1, 2, 3));
 
 TEST_P(Agreement, WithTheFirstAnswerOnSmallIntegers) {
   std::mt19937_64 random(5);
-  std::uniform_int_distribution<int> coordinate(-GetParam(), GetParam());
   for (int i = 0; i < 2000; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-    for (double& c : query.x) c = coordinate(random);
+    const Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], GetParam());
     ASSERT_EQ(count_roots(query).collision, collides_exactly(query)) << "case " << i;
   }
 }

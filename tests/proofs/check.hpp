@@ -10,9 +10,9 @@
 
 namespace nearmiss::proofs {
 
-/// What is wrong with a claim, for people; nothing where all of this holds: Gappa proves the proven error in
-/// every precision, and in double with underflow; no result overflows; seen <= proven <= claimed; the witness has exactly the error
-/// that is recorded with it.
+/// What is wrong with a claim, for people; nothing if all of this holds: Gappa proves the proven error in every
+/// precision, and in double with underflow; no result overflows; seen <= proven <= claimed; the witness has exactly
+/// the error that is recorded with it.
 std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prover& prover);
 
 /// The same for all claims with the witnesses of a file, by two threads.

@@ -37,8 +37,8 @@ Rational A_of(const Inputs& inputs);
 Rational w_of(const Inputs& inputs);
 Rational M_of(const Inputs& inputs);
 
-/// Components of some vectors in [-1, 1] and two times, of which t is the earlier one. They are of few bits, or of one size, or
-/// of any, and the lower halves of `words` are within half an ulp.
+/// Components of some vectors in [-1, 1] and two times, of which t is the earlier one. They are of few bits, or of
+/// one size, or of any, and the lower halves of `words` are within half an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs
