@@ -31,7 +31,16 @@ class Plugin final : public Subject {
   /// What the plug-in returns, and the time that it gives; `time` stays as it is where it gives none.
   int ask(const Query& query, double& time) const;
 
+  /// A plug-in that decides nothing.
+  static const Plugin& empty_plugin();
+
+ protected:
+  [[nodiscard]] const Subject& empty() const override { return empty_plugin(); }
+
  private:
+  /// A subject of this program.
+  explicit Plugin(const nearmiss_subject& subject) : subject_(&subject), name_(subject.name) {}
+
   struct Unload {
     void operator()(void* handle) const;
   };

@@ -84,6 +84,13 @@ struct Verdict {
   static Verdict rejected(Miss miss) { return {.miss = miss}; }
 };
 
+/// How long some answers took, in the thread that decides, or in the process if the subject has one of its own: less
+/// what an empty subject takes there for the same queries, and less waiting for a processor (stopwatch.hpp).
+struct BatchTime {
+  std::size_t queries = 0;  ///< that were timed: all but those beside a query at which a process ended
+  std::uint64_t nanoseconds = 0;
+};
+
 /// A CCD on trial: a pure function of the query. Our own decide in plain arithmetic (arithmetic.hpp),
 /// whatever the caller's is.
 class Subject {
@@ -99,17 +106,17 @@ class Subject {
   /// Throws Error where a coordinate is not finite.
   [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
 
-  /// verdicts[i] = decide(queries[i]); the spans have one length. This is what is timed.
+  /// verdicts[i] = decide(queries[i]); the spans have one length.
   virtual void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
   }
 
-  /// The same, with the time that each answer took, in ns. Taking it costs a few tens of ns a query.
-  virtual void decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts,
-                            std::span<std::uint64_t> nanoseconds) const;
+  /// The same, and how long it took.
+  virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// Whether only decide_timed tells how long an answer takes, because asking takes time too.
-  [[nodiscard]] virtual bool is_remote() const { return false; }
+  /// How long each query takes by itself, in ns, the best of three tries; nothing if there is no answer.
+  virtual void time_each(std::span<const Query> queries,
+                         std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
   /// The largest distance that a false positive of this subject may have, as the subject claims it
   /// (same unit of length as the query); infinity where it claims nothing or more than the largest double, NaN
@@ -132,6 +139,10 @@ class Subject {
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
+
+ protected:
+  /// A subject that decides nothing, but is asked as this one is: its time is subtracted from this one's.
+  [[nodiscard]] virtual const Subject& empty() const;
 };
 
 /// A built-in subject's name and what it is, in a line.

@@ -1,13 +1,14 @@
 // The built-in subjects.
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
+#include "ccd/stopwatch.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tight_tolerances.hpp"
 #include "ccd/wang.hpp"
@@ -80,6 +81,14 @@ struct Basic {
   }
 };
 
+/// Decides nothing.
+struct Empty : Basic<false> {
+  template <Kind kind>
+  static Verdict decide(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return {};
+  }
+};
+
 template <WangOptions options, class Steps = AllSteps>
 struct Wang {
   static constexpr bool claims_bound = true;
@@ -137,17 +146,26 @@ std::vector<SubjectInfo> subjects() {
   return infos;
 }
 
-void Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts,
-                           std::span<std::uint64_t> nanoseconds) const {
-  using Clock = std::chrono::steady_clock;
-  auto start = Clock::now();
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    verdicts[i] = decide(queries[i]);
-    const auto end = Clock::now();
-    nanoseconds[i] =
-        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
-    start = end;
-  }
+BatchTime Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+  const std::size_t few = std::min(warm_up_queries, queries.size());
+  for (const Subject* each : {&empty(), this}) each->decide(queries.first(few), verdicts.first(few));
+  return {queries.size(), time_beyond(
+                              CLOCK_THREAD_CPUTIME_ID, [&] { decide(queries, verdicts); },
+                              [&] { empty().decide(queries, verdicts); })};
+}
+
+void Subject::time_each(std::span<const Query> queries,
+                        std::span<std::optional<std::uint64_t>> nanoseconds) const {
+  Verdict verdict;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    nanoseconds[i] = best_time_beyond(
+        CLOCK_THREAD_CPUTIME_ID, [&] { verdict = decide(queries[i]); },
+        [&] { verdict = empty().decide(queries[i]); });
+}
+
+const Subject& Subject::empty() const {
+  static const BuiltIn<Empty> subject("empty", std::nullopt);
+  return subject;
 }
 
 SplitName split_bound(std::string_view name, std::optional<double> given_bound) {

@@ -127,6 +127,19 @@ class Rounds {
 
 }  // namespace
 
+std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index) {
+  const auto own = std::find_if(plan.families.begin(), plan.families.end(),
+                                [&](const Family& each) { return each.name == family; });
+  const std::uint64_t round = index / own->block_cases;
+  std::uint64_t cases = index - round * own->block_cases + 1;
+  for (std::size_t f = 0; f < plan.families.size(); ++f) {
+    const bool is_before = plan.families.begin() + static_cast<std::ptrdiff_t>(f) < own;
+    const Block block = block_of(plan, round, f);
+    cases += is_before ? block.last : block.first;
+  }
+  return cases;
+}
+
 CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                               const std::atomic<bool>& stop) {
   const auto start = Clock::now();

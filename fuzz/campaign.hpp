@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/families/families.hpp"
@@ -41,6 +42,10 @@ struct CampaignProgress {
 /// Takes what some more blocks gave, in order, findings sifted (sieve.hpp); called every second or so. False
 /// ends the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
+
+/// How many cases a campaign that is no shard has decided with case `index` of a family, one after the other: round
+/// by round, family by family.
+std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set; says how far it came.
 /// Round k of a campaign is the k-th block of every family; shard i of n does the rounds k with k mod n = i.

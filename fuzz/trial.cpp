@@ -1,11 +1,9 @@
 #include "fuzz/trial.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -116,37 +114,29 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-struct Timed {
-  std::vector<Verdict> verdicts;
-  std::uint64_t nanoseconds = 0;
-  std::vector<std::uint64_t> each;  ///< each query's own; empty where they were not taken
-};
-
-/// Queries are timed together, which costs nothing; one batch in 16 once more, each query by itself. One of
-/// many subjects finds its code out of the caches when its turn comes, and begins with a few that do not count.
-Timed decide_all(const Subject& subject, const Batch& batch, bool is_one_of_many) {
-  constexpr std::uint64_t one_in = 16;
-  constexpr std::size_t few = 8;
-  Timed answers;
-  answers.verdicts.resize(batch.queries.size());
-  if (!subject.is_remote()) {
-    if (batch.timed && is_one_of_many) {
-      const auto first = std::span(batch.queries).first(std::min(few, batch.queries.size()));
-      subject.decide(first, std::span(answers.verdicts).first(first.size()));
-    }
-    const auto start = std::chrono::steady_clock::now();
-    subject.decide(batch.queries, answers.verdicts);
-    const auto time = std::chrono::steady_clock::now() - start;
-    answers.nanoseconds =
-        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(time).count());
-    if (!batch.timed || !is_sampled(batch.queries.front(), one_in)) return answers;
+/// Decides a batch. If its time counts, the subject is timed over the whole batch; and in one batch of 16, over each
+/// query that it answered.
+std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Times& times) {
+  std::vector<Verdict> verdicts(batch.queries.size());
+  if (!batch.timed) {
+    subject.decide(batch.queries, verdicts);
+    return verdicts;
   }
-  answers.each.resize(batch.queries.size());
-  std::vector<Verdict> again(batch.queries.size());
-  subject.decide_timed(batch.queries, subject.is_remote() ? answers.verdicts : again, answers.each);
-  if (subject.is_remote())
-    answers.nanoseconds = std::accumulate(answers.each.begin(), answers.each.end(), std::uint64_t{0});
-  return answers;
+  times.add(batch.kind, batch.family, subject.decide_timed(batch.queries, verdicts));
+  constexpr std::uint64_t one_in = 16;
+  if (!is_sampled(batch.queries.front(), one_in)) return verdicts;
+  std::vector<std::size_t> answered;
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i].fault != Fault::none) continue;
+    answered.push_back(i);
+    queries.push_back(batch.queries[i]);
+  }
+  std::vector<std::optional<std::uint64_t>> each(queries.size());
+  subject.time_each(queries, each);
+  for (std::size_t k = 0; k < each.size(); ++k)
+    if (each[k]) times.add(*each[k], queries[k], [&] { return batch.provenance(answered[k]); });
+  return verdicts;
 }
 
 }  // namespace
@@ -163,16 +153,12 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
     if (!is_finite(batch.queries[i]))
       throw Error("found a coordinate that is not finite (" + batch.provenance(i) +
                   "), expected finite numbers");
-  std::vector<Timed> answers;
+  std::vector<std::vector<Verdict>> answers;
   std::vector<Counts*> counts;
   for (const auto& subject : subjects) {
-    answers.push_back(decide_all(*subject, batch, subjects.size() > 4));
     counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
-    if (!batch.timed) continue;
-    counts.back()->timed_queries += batch.queries.size();
-    counts.back()->nanoseconds += answers.back().nanoseconds;
-    for (std::size_t i = 0; i < answers.back().each.size(); ++i)
-      counts.back()->add_time(answers.back().each[i], batch.queries[i], [&] { return batch.provenance(i); });
+    counts.back()->is_sample = is_random(batch.family);
+    answers.push_back(decide_all(*subject, batch, counts.back()->times));
   }
 
   std::vector<Decision> decisions(batch.queries.size());
@@ -209,7 +195,7 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
       std::optional<Truth> own = rounded[s].truth(i);
       Truth& judge = own ? *own : truth;
       const Query& query = judge.query();
-      Outcome outcome{.verdict = answers[s].verdicts[i], .collision = judge.collision()};
+      Outcome outcome{.verdict = answers[s][i], .collision = judge.collision()};
       if (outcome.verdict.hit && !outcome.collision) {
         const double claimed = subjects[s]->distance_bound(query);
         if (std::isnan(claimed)) outcome.verdict.fault = Fault::error;

@@ -19,12 +19,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool is_random(const std::string& family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
-
 /// The rates of one counter that are compared.
 std::vector<std::pair<std::string_view, Share>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
-          {"false positives", {counts.false_positives, counts.queries - counts.collisions}},
+          {"false positives", {counts.false_positives, counts.others()}},
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 namespace nearmiss {
 
@@ -25,6 +26,10 @@ double clopper_pearson_upper(std::uint64_t count, std::uint64_t total) { return 
 
 Interval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk) {
   return {lower(count, total, risk / 2), upper(count, total, risk / 2)};
+}
+
+double student_t_quantile_975(std::size_t degrees_of_freedom) {
+  return quantile(boost::math::students_t(static_cast<double>(degrees_of_freedom)), 0.975);
 }
 
 namespace {

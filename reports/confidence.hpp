@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace nearmiss {
@@ -21,6 +22,9 @@ struct Interval {
 /// The two-sided interval of Clopper and Pearson: the true rate is below it with probability `risk` / 2 at
 /// most, and above it likewise. [0, 1] where nothing was looked at.
 Interval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
+
+/// What a variable of Student's t-distribution exceeds with probability 2.5 %.
+double student_t_quantile_975(std::size_t degrees_of_freedom);
 
 /// Something that was counted, and among how many: count <= total.
 struct Share {

@@ -33,18 +33,20 @@ std::string statistics_csv(const Statistics& statistics) {
   for (const auto miss : miss_names) text += fmt::format(",rejected_by_{}", miss);
   text += '\n';
   for (const auto& [key, c] : statistics.counts) {
-    const Interval rate = clopper_pearson(c.false_positives, c.queries - c.collisions);
+    const Interval rate = clopper_pearson(c.false_positives, c.others());
+    const std::string upper =
+        c.is_sample ? fmt::format("{}", clopper_pearson_upper(c.false_negatives, c.collisions)) : "";
     text += fmt::format("{},{},{},{},{},{},{},{},", field(key.subject), short_name(key.kind),
-                        field(key.family), c.queries, c.collisions, c.positives, c.false_negatives,
-                        clopper_pearson_upper(c.false_negatives, c.collisions));
+                        field(key.family), c.queries, c.collisions, c.positives, c.false_negatives, upper);
     const Bin median = c.ratio_quantile(0.5);
     const Bin q99 = c.ratio_quantile(0.99);
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", c.false_positives, c.false_positive_rate(),
-                        rate.lo, rate.hi, c.refuted_bounds, median.from, median.to, q99.from, q99.to,
-                        c.max_ratio(), c.timed_queries == 0 ? "" : fmt::format("{}", c.ns_per_query()));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}", c.false_positives, c.false_positive_rate(), rate.lo,
+                    rate.hi, c.refuted_bounds, median.from, median.to, q99.from, q99.to, c.max_ratio(),
+                    c.times.queries() == 0 ? "" : fmt::format("{}", c.times.ns_per_query()));
     for (std::size_t i = 1; i < fault_count; ++i) text += fmt::format(",{}", c.faults[i]);
     for (const double part : {0.5, 0.99})
-      text += c.times.total() == 0 ? "," : fmt::format(",{:.0f}", c.times.quantile(part));
+      text += c.times.each.total() == 0 ? "," : fmt::format(",{:.0f}", c.times.each.quantile(part));
     for (const auto count : c.true_by_stage) text += fmt::format(",{}", count);
     for (const auto count : c.false_by_stage) text += fmt::format(",{}", count);
     for (const auto count : c.rejected_by) text += fmt::format(",{}", count);

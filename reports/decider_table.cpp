@@ -47,14 +47,14 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
   Counts own;
   Counts others;
   for (const auto& [key, counts] : statistics.counts) {
-    if (key.subject != subject || !shown(key) || counts.timed_queries == 0) continue;
+    if (key.subject != subject || !shown(key) || counts.times.queries() == 0) continue;
     const auto same = statistics.counts.find({other, key.kind, key.family});
-    if (same == statistics.counts.end() || same->second.timed_queries == 0) continue;
+    if (same == statistics.counts.end() || same->second.times.queries() == 0) continue;
     own.merge(counts);
     others.merge(same->second);
   }
-  if (others.nanoseconds == 0) return std::nullopt;
-  return own.ns_per_query() / others.ns_per_query();
+  if (others.times.queries() == 0) return std::nullopt;
+  return own.times.ns_per_query() / others.times.ns_per_query();
 }
 
 DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family) {
@@ -63,7 +63,7 @@ DeciderRow row(const Statistics& statistics, const std::string& subject, const s
   for (const auto& [key, counts] : statistics.counts)
     if (key.subject == subject && shown(key)) sum.merge(counts);
   DeciderRow result{subject, family, deciders(sum), std::nullopt, {}};
-  if (sum.timed_queries != 0) result.ns_per_query = sum.ns_per_query();
+  if (sum.times.queries() != 0) result.ns_per_query = sum.times.ns_per_query();
   for (const std::string reference : references)
     if (const auto ratio = time_over(statistics, subject, reference, shown))
       result.time_over[reference] = *ratio;

@@ -17,23 +17,27 @@ namespace nearmiss {
 using nlohmann::ordered_json;
 
 ordered_json rates_json(const Counts& counts) {
-  const Interval of_false_positives =
-      clopper_pearson(counts.false_positives, counts.queries - counts.collisions);
   ordered_json json;
   json["queries"] = counts.queries;
   json["collisions"] = counts.collisions;
   json["false_negatives"] = counts.false_negatives;
   json["false_negative_rate"] = counts.false_negative_rate();
-  json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
+  json["false_negative_rate_upper_95"] = nullptr;
   json["false_positives"] = counts.false_positives;
   json["false_positive_rate"] = counts.false_positive_rate();
-  json["false_positive_rate_interval_95"] = {of_false_positives.lo, of_false_positives.hi};
+  json["false_positive_rate_interval_95"] = nullptr;
+  if (counts.is_sample) {
+    const Interval of_false_positives = clopper_pearson(counts.false_positives, counts.others());
+    json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
+    json["false_positive_rate_interval_95"] = {of_false_positives.lo, of_false_positives.hi};
+  }
   json["refuted_bounds"] = counts.refuted_bounds;
   const auto range = [](const Bin& bin) { return ordered_json{bin.from, bin.to}; };
   json["median_fp_distance_over_bound"] = range(counts.ratio_quantile(0.5));
   json["q99_fp_distance_over_bound"] = range(counts.ratio_quantile(0.99));
   json["max_fp_distance_over_bound"] = counts.max_ratio();
-  json["ns_per_query"] = counts.timed_queries == 0 ? ordered_json() : ordered_json(counts.ns_per_query());
+  json["ns_per_query"] =
+      counts.times.queries() == 0 ? ordered_json() : ordered_json(counts.times.ns_per_query());
   return json;
 }
 
@@ -49,14 +53,16 @@ ordered_json by_name(const std::array<std::uint64_t, n>& counts, const std::arra
   return json;
 }
 
-/// Of what is told of times everything stands here, but for the mean.
-ordered_json times_json(const Counts& counts) {
+/// Everything that is told of times, but for ns_per_query.
+ordered_json times_json(const Times& times) {
   ordered_json json;
-  json["sampled"] = counts.times.total();
-  if (counts.times.total() == 0) return json;
+  json["timed_queries"] = times.queries();
+  if (times.queries() != 0) json["mean_ns"] = times.mean();
+  json["sampled"] = times.each.total();
+  if (times.each.total() == 0) return json;
   for (const auto& [name, part] : {std::pair{"median_ns", 0.5}, {"q99_ns", 0.99}, {"q99.9_ns", 0.999}})
-    json[name] = counts.times.quantile(part);
-  for (const SlowCase& slow : counts.slowest)
+    json[name] = times.each.quantile(part);
+  for (const SlowCase& slow : times.slowest)
     json["slowest"].push_back(
         {{"ns", slow.nanoseconds}, {"provenance", slow.provenance}, {"query", to_line(slow.query)}});
   return json;
@@ -66,7 +72,7 @@ ordered_json counts_json(const Counts& counts) {
   ordered_json json = rates_json(counts);
   json["positives"] = counts.positives;
   json["faults"] = by_name(counts.faults, fault_names, 1);
-  json["times"] = times_json(counts);
+  json["times"] = times_json(counts.times);
   json["true_positives_by_stage"] = by_name(counts.true_by_stage, stage_names);
   json["false_positives_by_stage"] = by_name(counts.false_by_stage, stage_names);
   json["rejected_by"] = by_name(counts.rejected_by, miss_names);

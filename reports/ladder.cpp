@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "ccd/scalar_name.hpp"
 #include "ccd/tight_tolerances.hpp"
+#include "reports/confidence.hpp"
 #include "reports/family.hpp"
 #include "reports/json.hpp"
 #include "reports/text.hpp"
@@ -86,12 +88,18 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
   std::vector<std::pair<double, double>> points;
   std::set<int> precisions;
+  Fit line;
+  line.algorithm = algorithm;
+  line.least_part = std::numeric_limits<double>::infinity();
   for (const Rung& rung : rungs)
     if (rung.algorithm == algorithm && rung.farthest > 0 && rung.epsilon_exponent <= coarsest &&
         rung.epsilon_exponent >= finest) {
       points.emplace_back(rung.epsilon_exponent, std::log2(rung.farthest));
       precisions.insert(rung.epsilon_exponent);
+      line.least_part = std::min(line.least_part, rung.farthest / rung.claimed);
+      line.greatest_part = std::max(line.greatest_part, rung.farthest / rung.claimed);
     }
+  if (precisions.size() < 3) return std::nullopt;
   const auto n = static_cast<double>(points.size());
   double x_mean = 0;
   double y_mean = 0;
@@ -105,11 +113,14 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
     xx += (x - x_mean) * (x - x_mean);
     xy += (x - x_mean) * (y - y_mean);
   }
-  if (precisions.size() < 3) return std::nullopt;
-  const double slope = xy / xx;
+  line.exponent = xy / xx;
   double residual = 0;
-  for (const auto& [x, y] : points) residual += std::pow(y - y_mean - slope * (x - x_mean), 2);
-  return Fit{algorithm, "", slope, std::sqrt(residual / (n - 2) / xx), static_cast<int>(precisions.size())};
+  for (const auto& [x, y] : points) residual += std::pow(y - y_mean - line.exponent * (x - x_mean), 2);
+  line.standard_error = std::sqrt(residual / (n - 2) / xx);
+  line.half_width_95 = line.standard_error * student_t_quantile_975(points.size() - 2);
+  line.points = static_cast<int>(points.size());
+  line.precisions = static_cast<int>(precisions.size());
+  return line;
 }
 
 std::vector<Fit> fits(const Statistics& statistics) {
@@ -123,6 +134,17 @@ std::vector<Fit> fits(const Statistics& statistics) {
         all.push_back(*line);
       }
   return all;
+}
+
+std::string describe(const Fit& line) {
+  const std::string of = line.algorithm + (line.origin.empty() ? "" : ", " + line.origin);
+  const std::string from = fmt::format("{} subjects with {} precisions", line.points, line.precisions);
+  const std::string parts =
+      fmt::format("{} to {} of the claimed distance", fraction_of_bound(line.least_part),
+                  fraction_of_bound(line.greatest_part));
+  if (line.restates_the_bound()) return fmt::format("{}: the farthest are at {} for {}", of, parts, from);
+  return fmt::format("{}: the farthest distance goes as epsilon^({:.4f} +- {:.2g}, 95 %), from {}; at {}", of,
+                     line.exponent, line.half_width_95, from, parts);
 }
 
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) {
@@ -145,7 +167,12 @@ std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) 
                             {"origin", line.origin},
                             {"exponent", line.exponent},
                             {"standard_error", line.standard_error},
-                            {"precisions", line.precisions}});
+                            {"half_width_95", line.half_width_95},
+                            {"points", line.points},
+                            {"precisions", line.precisions},
+                            {"least_part_of_claimed", line.least_part},
+                            {"greatest_part_of_claimed", line.greatest_part},
+                            {"restates_the_bound", line.restates_the_bound()}});
   return json;
 }
 
@@ -158,13 +185,10 @@ std::string ladder_table(const Statistics& statistics) {
     rows.push_back({rung.subject, fmt::format("2^{}", rung.epsilon_exponent),
                     with_separators(rung.counts.queries), with_separators(rung.counts.false_negatives),
                     with_separators(rung.counts.false_positives), fmt::format("{:.3g}", rung.farthest),
-                    fmt::format("{:.3g}", rung.claimed), fmt::format("{:.0f}", rung.counts.ns_per_query())});
+                    fmt::format("{:.3g}", rung.claimed),
+                    fmt::format("{:.0f}", rung.counts.times.ns_per_query())});
   std::string text = "\n" + columns(rows, 1);
-  for (const Fit& line : fits(statistics))
-    text +=
-        fmt::format("{}{}{}: the farthest distance goes as epsilon^({:.4f} +- {:.4f}), from {} precisions\n",
-                    line.algorithm, line.origin.empty() ? "" : ", ", line.origin, line.exponent,
-                    line.standard_error, line.precisions);
+  for (const Fit& line : fits(statistics)) text += describe(line) + "\n";
   return text;
 }
 

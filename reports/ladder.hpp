@@ -39,7 +39,13 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = 
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
-  int precisions = 0;  ///< how many ε
+  double half_width_95 = 0;                  ///< of the exponent's 95 % confidence interval (Student's t)
+  int points = 0;                            ///< subjects
+  int precisions = 0;                        ///< how many ε they have
+  double least_part = 0, greatest_part = 0;  ///< of farthest / claimed
+
+  /// Whether the claimed distances are all but reached, so that the exponent is that of their formula.
+  [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
 /// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer
@@ -48,6 +54,9 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
 
 /// For each algorithm that over all, and those over each origin.
 std::vector<Fit> fits(const Statistics& statistics);
+
+/// A fit in a line, for people.
+std::string describe(const Fit& line);
 
 /// "rungs" and "fits"; nothing where fewer than two precisions of an algorithm are there.
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "reports/quantile.hpp"
+
 namespace nearmiss {
 
 double Histogram::border(std::size_t i) {
@@ -36,63 +38,12 @@ void Histogram::merge(const Histogram& other) {
   for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
 }
 
-namespace {
-
-/// The first bin up to which a part of everything is counted; `none` where nothing is.
-template <std::size_t n>
-std::size_t quantile_bin(const std::array<std::uint64_t, n>& bins, double part, std::size_t none) {
-  const double wanted =
-      part * static_cast<double>(std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}));
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    sum += static_cast<double>(bins[i]);
-    if (sum > 0 && sum >= wanted) return i;
-  }
-  return none;
-}
-
-}  // namespace
-
 Bin Histogram::quantile(double part) const {
-  const std::size_t i = quantile_bin(bins, part, bin_count);
-  return i == bin_count ? Bin{} : Bin{border(i), border(i + 1)};
+  const auto i = quantile_bin(bins, part);
+  return i ? Bin{border(*i), border(*i + 1)} : Bin{};
 }
 
 namespace {
-
-double time_border(std::size_t i) { return std::exp2(static_cast<double>(i) / TimeHistogram::per_octave); }
-
-}  // namespace
-
-void TimeHistogram::add(std::uint64_t nanoseconds) {
-  const double octave = nanoseconds == 0 ? 0 : std::log2(static_cast<double>(nanoseconds));
-  ++bins[std::min(static_cast<std::size_t>(octave * per_octave), bin_count - 1)];
-}
-
-void TimeHistogram::merge(const TimeHistogram& other) {
-  for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
-}
-
-std::uint64_t TimeHistogram::total() const {
-  return std::accumulate(bins.begin(), bins.end(), std::uint64_t{0});
-}
-
-double TimeHistogram::quantile(double part) const {
-  const std::size_t i = quantile_bin(bins, part, bin_count);
-  return i == bin_count ? std::numeric_limits<double>::quiet_NaN() : time_border(i + 1);
-}
-
-namespace {
-
-bool slower(const SlowCase& a, const SlowCase& b) {
-  if (a.nanoseconds != b.nanoseconds) return a.nanoseconds > b.nanoseconds;
-  return a.provenance < b.provenance;
-}
-
-void keep_slowest(std::vector<SlowCase>& cases) {
-  std::sort(cases.begin(), cases.end(), slower);
-  if (cases.size() > Counts::slow_cases) cases.resize(Counts::slow_cases);
-}
 
 /// Farthest first; ties in the order of the queries, so that merging in any order keeps the same cases.
 bool farther(const FarCase& a, const FarCase& b) {
@@ -112,11 +63,11 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
   const bool hit = outcome.verdict.hit;
   const auto stage = static_cast<std::size_t>(outcome.verdict.stage);
   ++queries;
-  collisions += outcome.collision ? 1 : 0;
   if (outcome.verdict.fault != Fault::none) {
     ++faults[static_cast<std::size_t>(outcome.verdict.fault)];
     return;
   }
+  collisions += outcome.collision ? 1 : 0;
   positives += hit ? 1 : 0;
   rejected_by[static_cast<std::size_t>(outcome.verdict.miss)] += hit ? 0 : 1;
   if (outcome.collision) {
@@ -134,14 +85,6 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
       keep_farthest(farthest);
     }
   }
-}
-
-void Counts::add_time(std::uint64_t time, const Query& query,
-                      const std::function<std::string()>& provenance) {
-  times.add(time);
-  if (slowest.size() == slow_cases && time <= slowest.back().nanoseconds) return;
-  slowest.push_back({time, query, provenance()});
-  keep_slowest(slowest);
 }
 
 std::uint64_t Counts::faults_total() const {
@@ -164,12 +107,11 @@ void Counts::merge(const Counts& other) {
   farthest.insert(farthest.end(), other.farthest.begin(), other.farthest.end());
   keep_farthest(farthest);
   for (std::size_t i = 0; i < fault_count; ++i) faults[i] += other.faults[i];
-  timed_queries += other.timed_queries;
-  nanoseconds += other.nanoseconds;
   times.merge(other.times);
-  slowest.insert(slowest.end(), other.slowest.begin(), other.slowest.end());
-  keep_slowest(slowest);
+  is_sample = is_sample && other.is_sample;
 }
+
+bool is_random(std::string_view family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
 
 void OracleCounts::merge(const OracleCounts& other) {
   queries += other.queries;

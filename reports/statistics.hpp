@@ -16,6 +16,7 @@
 #include "oracle/filter.hpp"
 #include "reports/extreme.hpp"
 #include "reports/funnel.hpp"
+#include "reports/times.hpp"
 
 namespace nearmiss {
 
@@ -49,32 +50,6 @@ struct Histogram {
   bool operator==(const Histogram&) const = default;
 };
 
-/// Counts of how long answers took: log-spaced bins, four to an octave, from 1 ns to 2^40 ns (18 minutes).
-struct TimeHistogram {
-  static constexpr int per_octave = 4;
-  static constexpr std::size_t bin_count = 40 * per_octave;
-
-  std::array<std::uint64_t, bin_count> bins{};
-
-  void add(std::uint64_t nanoseconds);
-  void merge(const TimeHistogram& other);
-  [[nodiscard]] std::uint64_t total() const;
-  /// The time that a part of all answers, in (0, 1], did not exceed, to a quarter of an octave; not a number
-  /// where there is none.
-  [[nodiscard]] double quantile(double part) const;
-
-  bool operator==(const TimeHistogram&) const = default;
-};
-
-/// A query that is kept because its answer took longest.
-struct SlowCase {
-  std::uint64_t nanoseconds = 0;
-  Query query;
-  std::string provenance;
-
-  bool operator==(const SlowCase&) const = default;
-};
-
 /// A false positive that is kept because it is among the farthest away.
 struct FarCase {
   double ratio = 0;  ///< distance / claimed bound
@@ -97,8 +72,8 @@ struct Outcome {
 
 /// Counters of one subject, kind and family.
 struct Counts {
-  std::uint64_t queries = 0;
-  std::uint64_t collisions = 0;  ///< by the oracle
+  std::uint64_t queries = 0;     ///< that it was asked, with those in `faults`
+  std::uint64_t collisions = 0;  ///< by the oracle, of those that it answered
   std::uint64_t positives = 0;   ///< by the subject
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
@@ -109,24 +84,22 @@ struct Counts {
   Histogram distances;
   std::vector<FarCase> farthest;                    ///< at most far_cases, farthest first
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by why
-  std::uint64_t timed_queries = 0;
-  std::uint64_t nanoseconds = 0;  ///< of the subject alone, over timed_queries
-  TimeHistogram times;            ///< of a sample of the queries, each one's own
-  std::vector<SlowCase> slowest;  ///< of these, at most slow_cases, slowest first
+  Times times;
+  bool is_sample =
+      true;  ///< whether all queries were drawn at random: the rates of others are no probabilities
 
   static constexpr std::size_t far_cases = 5;
-  static constexpr std::size_t slow_cases = 5;
 
   /// `query` and its provenance are kept if the outcome is a far false positive.
   void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
-  void add_time(std::uint64_t time, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other);
 
   [[nodiscard]] std::uint64_t faults_total() const;
-  /// Of all queries that are no collisions; 0 where there is none.
+  /// The queries that it answered and that are no collisions.
+  [[nodiscard]] std::uint64_t others() const { return queries - faults_total() - collisions; }
+  /// Of all others; 0 where there is none.
   [[nodiscard]] double false_positive_rate() const {
-    const std::uint64_t others = queries - collisions;
-    return others == 0 ? 0 : static_cast<double>(false_positives) / static_cast<double>(others);
+    return others() == 0 ? 0 : static_cast<double>(false_positives) / static_cast<double>(others());
   }
   /// Of all collisions; 0 where there is none.
   [[nodiscard]] double false_negative_rate() const {
@@ -141,10 +114,6 @@ struct Counts {
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};
-  }
-  /// Not a number where nothing was timed.
-  [[nodiscard]] double ns_per_query() const {
-    return static_cast<double>(nanoseconds) / static_cast<double>(timed_queries);
   }
 
   bool operator==(const Counts&) const = default;
@@ -162,6 +131,9 @@ struct Key {
     return std::tie(subject, kind, family) < std::tie(other.subject, other.kind, other.family);
   }
 };
+
+/// Whether a family's queries are drawn at random: not those of cases and scenes.
+bool is_random(std::string_view family);
 
 /// Counters of the oracle, for one kind and family.
 struct OracleCounts {

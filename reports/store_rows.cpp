@@ -26,8 +26,8 @@ constexpr const char* schema = R"sql(
     queries INTEGER NOT NULL, collisions INTEGER NOT NULL, positives INTEGER NOT NULL,
     false_negatives INTEGER NOT NULL, false_positives INTEGER NOT NULL, refuted_bounds INTEGER NOT NULL,
     true_by_stage TEXT NOT NULL, false_by_stage TEXT NOT NULL, rejected_by TEXT NOT NULL,
-    distances TEXT NOT NULL, farthest TEXT NOT NULL, faults TEXT NOT NULL, timed_queries INTEGER NOT NULL, nanoseconds INTEGER NOT NULL, times TEXT NOT NULL,
-    slowest TEXT NOT NULL,
+    distances TEXT NOT NULL, farthest TEXT NOT NULL, faults TEXT NOT NULL,
+    batch_times TEXT NOT NULL, nanoseconds INTEGER NOT NULL, each_time TEXT NOT NULL, slowest TEXT NOT NULL,
     PRIMARY KEY (subject, kind, family)) STRICT;
   CREATE TABLE oracle_statistics (
     kind TEXT NOT NULL CHECK (kind IN ('vt', 'ee')), family TEXT NOT NULL, queries INTEGER NOT NULL,
@@ -110,10 +110,11 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
     insert.bind(++i, json(c.distances.bins).dump());
     insert.bind(++i, far_json(c.farthest).dump());
     insert.bind(++i, json(c.faults).dump());
-    insert.bind(++i, stored(c.timed_queries));
-    insert.bind(++i, stored(c.nanoseconds));
-    insert.bind(++i, json(c.times.bins).dump());
-    insert.bind(++i, slow_json(c.slowest).dump());
+    const auto batches = c.times.batches.find({key.kind, key.family});
+    insert.bind(++i, batches == c.times.batches.end() ? "[]" : json(batches->second.bins()).dump());
+    insert.bind(++i, stored(c.times.nanoseconds));
+    insert.bind(++i, json(c.times.each.bins).dump());
+    insert.bind(++i, slow_json(c.times.slowest).dump());
     insert.exec();
     insert.reset();
   }
@@ -267,6 +268,7 @@ void read_counts(SQLite::Database& db, const std::string& where, Statistics& sta
     const Key key{rows.getColumn(0).getString(), parse_kind(rows.getColumn(1).getString(), where),
                   rows.getColumn(2).getString()};
     Counts& c = statistics.counts[key];
+    c.is_sample = is_random(key.family);
     int i = 2;
     for (std::uint64_t* n :
          {&c.queries, &c.collisions, &c.positives, &c.false_negatives, &c.false_positives, &c.refuted_bounds})
@@ -277,10 +279,11 @@ void read_counts(SQLite::Database& db, const std::string& where, Statistics& sta
     json::parse(rows.getColumn(++i).getString()).get_to(c.distances.bins);
     c.farthest = far_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
     json::parse(rows.getColumn(++i).getString()).get_to(c.faults);
-    c.timed_queries = count(rows.getColumn(++i));
-    c.nanoseconds = count(rows.getColumn(++i));
-    json::parse(rows.getColumn(++i).getString()).get_to(c.times.bins);
-    c.slowest = slow_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
+    if (BatchTimes::Bins bins = json::parse(rows.getColumn(++i).getString()); !bins.empty())
+      c.times.batches[{key.kind, key.family}] = BatchTimes(std::move(bins));
+    c.times.nanoseconds = count(rows.getColumn(++i));
+    json::parse(rows.getColumn(++i).getString()).get_to(c.times.each.bins);
+    c.times.slowest = slow_cases(json::parse(rows.getColumn(++i).getString()), key.kind, where);
   }
 }
 

@@ -48,8 +48,8 @@ std::string sweep_tables(const Statistics& statistics) {
     for (const auto& [value, c] : sweep)
       rows.push_back({fmt::format("{:.6g}", value), with_separators(c.queries), with_separators(c.collisions),
                       with_separators(c.false_negatives), with_separators(c.false_positives),
-                      fmt::format("{:.2g}", c.false_positive_rate()), fmt::format("{:.3g}", c.max_ratio()),
-                      c.timed_queries == 0 ? "-" : fmt::format("{:.0f}", c.ns_per_query())});
+                      fmt::format("{:.2g}", c.false_positive_rate()), fraction_of_bound(c.max_ratio()),
+                      c.times.queries() == 0 ? "-" : fmt::format("{:.0f}", c.times.ns_per_query())});
     text += fmt::format("\n{} along {}@x\n{}", key.second, key.first, columns(rows, 0));
   }
   return text;
@@ -60,16 +60,17 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
   for (const auto& [key, sweep] : sweeps(statistics)) {
     auto& steps = json[key.first][key.second];
     for (const auto& [value, c] : sweep)
-      steps.push_back({{"value", value},
-                       {"queries", c.queries},
-                       {"collisions", c.collisions},
-                       {"false_negatives", c.false_negatives},
-                       {"false_negative_rate", c.false_negative_rate()},
-                       {"false_positives", c.false_positives},
-                       {"false_positive_rate", c.false_positive_rate()},
-                       {"max_fp_distance_over_bound", c.max_ratio()},
-                       {"ns_per_query", c.timed_queries == 0 ? nlohmann::ordered_json()
-                                                             : nlohmann::ordered_json(c.ns_per_query())}});
+      steps.push_back(
+          {{"value", value},
+           {"queries", c.queries},
+           {"collisions", c.collisions},
+           {"false_negatives", c.false_negatives},
+           {"false_negative_rate", c.false_negative_rate()},
+           {"false_positives", c.false_positives},
+           {"false_positive_rate", c.false_positive_rate()},
+           {"max_fp_distance_over_bound", c.max_ratio()},
+           {"ns_per_query", c.times.queries() == 0 ? nlohmann::ordered_json()
+                                                   : nlohmann::ordered_json(c.times.ns_per_query())}});
   }
   return json;
 }

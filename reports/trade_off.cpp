@@ -14,7 +14,7 @@ namespace nearmiss {
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   std::set<std::string> subjects;
   for (const auto& [key, counts] : statistics.counts)
-    if (counts.timed_queries != 0) subjects.insert(key.subject);
+    if (counts.times.queries() != 0) subjects.insert(key.subject);
   std::map<std::pair<Kind, std::string>, std::size_t> asked;  // of how many subjects, by kind and family
   for (const auto& [key, counts] : statistics.counts)
     if (subjects.contains(key.subject)) ++asked[{key.kind, key.family}];
@@ -23,7 +23,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.counts)
     if (asked[{key.kind, key.family}] == subjects.size()) {
       all[key.subject].merge(counts);
-      if (counts.timed_queries != 0) timed[key.subject].merge(counts);
+      if (counts.times.queries() != 0) timed[key.subject].merge(counts);
     }
   std::vector<TradeOff> trade_offs;
   for (const auto& [subject, counts] : timed)
@@ -36,7 +36,8 @@ std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (
   for (const TradeOff& each : all)
     if (each.sound()) sound.push_back(&each);
   std::sort(sound.begin(), sound.end(), [&](const TradeOff* a, const TradeOff* b) {
-    return std::pair(a->timed.ns_per_query(), error(*a)) < std::pair(b->timed.ns_per_query(), error(*b));
+    return std::pair(a->timed.times.ns_per_query(), error(*a)) <
+           std::pair(b->timed.times.ns_per_query(), error(*b));
   });
   std::vector<std::string> front;
   double least = std::numeric_limits<double>::infinity();

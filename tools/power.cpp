@@ -108,7 +108,10 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
   }
   text += fmt::format("{:<24}", fmt::format("found, of {}", subjects.size()));
   for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
-  return text + "\n\nTime and cases to the first miss; *: to the first refuted bound.\n";
+  return text +
+         "\n\nTime and cases up to the first miss; *: up to the first refuted bound. Of a directed search, "
+         "evaluations: at most "
+         "this many.\n";
 }
 
 int run(const Options& options) {

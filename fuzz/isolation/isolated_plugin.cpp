@@ -35,23 +35,29 @@ class IsolatedPlugin final : public Subject {
   }
 
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    std::vector<std::uint64_t> nanoseconds(queries.size());
-    decide_timed(queries, verdicts, nanoseconds);
+    have_done(Order::decide, queries, [&](const Part& part) { part.answer(verdicts); });
   }
 
-  void decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts,
-                    std::span<std::uint64_t> nanoseconds) const override {
-    std::unique_ptr<WorkerProcess> worker = take();
-    for (std::size_t first = 0; first < queries.size();) {
-      const std::size_t count = batch_at(queries.subspan(first));
-      decide_batch(worker, queries.subspan(first, count), verdicts.subspan(first, count),
-                   nanoseconds.subspan(first, count));
-      first += count;
-    }
-    give_back(std::move(worker));
+  BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    BatchTime sum;
+    have_done(Order::decide_timed, queries, [&](const Part& part) {
+      part.answer(verdicts);
+      if (part.failure) return;
+      sum.queries += part.end - part.first;
+      sum.nanoseconds += part.shared.nanoseconds;
+    });
+    return sum;
   }
 
-  [[nodiscard]] bool is_remote() const override { return true; }
+  void time_each(std::span<const Query> queries,
+                 std::span<std::optional<std::uint64_t>> nanoseconds) const override {
+    have_done(Order::time_each, queries, [&](const Part& part) {
+      for (std::uint32_t i = part.first; i < part.end; ++i)
+        nanoseconds[part.start + i] = part.shared.answers[i].nanoseconds;
+      if (part.failure) nanoseconds[part.start + part.end].reset();
+    });
+  }
+
   [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
@@ -82,27 +88,40 @@ class IsolatedPlugin final : public Subject {
     }
   }
 
-  void decide_batch(std::unique_ptr<WorkerProcess>& worker, std::span<const Query> queries,
-                    std::span<Verdict> verdicts, std::span<std::uint64_t> nanoseconds) const {
-    fill(worker->shared(), queries);
-    for (std::uint32_t first = 0; first < queries.size();) {
-      worker->shared().first = first;
-      const std::optional<Failure> failure = worker->obey(Order::decide);
-      const auto end = failure ? failure->query : static_cast<std::uint32_t>(queries.size());
-      for (; first < end; ++first) {
-        const isolation::Answer& answer = worker->shared().answers[first];
-        verdicts[first] = plugin_verdict(answer.value, answer.number);
-        nanoseconds[first] = answer.nanoseconds;
-      }
-      if (!failure) break;
-      verdicts[first] = {};
-      verdicts[first].fault = failure->fault;
-      verdicts[first].fault_code = failure->code;
-      nanoseconds[first] = failure->nanoseconds;
-      ++first;
-      worker = std::make_unique<WorkerProcess>(path_, limits_);
-      fill(worker->shared(), queries);
+  /// What one worker has done of a batch: its queries [first, end), and a failure at `end` if it ended there.
+  struct Part {
+    const Shared& shared;
+    std::size_t start;  ///< of the batch, among all queries
+    std::uint32_t first, end;
+    const std::optional<Failure>& failure;
+
+    void answer(std::span<Verdict> verdicts) const {
+      for (std::uint32_t i = first; i < end; ++i)
+        verdicts[start + i] = plugin_verdict(shared.answers[i].value, shared.answers[i].number);
+      if (failure) verdicts[start + end] = {.fault = failure->fault, .fault_code = failure->code};
     }
+  };
+
+  /// Has all queries done, with a new worker behind each at which one ended.
+  template <class Take>
+  void have_done(Order order, std::span<const Query> queries, const Take& take_part) const {
+    std::unique_ptr<WorkerProcess> worker = take();
+    for (std::size_t start = 0; start < queries.size();) {
+      const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
+      fill(worker->shared(), batch);
+      for (std::uint32_t first = 0; first < batch.size();) {
+        worker->shared().first = first;
+        const std::optional<Failure> failure = worker->obey(order);
+        const auto end = failure ? failure->query : static_cast<std::uint32_t>(batch.size());
+        take_part(Part{worker->shared(), start, first, end, failure});
+        if (!failure) break;
+        first = end + 1;
+        worker = std::make_unique<WorkerProcess>(path_, limits_);
+        fill(worker->shared(), batch);
+      }
+      start += batch.size();
+    }
+    give_back(std::move(worker));
   }
 
   std::unique_ptr<WorkerProcess> take() const {

@@ -6,8 +6,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +18,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
+#include "ccd/stopwatch.hpp"
 #include "fuzz/isolation/shared.hpp"
 
 namespace {
@@ -111,22 +112,52 @@ Query query_at(std::uint32_t i) {
   return query;
 }
 
+/// Says which query comes next, for the case that it is the last one.
+void begin(std::uint32_t i) {
+  shared->memory_refused.store(0, std::memory_order_relaxed);
+  shared->current.store(i, std::memory_order_release);
+  shared->calls.fetch_add(1, std::memory_order_release);
+}
+
+void ask(const Plugin& plugin, std::uint32_t i) {
+  begin(i);
+  Answer& answer = shared->answers[i];
+  answer.number = std::numeric_limits<double>::quiet_NaN();
+  answer.value = plugin.ask(query_at(i), answer.number);
+}
+
+void ask(const Plugin& plugin, std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t i = first; i < last; ++i) ask(plugin, i);
+}
+
 void answer(const Plugin& plugin, Order order) {
-  for (std::uint32_t i = shared->first; i < shared->count; ++i) {
-    shared->memory_refused.store(0, std::memory_order_relaxed);
-    shared->current.store(i, std::memory_order_release);
-    const Query query = query_at(i);
-    Answer& answer = shared->answers[i];
-    if (order == Order::bounds) {
-      answer.number = plugin.distance_bound(query);
-      continue;
+  const Plugin& empty = Plugin::empty_plugin();
+  const std::uint32_t first = shared->first;
+  const std::uint32_t last = shared->count;
+  switch (order) {
+    case Order::decide:
+      ask(plugin, first, last);
+      break;
+    case Order::decide_timed: {
+      const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
+      ask(empty, first, few);
+      ask(plugin, first, few);
+      // Of all threads: a plug-in may have its own.
+      shared->nanoseconds = time_beyond(
+          CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, first, last); }, [&] { ask(empty, first, last); });
+      break;
     }
-    answer.number = std::numeric_limits<double>::quiet_NaN();
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    answer.value = plugin.ask(query, answer.number);
-    answer.nanoseconds = static_cast<std::uint64_t>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count());
+    case Order::time_each:
+      for (std::uint32_t i = first; i < last; ++i)
+        shared->answers[i].nanoseconds = best_time_beyond(
+            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, i); }, [&] { ask(empty, i); });
+      break;
+    case Order::bounds:
+      for (std::uint32_t i = first; i < last; ++i) {
+        begin(i);
+        shared->answers[i].number = plugin.distance_bound(query_at(i));
+      }
+      break;
   }
 }
 

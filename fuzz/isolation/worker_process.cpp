@@ -60,7 +60,7 @@ WorkerProcess::WorkerProcess(const std::string& path, const Limits& limits) : li
   check(mapped != MAP_FAILED, "memory");
   shared_.reset(new (mapped) Shared);
   start(path, memory.number);
-  const How how = wait().how;
+  const How how = wait();
   if (how == How::dead) throw Error(path + ": the plug-in ended its process while it was loaded");
   if (how == How::late) throw Error(path + ": the plug-in takes too long to load");
   if (shared_->error[0] != '\0') throw Error(shared_->error.data());
@@ -101,26 +101,26 @@ std::chrono::duration<double> WorkerProcess::computed() const {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-WorkerProcess::End WorkerProcess::wait() const {
+WorkerProcess::How WorkerProcess::wait() const {
   constexpr int patience = 10;
   constexpr int look_again_ms = 10;
-  std::uint32_t current = shared_->current;
+  std::uint32_t calls = shared_->calls;
   auto since = Clock::now();
   auto computed_since = computed();
   while (true) {
     pollfd socket{socket_.number, POLLIN, 0};
     const bool spoke = poll(&socket, 1, look_again_ms) > 0;
-    const auto time = Clock::now() - since;
     if (spoke) {
       char byte = 0;
-      return {read(socket_.number, &byte, 1) == 1 ? How::done : How::dead, time};
+      return read(socket_.number, &byte, 1) == 1 ? How::done : How::dead;
     }
-    if (const std::uint32_t now = shared_->current; now != current) {
-      current = now;
+    if (const std::uint32_t now = shared_->calls; now != calls) {
+      calls = now;
       since = Clock::now();
       computed_since = computed();
-    } else if (computed() - computed_since >= limits_.time || time >= patience * limits_.time) {
-      return {How::late, time};
+    } else if (computed() - computed_since >= limits_.time ||
+               Clock::now() - since >= patience * limits_.time) {
+      return How::late;
     }
   }
 }
@@ -132,12 +132,11 @@ std::optional<Failure> WorkerProcess::obey(Order order) const {
   shared_->current = first;
   const char byte = static_cast<char>(order);
   static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // where it is dead, that is seen below
-  const End end = wait();
-  if (end.how == How::done) return std::nullopt;
-  const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(end.time).count();
+  const How end = wait();
+  if (end == How::done) return std::nullopt;
   const std::uint32_t query = std::clamp<std::uint32_t>(shared_->current, first, last);
-  Failure failure{query, Fault::time, 0, static_cast<std::uint64_t>(time)};
-  if (end.how == How::dead) {
+  Failure failure{query, Fault::time, 0};
+  if (end == How::dead) {
     siginfo_t how{};
     waitid(P_PID, static_cast<id_t>(process_.id), &how, WEXITED | WNOWAIT);
     failure.fault = Fault::crash;

@@ -25,8 +25,7 @@ struct Limits {
 struct Failure {
   std::uint32_t query;  ///< its place in the batch
   Fault fault;
-  std::int32_t code;          ///< of a crash: the signal, or the exit code negated
-  std::uint64_t nanoseconds;  ///< that it took until then
+  std::int32_t code;  ///< of a crash: the signal, or the exit code negated
 };
 
 /// A running worker. It is of no use any more once an order failed.
@@ -58,13 +57,8 @@ class WorkerProcess {
 
   /// How waiting for the worker ended: it is done, or it died, or a query is over its limit.
   enum class How : std::uint8_t { done, dead, late };
-  struct End {
-    How how;
-    std::chrono::steady_clock::duration time;  ///< since the last query was begun, to some 10 ms
-  };
-
   void start(const std::string& path, int memory);
-  [[nodiscard]] End wait() const;
+  [[nodiscard]] How wait() const;
   [[nodiscard]] std::chrono::duration<double> computed() const;
 
   Limits limits_;

@@ -10,11 +10,11 @@
 
 namespace nearmiss {
 
-/// The first failure that a campaign found.
+/// The first failure that a campaign found, in the order of its cases.
 struct FirstFailure {
   Finding finding;
-  double seconds = 0;
-  std::uint64_t cases = 0;  ///< until then, that of the failure and of the wave with it included
+  double seconds = 0;       ///< until then; within what is decided at once, in proportion to the cases
+  std::uint64_t cases = 0;  ///< until then, that of the failure included
 };
 
 /// Runs a campaign until one of the subjects misses a collision or has its distance bound refuted; nothing

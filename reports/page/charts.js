@@ -54,9 +54,8 @@ function logAxis(values) {
 
 /** Rates of random families, but of no sweep; cases and scenes are no samples. */
 function rateRows() {
-  const isShownElsewhere = (family) => family.endsWith("/") || isStep(family) ||
-    Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
-  return countRows(true).filter((row) => row.false_positives > 0 && !isShownElsewhere(row.family))
+  const isShownElsewhere = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+  return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isShownElsewhere(row.family))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
       median: row.median_fp_distance_over_bound[1] }));
 }

@@ -3,6 +3,15 @@
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
 
+const partsOfClaimed = (fit) => `${fraction(fit.least_part_of_claimed)}–${fraction(fit.greatest_part_of_claimed)}`;
+const exponent = (fit) => `${fit.exponent.toFixed(4)} ± ${Number(fit.half_width_95.toPrecision(2))}`;
+
+/** Where the claimed distances are all but reached, a fit would only give their formula back. */
+const fitText = (fit) => `${fit.algorithm}: ` + (fit.restates_the_bound
+  ? `the farthest are at ${partsOfClaimed(fit)} of the claimed distance`
+  : `the farthest distance goes as ε to the power of ${exponent(fit)} (95 % confidence), at ${partsOfClaimed(fit)} of the claimed distance`) +
+  ` for ${fit.points} subjects with ${fit.precisions} precisions.`;
+
 /** The exponents of each family, or of what a directed search found, beside each other for each algorithm. */
 function drawFits(fits) {
   const origins = [...new Set(fits.map((fit) => fit.origin))];
@@ -11,17 +20,17 @@ function drawFits(fits) {
   const of = (origin, algorithm) => fits.find((fit) => fit.origin === origin && fit.algorithm === algorithm);
   fillTable(element("ladder-origins"), [{ title: "queries from", text: (origin) => origin },
     ...[...new Set(fits.map((fit) => fit.algorithm))].flatMap((algorithm) => [
-      { title: `${algorithm}: exponent of ε`, number: (origin) => of(origin, algorithm)?.exponent ?? -1,
-        text: (origin) => { const fit = of(origin, algorithm); return fit ? `${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}` : "–"; } },
+      { title: `${algorithm}: exponent of ε, 95 %`, number: (origin) => of(origin, algorithm)?.exponent ?? -1,
+        text: (origin) => { const fit = of(origin, algorithm); return !fit ? "–" : fit.restates_the_bound ? "the bound's" : exponent(fit); } },
+      { title: "farthest / claimed", number: (origin) => of(origin, algorithm)?.greatest_part_of_claimed ?? 0,
+        text: (origin) => { const fit = of(origin, algorithm); return fit ? partsOfClaimed(fit) : "–"; } },
       { title: "precisions", number: (origin) => of(origin, algorithm)?.precisions ?? 0, text: (origin) => short(of(origin, algorithm)?.precisions) }]),
   ], origins, true);
 }
 
 function drawLadder() {
   const { rungs, fits } = report.ladder;
-  element("ladder-fits").textContent = fits.filter((fit) => fit.origin === "").map((fit) =>
-    `${fit.algorithm}: the farthest distance goes as ε^${fit.exponent.toFixed(4)} ± ${fit.standard_error.toFixed(4)}, over ${fit.precisions} precisions.`).join(" ") +
-    " The paper predicts ¼.";
+  element("ladder-fits").textContent = fits.filter((fit) => fit.origin === "").map(fitText).join(" ") + " The paper predicts a power of ¼.";
   drawFits(fits.filter((fit) => fit.origin !== ""));
   fillTable(element("ladder"), [
     text("subject", "subject"), { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) }, count("queries", "queries"),

@@ -87,7 +87,7 @@ const noAnswer = {
   title: "no answer", number: faults, bad: (r) => faults(r) > 0,
   text: (r) => Object.entries(r.faults).map(([why, times]) => `${integer(times)} ${why}`).join(", ") || "0",
 };
-const quantile = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
+const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
 /** The farthest false positive of a subject and kind, in a family or in any. */
 const farthestOf = ({ subject, kind, family }) => report.farthest
@@ -103,14 +103,17 @@ function drawCounts() {
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
-    { title: "missed below", number: (r) => r.false_negative_rate_upper_95, text: (r) => percent(r.false_negative_rate_upper_95) },
+    { title: "missed below", number: (r) => r.false_negative_rate_upper_95 ?? -1,
+      text: (r) => (r.false_negative_rate_upper_95 === null ? "–" : percent(r.false_negative_rate_upper_95)) },
     count("false positives", "false_positives"),
     { title: "rate (95 %)", number: (r) => r.false_positive_rate,
-      text: (r) => `${percent(r.false_positive_rate)} (${percentRange(r.false_positive_rate_interval_95)})` },
+      text: (r) => percent(r.false_positive_rate) +
+        (r.false_positive_rate_interval_95 === null ? "" : ` (${percentRange(r.false_positive_rate_interval_95)})`) },
     range("median dist.", "median_fp_distance_over_bound"), range("99 % dist.", "q99_fp_distance_over_bound"),
     { ...largest, text: (r) => { const far = farthestOf(r); return far ? made("a", largest.text(r), { href: far.file }) : "–"; } },
     count("beyond", "refuted_bounds", true), ...(rows.some(faults) ? [noAnswer] : []),
-    figure("ns / query", "ns_per_query"), quantile("median ns", "median_ns"), quantile("99 % ns", "q99_ns"),
+    figure("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
+    { title: "timed singly", number: (r) => r.times.sampled, text: (r) => integer(r.times.sampled) },
   ];
   fillTable(element("counts"), columns, rows, true);
 }

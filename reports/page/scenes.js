@@ -28,11 +28,11 @@ const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofK
 const askedRows = () => countRows(true).filter((row) => isStep(row.family)).map((row) => ({
   scene: sceneOf(row.family), step: stepNumber(row.family), subject: row.subject, kind: row.kind, queries: row.queries,
   collisions: row.collisions, false_negatives: row.false_negatives, false_positives: row.false_positives,
-  farthest: row.max_fp_distance_over_bound, time: (row.ns_per_query ?? 0) * row.queries,
+  answered: row.queries - faults(row), farthest: row.max_fp_distance_over_bound, time: (row.ns_per_query ?? 0) * row.queries,
   ...Object.fromEntries(["planes", "no-root", "culled"].map((why) => [why, row.rejected_by[why] ?? 0])),
 }));
 
-const falsePositiveRate = (r) => (r.queries > r.collisions ? r.false_positives / (r.queries - r.collisions) : 0);
+const falsePositiveRate = (r) => (r.answered > r.collisions ? r.false_positives / (r.answered - r.collisions) : 0);
 
 function drawScenes() {
   const all = funnelRows();

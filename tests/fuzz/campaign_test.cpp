@@ -44,12 +44,8 @@ Ran run(const CampaignPlan& plan, bool with_basic = false, const std::atomic<boo
       },
       stop);
   run.rounds = reached.rounds;
-  EXPECT_EQ(reached.complete, plan.cases != 0 && most_saves == 0);  // what was announced is what was done
-  for (auto& [key, counts] : run.statistics.counts) {               // what varies
-    counts.nanoseconds = 0;
-    counts.times = {};
-    counts.slowest.clear();
-  }
+  EXPECT_EQ(reached.complete, plan.cases != 0 && most_saves == 0);      // what was announced is what was done
+  for (auto& [key, counts] : run.statistics.counts) counts.times = {};  // what varies
   return run;
 }
 

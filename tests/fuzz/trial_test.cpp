@@ -73,12 +73,10 @@ TEST(Trial, TimesCountWhereTheBatchSaysSo) {
   Batch untimed = batch();
   untimed.timed = false;
   const Subjects wang = one(make_subject("wang"));
-  EXPECT_EQ(counts_of(hold_trial(wang, batch())).timed_queries, batch().queries.size());
+  EXPECT_EQ(counts_of(hold_trial(wang, batch())).times.queries(), batch().queries.size());
   const Counts counts = counts_of(hold_trial(wang, untimed));
   EXPECT_EQ(counts.queries, batch().queries.size());
-  EXPECT_EQ(counts.timed_queries, 0);
-  EXPECT_EQ(counts.nanoseconds, 0);
-  EXPECT_TRUE(counts.slowest.empty());
+  EXPECT_EQ(counts.times, Times());
 }
 
 TEST(Trial, ASubjectThatNeverReportsMisses) {

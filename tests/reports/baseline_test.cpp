@@ -31,8 +31,7 @@ Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t mis
   c.collisions = collisions;
   c.false_negatives = missed;
   c.false_positives = false_positives;
-  c.timed_queries = ns == 0 ? 0 : queries;
-  c.nanoseconds = ns * queries;
+  if (ns != 0) c.times.add(Kind::edge_edge, "f", {queries, ns * queries});
   if (false_positives != 0) c.farthest.push_back({1e-3 * static_cast<double>(false_positives), {}, "f:1:0"});
   return c;
 }
@@ -224,14 +223,14 @@ TEST(TradeOff, OnlyFamiliesOfAllCount) {
   statistics.counts[{"b", Kind::edge_edge, "only b"}] = counts(100, 50, 0, 0, 9000);
   const auto all = trade_offs(statistics);
   ASSERT_THAT(all, SizeIs(2));
-  EXPECT_EQ(all[1].timed.ns_per_query(), 200);
+  EXPECT_EQ(all[1].timed.times.ns_per_query(), 200);
 }
 
 TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   Statistics statistics;
   statistics.counts[{"a", Kind::edge_edge, "f"}] = counts(100, 50, 0, 10, 100);
   Counts& searched = statistics.counts[{"a", Kind::edge_edge, "search-far-a"}] = counts(100, 50, 1, 50, 9000);
-  searched.timed_queries = searched.nanoseconds = 0;
+  searched.times = {};
   searched.farthest = {{0.875, {}, "search-far-a:1:0"}};
   const auto all = trade_offs(statistics);
   ASSERT_THAT(all, SizeIs(1));

@@ -14,12 +14,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Counts counts_of(std::initializer_list<Outcome> outcomes, std::uint64_t ns_per_query) {
-  Counts counts;
+void add(Statistics& statistics, const Key& key, std::initializer_list<Outcome> outcomes,
+         std::uint64_t ns_per_query) {
+  Counts& counts = statistics.counts[key];
   for (const Outcome& each : outcomes) counts.add(each, {}, [] { return "f:1:0"; });
-  counts.timed_queries = counts.queries;
-  counts.nanoseconds = ns_per_query * counts.queries;
-  return counts;
+  counts.times.add(key.kind, key.family, {counts.queries, ns_per_query * counts.queries});
 }
 
 Outcome accepted(Stage stage) { return {.verdict = Verdict::accepted(stage, 0), .collision = true}; }
@@ -31,14 +30,14 @@ Statistics some_statistics() {
     return Key{subject, Kind::vertex_triangle, family};
   };
   Statistics statistics;
-  statistics.counts[vt("adaptive", "near")] =
-      counts_of({rejected(Miss::planes), filter, rejected(Miss::finer), accepted(Stage::exact)}, 300);
-  statistics.counts[{"adaptive", Kind::edge_edge, "near"}] =
-      counts_of({rejected(Miss::culled), accepted(Stage::filter), filter, rejected(Miss::exact)}, 500);
-  statistics.counts[vt("adaptive", "far")] = counts_of({rejected(Miss::no_root)}, 50);
-  statistics.counts[vt("wang", "near")] = counts_of({accepted(Stage::vv)}, 100);
-  statistics.counts[vt("wang", "far")] = counts_of({rejected(Miss::no_root)}, 25);
-  statistics.counts[vt("exact", "near")] = counts_of({filter, accepted(Stage::exact)}, 600);
+  add(statistics, vt("adaptive", "near"),
+      {rejected(Miss::planes), filter, rejected(Miss::finer), accepted(Stage::exact)}, 300);
+  add(statistics, {"adaptive", Kind::edge_edge, "near"},
+      {rejected(Miss::culled), accepted(Stage::filter), filter, rejected(Miss::exact)}, 500);
+  add(statistics, vt("adaptive", "far"), {rejected(Miss::no_root)}, 50);
+  add(statistics, vt("wang", "near"), {accepted(Stage::vv)}, 100);
+  add(statistics, vt("wang", "far"), {rejected(Miss::no_root)}, 25);
+  add(statistics, vt("exact", "near"), {filter, accepted(Stage::exact)}, 600);
   return statistics;
 }
 
@@ -68,8 +67,8 @@ TEST(Deciders, TimesAreOverThoseOfTheSameFamiliesAndKinds) {
 TEST(Deciders, OfASceneAllStepsAreOneRow) {
   Statistics statistics;
   for (const char* step : {"scene:mat@300#0", "scene:mat@300#1", "scene:hair#0"})
-    statistics.counts[{"adaptive", Kind::edge_edge, step}] =
-        counts_of({rejected(Miss::planes), accepted(Stage::filter)}, 10);
+    add(statistics, {"adaptive", Kind::edge_edge, step}, {rejected(Miss::planes), accepted(Stage::filter)},
+        10);
   const auto rows = decider_rows(statistics);
   ASSERT_EQ(rows.size(), 3);
   EXPECT_EQ(rows[1].family, "scene:hair");
@@ -79,8 +78,8 @@ TEST(Deciders, OfASceneAllStepsAreOneRow) {
 
 TEST(Deciders, WhatGaveNoAnswerWasDecidedByNothing) {
   Statistics statistics;
-  statistics.counts[{"adaptive", Kind::edge_edge, "f"}] =
-      counts_of({rejected(Miss::planes), accepted(Stage::filter), {.verdict = {.fault = Fault::time}}}, 10);
+  add(statistics, {"adaptive", Kind::edge_edge, "f"},
+      {rejected(Miss::planes), accepted(Stage::filter), {.verdict = {.fault = Fault::time}}}, 10);
   EXPECT_THAT(decider_rows(statistics)[0].queries, ElementsAre(1, 1, 0, 0));
 }
 
@@ -103,7 +102,7 @@ TEST(Deciders, StandInTheText) {
   EXPECT_THAT(text,
               HasSubstr("8          2    25 %       3  37.5 %      1  12.5 %      2    25 %       400"));
   Statistics none;
-  none.counts[{"wang", Kind::edge_edge, "f"}] = counts_of({accepted(Stage::vv)}, 1);
+  add(none, {"wang", Kind::edge_edge, "f"}, {accepted(Stage::vv)}, 1);
   EXPECT_EQ(decider_tables(none), "");
 }
 

@@ -63,6 +63,11 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   EXPECT_EQ(line->precisions, 4);
   EXPECT_NEAR(line->exponent, 0.25, 1e-6);
   EXPECT_NEAR(line->standard_error, 0, 1e-6);
+  EXPECT_EQ(line->points, 4);
+  EXPECT_EQ(line->least_part, 1);
+  EXPECT_EQ(line->greatest_part, 1);
+  EXPECT_EQ(describe(*line),
+            "wang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions");
   // Half as far for each halving of ε on top of that: one more power.
   const auto steeper =
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
@@ -70,6 +75,21 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   for (const char* no_third : {"wang:p200", "wang:float"})
     EXPECT_FALSE(
         fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}})), "wang").has_value());
+}
+
+// With two degrees of freedom t is exceeded with probability 2.5 % at 0.95 √(2 / (4 · 0.975 · 0.025)).
+TEST(Ladder, TheIntervalIsStudents) {
+  const auto line =
+      fit(rungs(farthest_at({{"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}})),
+          "wang");
+  EXPECT_EQ(line->points, 4);
+  EXPECT_EQ(line->precisions, 3);
+  EXPECT_FALSE(line->restates_the_bound());
+  EXPECT_NEAR(line->half_width_95, 4.302652729749464 * line->standard_error, 1e-12);
+  EXPECT_EQ(describe(*line),
+            "wang: the farthest distance goes as epsilon^(0.2941 +- 0.16, 95 %), from 4 subjects with 3 "
+            "precisions; at "
+            "0.125 to 1 of the claimed distance");
 }
 
 TEST(Ladder, EachOriginHasAFitOfItsOwn) {
@@ -99,8 +119,9 @@ TEST(Ladder, IsLeftOutWhereThereIsOnePrecision) {
   ASSERT_TRUE(json.has_value());
   EXPECT_EQ((*json)["rungs"].size(), 3);
   EXPECT_EQ((*json)["fits"].size(), 2);  // over all, and of its only family
-  EXPECT_NE(ladder_table(farthest_at({{"wang:p24", 1}, {"wang", 1}, {"wang:p64", 1}})).find("epsilon^(0.25"),
-            std::string::npos);
+  EXPECT_NE(
+      ladder_table(farthest_at({{"wang:p24", 0.5}, {"wang", 0.5}, {"wang:p64", 0.5}})).find("epsilon^(0.25"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ async function showsTheLadderAndTheAudit(browser) {
   assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
   const report = JSON.parse(readFileSync(join(folder, "ladder", "report.json")));
   await showsErrorTimeOfTheLadder(page, report.error_against_time);
-  assert.match(await page.textContent("#ladder-fits"), /^wang: [^:]*wang-tight: the farthest distance goes as ε\^0\.\d+ ± [^:]*$/);
+  assert.match(await page.textContent("#ladder-fits"), /^wang: the farthest distance goes as ε to the power of 0\.\d+ ± [\d.]+ \(95 % confidence\), at [\d.]+–[\d.]+ of the claimed distance for 3 subjects with 3 precisions\. wang-tight: the farthest are at 0\.9\d+–0\.9\d+ of the claimed distance for 3 subjects with 3 precisions\. The paper predicts a power of ¼\.$/);
   const origins = new Set(report.ladder.fits.map((fit) => fit.origin).filter((origin) => origin !== ""));
   assert.ok(origins.size > 1);
   assert.deepEqual(new Set(await page.locator("#ladder-origins tbody td:first-child").allTextContents()), origins);

@@ -39,8 +39,7 @@ Campaign some_campaign(const std::string& subject) {
   counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, [] { return "f:1:2"; });
   counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.5}, query,
              [] { return "f:1:4"; });
-  counts.timed_queries = 3;
-  counts.nanoseconds = 300;
+  counts.times.add(Kind::vertex_triangle, "fam,\"ily", {3, 300});
   auto& findings = campaign.runs.front().findings;
   findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0,
                       "vt simple-root inside in-face", simple});
@@ -70,6 +69,24 @@ TEST(Summary, SaysAtAGlanceWhoMissed) {
   EXPECT_THAT(table, HasSubstr("FAIL bad: MISSED 1 of 2 collisions, 1 false positive, the farthest at 0.5"));
   EXPECT_THAT(table, HasSubstr(" ok  good: no miss in 1 collision, no false positive"));
   EXPECT_TRUE(found_anything(statistics));
+}
+
+TEST(Summary, OnlyRandomSamplesHaveARate) {
+  const auto of = [](const std::string& family) {
+    Statistics statistics;
+    Counts& counts = statistics.counts[{"good", Kind::edge_edge, family}];
+    counts.add({.verdict = {true, Stage::vv, 0}, .collision = true}, query, [] { return ""; });
+    counts.is_sample = is_random(family);
+    return statistics;
+  };
+  EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));  // the largest rate that 0 of 1 allows
+  for (const char* family : {"cases/", "scene:cloth#3"}) {
+    EXPECT_THAT(summary_table(of(family)), ::testing::Not(HasSubstr("0.95"))) << family;
+    EXPECT_EQ(rates_json(of(family).counts.begin()->second)["false_negative_rate_upper_95"], nullptr);
+    Statistics both = of(family);
+    both.merge(of("uniform"));
+    EXPECT_FALSE(both.by_subject_and_kind().begin()->second.is_sample);
+  }
 }
 
 TEST(Summary, AMismatchWithTheRecordedTruthIsAFinding) {

@@ -116,8 +116,7 @@ Statistics random_statistics(unsigned seed) {
     Query own = query;
     own.x[0] = static_cast<double>(random() % 7);
     statistics.counts[key].add(outcome, own, [&] { return std::to_string(random() % 5); });
-    statistics.counts[key].timed_queries += 1;
-    statistics.counts[key].nanoseconds += random() % 100;
+    statistics.counts[key].times.add(key.kind, key.family, {1 + random() % 3, random() % 100});
   }
   for (const Kind kind : kinds) {
     OracleCounts& oracle = statistics.oracle[{kind, random() % 2 ? "f" : "g"}];
@@ -188,6 +187,39 @@ TEST(Confidence, OneWhereNothingIsKnown) {
   EXPECT_EQ(clopper_pearson_upper(5, 5), 1);
 }
 
+TEST(Times, AreMediansOverTheBatchesOfAFamily) {
+  Times times;
+  EXPECT_EQ(times.queries(), 0);
+  EXPECT_TRUE(std::isnan(times.ns_per_query()));
+  for (const std::uint64_t ns : {500U, 520U, 90'000U}) times.add(Kind::edge_edge, "f", {10, ns});
+  EXPECT_EQ(times.ns_per_query(), 52);
+  EXPECT_EQ(times.mean(), 91020 / 30.0);
+  times.add(Kind::edge_edge, "f", {31, 31 * 40});  // more queries than all others
+  EXPECT_EQ(times.ns_per_query(), 40);
+  Times others;
+  others.add(Kind::edge_edge, "g", {10, 10 * 1000});
+  others.add(Kind::vertex_triangle, "f", {10, 0});
+  times.merge(others);
+  EXPECT_EQ(times.queries(), 81);
+  EXPECT_EQ(times.ns_per_query(), (61 * 40 + 10 * 1000 + 10 * 1) / 81.0);
+}
+
+TEST(Times, OfBatchesAreRightToThreeDigits) {
+  for (const std::uint64_t ns : {1U, 999U, 1000U, 1004U, 1005U, 1234567U}) {
+    BatchTimes times;
+    times.add({1, ns});
+    EXPECT_NEAR(times.median(), static_cast<double>(ns), 5e-3 * static_cast<double>(ns));
+  }
+  BatchTimes fraction;
+  fraction.add({2048, 100'000});
+  EXPECT_EQ(fraction.median(), 48.8);
+  BatchTimes nothing;
+  nothing.add({2048, 3});
+  EXPECT_EQ(nothing.median(), 1);
+  fraction.add({0, 7});
+  EXPECT_EQ(fraction.queries(), 2048);
+}
+
 TEST(Times, QuantilesAreRightToAQuarterOfAnOctave) {
   TimeHistogram times;
   EXPECT_TRUE(std::isnan(times.quantile(0.5)));
@@ -202,13 +234,13 @@ TEST(Times, QuantilesAreRightToAQuarterOfAnOctave) {
 }
 
 TEST(Times, TheSlowestAreKept) {
-  Counts a;
-  Counts b;
+  Times a;
+  Times b;
   for (std::uint64_t i = 0; i < 20; ++i)
-    (i % 2 == 0 ? a : b).add_time(i, Query{}, [&] { return std::to_string(i); });
+    (i % 2 == 0 ? a : b).add(i, Query{}, [&] { return std::to_string(i); });
   a.merge(b);
-  ASSERT_EQ(a.slowest.size(), Counts::slow_cases);
-  for (std::size_t i = 0; i < Counts::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
+  ASSERT_EQ(a.slowest.size(), Times::slow_cases);
+  for (std::size_t i = 0; i < Times::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
 }
 
 TEST(Faults, AreNeitherMissesNorAnswers) {
@@ -216,8 +248,10 @@ TEST(Faults, AreNeitherMissesNorAnswers) {
   counts.add({.verdict = {.fault = Fault::crash}, .collision = true}, Query{}, [] { return ""; });
   EXPECT_EQ(counts.faults_total(), 1);
   EXPECT_EQ(counts.queries, 1);
-  EXPECT_EQ(counts.collisions, 1);
+  EXPECT_EQ(counts.collisions, 0);  // so that it is in no denominator
+  EXPECT_EQ(counts.others(), 0);
   EXPECT_EQ(counts.false_negatives, 0);
+  EXPECT_EQ(clopper_pearson_upper(counts.false_negatives, counts.collisions), 1);
 }
 
 }  // namespace

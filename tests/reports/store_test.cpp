@@ -30,15 +30,14 @@ Statistics some_statistics(const std::string& subject) {
   counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
              [] { return "uniform:1:3"; });
   counts.add({.verdict = Verdict::rejected(Miss::culled)}, query, [] { return "uniform:1:5"; });
-  counts.timed_queries = 3;
-  counts.nanoseconds = 99;
+  counts.times.add(Kind::edge_edge, "uniform", {3, 99});
   OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
   oracle.queries = 2;
   oracle.collisions = 1;
   oracle.by_stage[2] = 2;
   oracle.near_bounds = 2;
   counts.faults = {0, 1, 2, 3, 4};
-  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.add_time(time, query, [] { return "slow"; });
+  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.times.add(time, query, [] { return "slow"; });
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
@@ -203,7 +202,7 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 10")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 11")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

@@ -23,8 +23,7 @@ Counts some_counts(std::uint64_t queries, std::uint64_t false_negatives) {
   counts.false_negatives = false_negatives;
   counts.false_positives = 3;
   counts.farthest.push_back({0.25, {}, "p"});
-  counts.timed_queries = queries;
-  counts.nanoseconds = 50 * queries;
+  counts.times.add(Kind::edge_edge, "aspect", {queries, 50 * queries});
   return counts;
 }
 

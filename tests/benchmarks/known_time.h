@@ -1,0 +1,11 @@
+/* Arithmetic of a known length: STEPS dependent multiply-adds, each of two rounded operations. */
+#ifndef NEARMISS_KNOWN_TIME_H
+#define NEARMISS_KNOWN_TIME_H
+
+static inline int known_time(const double* x, int steps) {
+  double sum = x[0];
+  for (int i = 0; i < steps; ++i) sum = sum * 0.5 + 1.0;
+  return sum == 0.0;
+}
+
+#endif

@@ -1,0 +1,91 @@
+// What a trial measures of subjects whose time is known: ns a query of the same arithmetic in a plain loop, as a
+// built-in, and as a plug-in in its own process.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fuzz/families/families.hpp"
+#include "fuzz/isolation/isolated_plugin.hpp"
+#include "tests/benchmarks/known_time.h"
+
+namespace nearmiss {
+namespace {
+
+class KnownTime final : public Subject {
+ public:
+  explicit KnownTime(int steps) : steps_(steps) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    return {.hit = known_time(query.x.data(), steps_) != 0};
+  }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+ private:
+  int steps_;
+  std::string name_ = "known";
+};
+
+const std::vector<Query>& queries() {
+  static const auto all = [] {
+    std::vector<Query> some;
+    for (std::uint64_t i = 0; i < 4096; i += 2) some.push_back(make_query(find_family("uniform"), 1, i));
+    return some;
+  }();
+  return all;
+}
+
+void set_time_per_query(benchmark::State& state, double nanoseconds) {
+  state.SetIterationTime(1e-9 * nanoseconds / static_cast<double>(queries().size()));
+}
+
+void time_subject(benchmark::State& state, const Subject& subject) {
+  std::vector<Verdict> verdicts(queries().size());
+  for (auto _ : state) {
+    const BatchTime time = subject.decide_timed(queries(), verdicts);
+    set_time_per_query(state, static_cast<double>(time.nanoseconds));
+  }
+}
+
+void time_plain_loop(benchmark::State& state, int steps) {
+  using Clock = std::chrono::steady_clock;
+  for (auto _ : state) {
+    const auto start = Clock::now();
+    for (const Query& query : queries()) benchmark::DoNotOptimize(known_time(query.x.data(), steps));
+    set_time_per_query(state, std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+  }
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& measure) {
+  constexpr int batches = 20;
+  constexpr int repetitions = 15;
+  benchmark::RegisterBenchmark(name.c_str(), measure)
+      ->UseManualTime()
+      ->Iterations(batches)
+      ->Repetitions(repetitions)
+      ->ReportAggregatesOnly();
+}
+
+}  // namespace
+}  // namespace nearmiss
+
+int main(int argc, char** argv) {
+  using namespace nearmiss;
+  std::vector<std::unique_ptr<Subject>> subjects;
+  for (const int steps : {NEARMISS_KNOWN_STEPS}) {
+    const std::string number = std::to_string(steps);
+    const std::string plugin = NEARMISS_PLUGINS "/known_" + number + ".so";
+    add("loop/" + number, [=](benchmark::State& state) { time_plain_loop(state, steps); });
+    for (const bool is_plugin : {false, true}) {
+      subjects.push_back(is_plugin ? make_isolated_plugin(plugin) : std::make_unique<KnownTime>(steps));
+      add((is_plugin ? "plugin/" : "builtin/") + number,
+          [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
+    }
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
