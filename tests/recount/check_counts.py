@@ -3,7 +3,7 @@
 import numpy as np
 
 from asking import KINDS
-from tally import BINS, BORDERS, Tally, denominators, interval, rate, reported, upper_bound
+from tally import BINS, BORDERS, Tally, denominators, interval, rate, reported, stages, upper_bound
 
 ROUNDING = 1e-12  # relative: a quotient of two counts
 SOLVED = 1e-9  # relative: the solution of an equation, or what follows from it
@@ -39,7 +39,8 @@ def check_counts(comparison, where, found, tally):
     comparison.same('counters', f'{where} positives', found['positives'], tally.positives)
     comparison.same('counters', f'{where} faults', found['faults'], {})
     for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
-        comparison.same('stages', f'{where} {name}', found[f'{name}_positives_by_stage'], expected)
+        own = stages(tally.subject, found[f'{name}_positives_by_stage'])
+        comparison.same('stages', f'{where} {name}', own, stages(tally.subject, expected))
     comparison.same(
         'stages',
         f'{where} rejected',

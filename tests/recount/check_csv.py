@@ -7,7 +7,7 @@ import numpy as np
 from asking import KINDS
 from check_counts import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
 from check_sections import check_finding
-from tally import BINS, BORDERS, Tally, denominators, interval, rate, upper_bound
+from tally import BINS, BORDERS, Tally, denominators, interval, rate, stages, upper_bound
 
 
 def read(folder, name):
@@ -76,17 +76,10 @@ def _check_statistics(comparison, row, answers):
         ends = [row[f'{name}_fp_distance_over_bound_{end}'] for end in ('from', 'to')]
         check_quantile(comparison, f'{where} {name}', ends, tally.quantile_bins(part), largest)
     for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
-        stages = {
-            key.removeprefix(f'{name}_by_'): count
-            for key, count in row.items()
-            if key.startswith(f'{name}_by_')
-        }
-        comparison.same(
-            'CSV',
-            f'{where} {name} by stage',
-            {stage: n for stage, n in stages.items() if n},
-            expected,
-        )
+        found = {key: n for key, n in row.items() if key.startswith(f'{name}_by_') and n}
+        found = {key.removeprefix(f'{name}_by_'): n for key, n in found.items()}
+        own, wanted = (stages(tally.subject, each) for each in (found, expected))
+        comparison.same('CSV', f'{where} {name} by stage', own, wanted)
     rejected = sum(count for key, count in row.items() if key.startswith('rejected_by_'))
     comparison.same('CSV', f'{where} rejected', rejected, tally.queries - tally.positives)
     comparison.same(

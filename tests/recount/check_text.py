@@ -52,7 +52,7 @@ def check_text(comparison, section, report, json_report):
             for subject, (clean, text) in verdicts.items()
         ]
         comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
-        _check_table(comparison, where, lines, summary(json_report))
+        _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
         found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
         comparison.same(
             'text',
@@ -65,6 +65,7 @@ def check_text(comparison, section, report, json_report):
             comparison,
             'nearmiss fuzz ladder',
             report.fuzz_text.splitlines(),
+            ['subject', 'epsilon'],
             ladder(json_report['ladder']),
         )
         lines = [line for line in report.fuzz_text.splitlines() if ' goes as epsilon^' in line]
@@ -201,10 +202,14 @@ def oracle_line(total):
     return ','.join(parts)
 
 
-def _check_table(comparison, where, lines, rows):
-    """The rows stand among the lines in this order; their last column, a time, is left out."""
-    cells = [re.split(r' {2,}', line.strip())[:-1] for line in lines]
-    cells = [row for row in cells if len(row) == len(rows[0]) and row[0] != 'subject']
-    comparison.same('text', f'{where} number of rows', len(cells), len(rows))
-    for found, expected in zip(cells, rows):
-        comparison.same('text', f'{where} row {" ".join(expected[:2])}', found, expected)
+def _check_table(comparison, where, lines, heading, rows):
+    """The rows stand below a line that begins with the heading; the last column is a time."""
+    cells = [re.split(r' {2,}', line.strip()) for line in lines]
+    start = next((i for i, row in enumerate(cells) if row[:2] == heading), None)
+    if start is None:
+        return comparison.fail('text', where, 'no table', ' '.join(heading))
+    end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)
+    found = [row[:-1] for row in cells[start + 1 : end]]
+    comparison.same('text', f'{where} number of rows', len(found), len(rows))
+    for row, expected in zip(found, rows):
+        comparison.same('text', f'{where} row {" ".join(expected[:2])}', row, expected)

@@ -14,8 +14,9 @@ from answers import ask
 from asking import KINDS, Nearmiss
 from check_counts import check_statistics
 from check_csv import check_distances_csv, check_findings_csv, check_statistics_csv
-from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
+from check_deciders import check_deciders
 from check_page import check_page
+from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
 from check_text import check_text
 from comparison import Comparison
 from scalars import Units
@@ -39,6 +40,7 @@ def check_report(comparison, report, answers, units):
         check_trade_offs, 'error_against_time', report['error_against_time'], answers, units
     )
     comparison.section(check_ladder, 'ladder', report, answers, units)
+    comparison.section(check_deciders, 'deciders', report, answers)
     comparison.section(check_findings, 'findings', report, answers)
 
 

@@ -19,6 +19,7 @@ LARGEST = np.finfo(float).max
 class Tally:
     """Counters of one subject over some queries, and distance / bound of its false positives."""
 
+    subject: str
     queries: int
     collisions: int
     positives: int
@@ -44,6 +45,7 @@ class Tally:
         hit, collision, stage, lo, hi = (np.concatenate(column) for column in zip(*parts))
         false = hit & ~collision
         return cls(
+            subject,
             len(hit),
             int(collision.sum()),
             int(hit.sum()),
@@ -114,6 +116,16 @@ def reported(lo, hi):
     Infinity is the largest double; what is below all borders is only known to be there."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
     return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)
+
+
+def stages(subject, counts):
+    """Counts by the accepting stage that do not depend on which queries are decided side by side.
+
+    The subject exact decides many at once, and its filter then leaves other ones undecided."""
+    if subject != 'exact':
+        return counts
+    others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}
+    return {**others, 'filter or exact': sum(counts.values()) - sum(others.values())}
 
 
 def denominators(tally):
