@@ -3,7 +3,7 @@
 
 It runs a campaign and writes its report, then asks the same executable for the same queries one by
 one (nearmiss family, oracle and verdict), and computes everything but times with NumPy and SciPy.
-Exit code 0: no difference; 1: there is one."""
+Exit code 0: no difference; 1: there is one; 2: the executable failed."""
 
 import argparse
 import sys
@@ -109,15 +109,19 @@ def main():
         '--family', default='all', help='as in nearmiss fuzz (default: %(default)s)'
     )
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix='nearmiss-recount-') as folder:
-        comparison, *_ = recount(
-            Nearmiss(options.nearmiss.resolve()),
-            Path(folder),
-            options.cases,
-            options.seed,
-            options.subject.split(','),
-            options.family,
-        )
+    try:
+        with tempfile.TemporaryDirectory(prefix='nearmiss-recount-') as folder:
+            comparison, *_ = recount(
+                Nearmiss(options.nearmiss.resolve()),
+                Path(folder),
+                options.cases,
+                options.seed,
+                options.subject.split(','),
+                options.family,
+            )
+    except (OSError, RuntimeError) as error:
+        print(f'recount: {error}', file=sys.stderr)
+        return 2
     comparison.print()
     return 1 if comparison.differences else 0
 

@@ -20,8 +20,8 @@ from check_page import check_page
 from check_text import check_text
 from recount import check_report, recount
 
-# A baseline that misses, claims that hold at several precisions, one subject that asks others, and a
-# claim that is refuted.
+# A baseline that misses, claims that hold at several precisions, one that asks others, and a claim
+# that is refuted.
 SUBJECTS = ['adaptive', 'basic', 'wang', 'wang:float', 'wang:p60', 'wang:p144', 'defect:D2*10']
 CASES, SEED = 2200, 7
 
