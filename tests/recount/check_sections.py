@@ -10,6 +10,7 @@ from check_counts import ROUNDING, SOLVED, check_false_positive, check_query, ch
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
 from tally import BORDERS, Tally, reported
 
+TIME = 'ns_per_query'  # by which subjects stand on a front
 COARSEST, FINEST = -23, -127  # exponents of epsilon that a fit takes
 
 
@@ -85,11 +86,11 @@ def front(subjects, error):
         for name, own in subjects.items()
         if not any(_dominates(other, own, error) for other in subjects.values())
     ]
-    return sorted(chosen, key=lambda name: subjects[name]['ns_per_query'])
+    return sorted(chosen, key=lambda name: subjects[name][TIME])
 
 
 def _dominates(a, b, error):
-    costs = [(each['ns_per_query'], each[error]) for each in (a, b)]
+    costs = [(each[TIME], each[error]) for each in (a, b)]
     return costs[0] != costs[1] and costs[0][0] <= costs[1][0] and costs[0][1] <= costs[1][1]
 
 
