@@ -145,6 +145,9 @@ class Search {
     return std::nullopt;
   }
 
+  /// Whether a gap is so much wider than what is covered that nothing is known of most of it.
+  static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
+
   /// Whether anything could be done about a gap.
   bool look_into(const Gap& gap) {
     Time& a = times_[gap.before];
@@ -161,7 +164,8 @@ class Search {
     const Time next = look_between(before, t, behind);
     insert(next);
     constexpr double near = 2;
-    if (next.moment.upper > near * upper_) return true;
+    if (!is_wide(gap.covered_before + gap.covered_behind, gap.width) && next.moment.upper > near * upper_)
+      return true;
     descend(before, next);
     descend(next, behind);
     return true;
@@ -185,13 +189,14 @@ class Search {
   }
 
   /// A time in a gap: behind the end that covers less, since that is where the distance is small, a few times as far
-  /// away as that covers, or much farther where the gap is wide.
+  /// away as that covers; or its middle, if it is wide.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;
     const double less = is_before ? gap.covered_before : gap.covered_behind;
     const double near = less > 0 ? less : 1e-3 * std::max(gap.covered_before, gap.covered_behind);
-    const double step = std::min(0.5 * open, std::max(8 * near, std::sqrt(near * open)));
+    const double step =
+        is_wide(near, open) ? 0.5 * open : std::min(0.5 * open, std::max(8 * near, std::sqrt(near * open)));
     return is_before ? times_[gap.before].t + Real(less + step)
                      : times_[gap.before + 1].t - Real(less + step);
   }
@@ -206,7 +211,7 @@ class Search {
       return true;
     }
     if (time.moment.is_precise || covered > 0) return false;
-    time = look_precisely(time.t);  // is_covered was false
+    time = look_precisely(time.t);  // and is_covered is found anew
     return true;
   }
 

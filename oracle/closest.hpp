@@ -30,8 +30,9 @@ struct Features {
   std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// Points of the two primitives, and how far apart they are. The points are in the primitives exactly: their
-/// weights are numbers that are not negative and add up to 1. That they are closest is a guess.
+/// Points of the two primitives, and how far apart they are. That they are closest is a guess, but that they are points
+/// of the primitives is not: their weights are not negative and add up to 1, but for a triangle's, where rounding may
+/// add 2 U (points_error in moment.hpp).
 template <class Real>
 struct ClosestPoints {
   Features features;

@@ -1,7 +1,9 @@
 // The smallest distance over the step: certified bounds in floating-point arithmetic, and exact comparisons if these
 // do not resolve it.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "ccd/arithmetic.hpp"
@@ -30,10 +32,14 @@ class Conversion {
 
   // One rounding each, and one more where ldexp underflows.
   [[nodiscard]] double lower(double distance) const {
-    return below(std::ldexp(below(distance / mantissa_), shift_));
+    int exponent = 0;
+    const double mantissa = std::frexp(distance, &exponent);
+    return below(std::ldexp(below(mantissa / mantissa_), shift_ + exponent));
   }
   [[nodiscard]] double upper(double distance) const {
-    return above(std::ldexp(above(distance / mantissa_), shift_));
+    int exponent = 0;
+    const double mantissa = std::frexp(distance, &exponent);
+    return above(std::ldexp(above(mantissa / mantissa_), shift_ + exponent));
   }
   /// The smallest distance, but for rounding upward, that is at least `multiple` units; 0 for 0.
   [[nodiscard]] double at_least(double multiple) const {
@@ -45,21 +51,23 @@ class Conversion {
   int shift_;
 };
 
-/// Halves an enclosure exactly, in proportion: the geometric mean, lo = 0 taken for the smallest number. False where
-/// no double is left between.
+/// Halves an enclosure exactly, by the number of doubles in it, and so about in proportion. False if no double is
+/// left between its ends.
 bool halve(const Query& query, Enclosure& distance) {
-  const double lo = std::max(distance.lo, std::numeric_limits<double>::denorm_min());
-  const double hi = std::min(distance.hi, std::numeric_limits<double>::max());
-  const double middle = std::sqrt(lo) * std::sqrt(hi);
-  if (!(distance.lo < middle && middle < distance.hi)) return false;
+  const auto lo = std::bit_cast<std::uint64_t>(distance.lo);
+  const auto hi = std::bit_cast<std::uint64_t>(distance.hi);
+  if (hi - lo <= 1) return false;
+  const auto middle = std::bit_cast<double>(lo + (hi - lo) / 2);
   (comes_within(query, middle) ? distance.hi : distance.lo) = middle;
   return true;
 }
 
 }  // namespace
 
-Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed) {
+Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed_of) {
   const PlainArithmetic guard;
+  // No double is nearer to infinity than the largest one.
+  const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };
   const certified::VertexDifferences differences(query);
   const Conversion ratio(unit, differences.exponent());
   const auto needed_distance = [&](double upper) { return ratio.at_least(needed(ratio.upper(upper))); };
@@ -87,9 +95,13 @@ Enclosure minimum_distance(const Query& query, double relative_width) {
 }
 
 double closest_ratio(const Query& query, double unit) {
+  const PlainArithmetic guard;
   if (!(unit > 0)) return infinity;
   const auto measured = [&](double width) {
-    return distance_in_units(query, unit, [&](double hi) { return hi * (1 - width); }).hi;
+    // The smallest doubles are farther apart than that.
+    constexpr double apart = 4 * std::numeric_limits<double>::denorm_min();
+    const auto needed = [&](double hi) { return std::max(hi * (1 - width) - apart, 0.0); };
+    return distance_in_units(query, unit, needed).hi;
   };
   constexpr double near = 1e-2;
   const double ratio = measured(1e-3);

@@ -36,8 +36,8 @@
 // tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
 //
 // The excess covers second orders in U and the rounding of the bounds themselves. Coefficients are rounded to
-// double: 2^-53 of each, taken 2^-52. Underflow, at most 2^-1021 for each of less than 100 operations and 2^-537
-// for a length, is far below `least_distance`, which is added to each error.
+// double: 2^-53 of each, taken 2^-52. Underflow, at most 2^-1018 for each of less than 100 operations, times 2^100
+// at most for the length of k, and 2^-536 for a length, is far below `least_distance`, which is added to each error.
 
 namespace nearmiss::certified {
 

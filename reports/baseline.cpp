@@ -36,9 +36,33 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics&
     const auto earlier_rates = rates_of(earlier->second);
     for (std::size_t i = 0; i < rates.size(); ++i)
       if (rates[i].second.total != 0 && earlier_rates[i].second.total != 0)
-        pairs.push_back({rates[i].first, key, earlier_rates[i].second, rates[i].second});
+        pairs.push_back({rates[i].first, key.subject, std::string(short_name(key.kind)), key.family,
+                         earlier_rates[i].second, rates[i].second});
   }
+  for (ChangedRate& each : pairs) each.p = fisher_test(each.now, each.before).either();
   return pairs;
+}
+
+/// The rates of each subject over all families and kinds with failures, but at most `few` in both campaigns together.
+/// That favours neither campaign: given their sum, each failure may as well be in the one as in the other.
+std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
+  constexpr std::uint64_t few = 5;
+  std::map<std::pair<std::string, std::string_view>, std::vector<std::pair<Share, Share>>> found;
+  for (const ChangedRate& each : pairs)
+    if (const std::uint64_t both = each.now.count + each.before.count; both != 0 && both <= few)
+      found[{each.subject, each.what}].emplace_back(each.now, each.before);
+  std::vector<ChangedRate> sums;
+  for (const auto& [name, shares] : found) {
+    if (shares.size() == 1) continue;  // which is compared by itself
+    ChangedRate sum{name.second, name.first, "vt, ee", fmt::format("families with at most {}", few), {}, {}};
+    for (const auto& [now, before] : shares) {
+      sum.now += now;
+      sum.before += before;
+    }
+    sum.p = pooled_test(shares).either();
+    sums.push_back(std::move(sum));
+  }
+  return sums;
 }
 
 /// The values of each fact, over all runs.
@@ -152,9 +176,9 @@ Changes changes(const Campaign& now, const Campaign& baseline) {
                   .compared_rates = 0,
                   .facts = changed_facts(now, baseline)};
   compare_signatures(now.statistics, baseline.statistics, changes);
+  for (ChangedRate& each : rates_where_few(changes.rates)) changes.rates.push_back(std::move(each));
   changes.compared_rates = changes.rates.size();
   const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, changes.rates.size()));
-  for (ChangedRate& each : changes.rates) each.p = fisher_test(each.now, each.before).either();
   std::erase_if(changes.rates, [&](const ChangedRate& each) { return each.p >= level; });
   return changes;
 }
@@ -163,9 +187,9 @@ std::string describe(const Changes& changes) {
   std::string text;
   for (const Signature& each : changes.new_signatures) text += fmt::format("new: {}\n", text_of(each));
   for (const ChangedRate& each : changes.rates)
-    text += fmt::format("{}: {} of {} {} in {}, {} before, {} now\n", each.worse() ? "worse" : "better",
-                        each.what, each.key.subject, short_name(each.key.kind), each.key.family,
-                        text_of(each.before), text_of(each.now));
+    text +=
+        fmt::format("{}: {} of {} {} in {}, {} before, {} now\n", each.worse() ? "worse" : "better",
+                    each.what, each.subject, each.kind, each.family, text_of(each.before), text_of(each.now));
   return text;
 }
 
@@ -180,9 +204,9 @@ ordered_json changes_json(const Changes& changes) {
   json["changed_rates"] = ordered_json::array();
   for (const ChangedRate& each : changes.rates)
     json["changed_rates"].push_back({{"what", each.what},
-                                     {"subject", each.key.subject},
-                                     {"kind", short_name(each.key.kind)},
-                                     {"family", each.key.family},
+                                     {"subject", each.subject},
+                                     {"kind", each.kind},
+                                     {"family", each.family},
                                      {"worse", each.worse()},
                                      {"p", each.p},
                                      {"before", rate_json(each.before)},

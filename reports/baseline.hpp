@@ -15,9 +15,9 @@ namespace nearmiss {
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
   std::string_view what;  ///< "false negatives", "false positives" or "no answer"
-  Key key;
+  std::string subject, kind, family;
   Share before, now;
-  double p = 1;  ///< of Fisher's exact test: how likely such a difference is if the rates are the same
+  double p = 1;  ///< of an exact test: how likely such a difference is if the rates are the same
 
   [[nodiscard]] bool worse() const { return now.rate() > before.rate(); }
 };
@@ -45,8 +45,9 @@ struct Changes {
 /// The probability that `changes` names a rate although none has changed; and likewise a way to fail.
 inline constexpr double false_alarm_risk = 1e-3;
 
-/// Compares the rates of all families that both campaigns have, by Fisher's exact test. Cases and meshes, which are no
-/// random samples, are left out.
+/// Compares the rates of all families that both campaigns have, by Fisher's exact test; and for each subject those of
+/// all families and kinds together in which both campaigns have but a few failures, so that a new way to fail that is
+/// spread over many families is noticed. Cases and meshes, which are no random samples, are left out.
 ///
 /// If a subject has no failure of a sort in the baseline, any failure of that sort is new; so is any failure of the
 /// oracle. A subject that fails anyway brings a few unseen signatures every time, so a signature of it is new only if

@@ -3,6 +3,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 
 namespace nearmiss {
 
@@ -36,13 +37,13 @@ namespace {
 
 /// P(X >= count) and P(X <= count), where X has values from `least` on.
 template <class Distribution, class Number>
-FisherTest tails(const Distribution& distribution, Number count, Number least) {
+ExactTest tails(const Distribution& distribution, Number count, Number least) {
   return {count == least ? 1 : cdf(complement(distribution, count - 1)), cdf(distribution, count)};
 }
 
 }  // namespace
 
-FisherTest fisher_test(const Share& now, const Share& before) {
+ExactTest fisher_test(const Share& now, const Share& before) {
   const std::uint64_t total = now.total + before.total;
   const std::uint64_t counted = now.count + before.count;
   if (counted == 0 || counted == total || now.total == 0 || before.total == 0) return {};
@@ -56,6 +57,20 @@ FisherTest fisher_test(const Share& now, const Share& before) {
   const boost::math::hypergeometric_distribution<> drawn(number(counted), number(now.total), number(total));
   const std::uint64_t least = counted > before.total ? counted - before.total : 0;
   return tails(drawn, number(now.count), number(least));
+}
+
+ExactTest pooled_test(const std::vector<std::pair<Share, Share>>& pairs) {
+  double trials = 0;
+  double expected = 0;
+  double seen = 0;
+  for (const auto& [now, before] : pairs) {
+    const auto both = static_cast<double>(now.count + before.count);
+    trials += both;
+    expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
+    seen += static_cast<double>(now.count);
+  }
+  if (std::abs(seen - expected) < 1) return {};  // where the theorem says nothing, and nothing is unlikely
+  return tails(Binomial(trials, expected / trials), seen, 0.0);
 }
 
 }  // namespace nearmiss

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace nearmiss {
 
@@ -32,17 +34,28 @@ struct Share {
 
   /// Not a number if there is nothing to count among.
   [[nodiscard]] double rate() const { return static_cast<double>(count) / static_cast<double>(total); }
+
+  Share& operator+=(const Share& other) {
+    count += other.count;
+    total += other.total;
+    return *this;
+  }
 };
 
 /// Fisher's exact test of two shares: how likely it is, where both have the same rate, that `now` is at least as
 /// large against `before`, given their sum; and at least as small. Of more than 2^31 in all, or a million counted, by
 /// a binomial distribution, which says a larger probability.
-struct FisherTest {
+struct ExactTest {
   double more = 1, less = 1;
 
   /// Two-sided: twice the smaller one, 1 at most.
   [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
 };
-FisherTest fisher_test(const Share& now, const Share& before);
+ExactTest fisher_test(const Share& now, const Share& before);
+
+/// The same of the sum over several pairs of shares, {now, before}, of which each has the same rate twice. Given its
+/// sum, each pair's `now` is a sum of trials whose probability is now.total among both totals, or less spread than
+/// that; so is the sum over all, by Hoeffding's theorem (1956), against as many trials of their mean probability.
+ExactTest pooled_test(const std::vector<std::pair<Share, Share>>& pairs);
 
 }  // namespace nearmiss

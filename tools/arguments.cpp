@@ -36,6 +36,12 @@ void add_jobs_option(CLI::App& command, int& jobs) {
       ->type_name("J");
 }
 
+void add_seed_option(CLI::App& command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "Queries are a pure function of family, seed and number")
+      ->capture_default_str()
+      ->type_name("S");
+}
+
 void add_comparison_options(CLI::App& command, Comparison& comparison) {
   command
       .add_option(

@@ -23,6 +23,9 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 /// --jobs J, all cores where it is not given.
 void add_jobs_option(CLI::App& command, int& jobs);
 
+/// --seed S: which of the random queries.
+void add_seed_option(CLI::App& command, std::uint64_t& seed);
+
 /// --compare N and --compare-near-bounds
 void add_comparison_options(CLI::App& command, Comparison& comparison);
 

@@ -15,6 +15,7 @@ inline constexpr int exit_interrupted = 130;
 void add_oracle(CLI::App& app, int& exit_code);
 void add_verdict(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_family(CLI::App& app, int& exit_code);
 void add_fuzz(CLI::App& app, int& exit_code);
 void add_shrink(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);

@@ -157,9 +157,7 @@ void add_common(CLI::App& command, Options& options) {
           "and with --cases all of it anew")
       ->type_name("T");
   limit->require_option(1, 2);
-  command.add_option("--seed", options.seed, "Queries are a pure function of family, seed and number")
-      ->capture_default_str()
-      ->type_name("S");
+  add_seed_option(command, options.seed);
   command.add_option("--shard", options.shard, "Do part I of N of the campaign, 0 <= I < N")
       ->capture_default_str()
       ->type_name("I/N");

@@ -17,7 +17,18 @@ namespace {
 struct Options {
   QueryInput input;
   std::string subject = "wang", bound;
+  bool distance_bound = false;
+  bool rounded = false;
 };
+
+/// By which the distance of a false positive is measured: " B claimed", or " B wang" for a subject that claims none.
+std::string show_distance_bound(const Subject& subject, const Query& query) {
+  static const auto wang = make_subject("wang");
+  const bool claims = subject.claims_bound();
+  const double bound = (claims ? subject : *wang).distance_bound(query);
+  if (std::isnan(bound)) throw Error(fmt::format("{}: no distance bound", subject.name()));
+  return fmt::format(" {} {}", to_hex(bound), claims ? "claimed" : wang->name());
+}
 
 void run(const Options& options) {
   const auto subject = make_any_subject(options.subject, parse_bound(options.bound));
@@ -25,11 +36,14 @@ void run(const Options& options) {
     const Verdict verdict = subject->decide(query);
     if (verdict.fault != Fault::none)
       throw Error(fmt::format("{}: no answer: {}", subject->name(), fault_signature(query.kind, verdict)));
+    std::string line = "0";
     if (verdict.hit)
-      fmt::print("1 {} {}\n", stage_names[static_cast<std::size_t>(verdict.stage)],
-                 std::isfinite(verdict.time) ? to_hex(verdict.time) : "nan");
-    else
-      fmt::print("0\n");
+      line = fmt::format("1 {} {}", stage_names[static_cast<std::size_t>(verdict.stage)],
+                         std::isfinite(verdict.time) ? to_hex(verdict.time) : "nan");
+    const Query judged = subject->rounded(query);
+    if (options.distance_bound) line += show_distance_bound(*subject, judged);
+    if (options.rounded) line += " " + to_line(judged);
+    fmt::print("{}\n", line);
   });
 }
 
@@ -43,6 +57,12 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
   add_bound_option(*command, options->bound);
+  command->add_flag(
+      "--distance-bound", options->distance_bound,
+      "Add the largest distance that a false positive may have, and 'claimed'; for a subject that "
+      "claims none that of wang, and 'wang'");
+  command->add_flag("--rounded", options->rounded,
+                    "Add the query as the subject rounds it, by which it is judged: 24 numbers");
   command->footer(
       "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss verdict --kind vt --subject wang");

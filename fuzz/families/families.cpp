@@ -85,7 +85,7 @@ Family find_family(std::string_view name, std::span<const Family> known) {
   if (found == known.end()) {
     std::string names;
     for (const Family& family : known) names += ", " + family.name;
-    throw Error(fmt::format("unknown family '{}', expected all or some of {}", base, names.substr(2)));
+    throw Error(fmt::format("unknown family '{}', expected one of {}", base, names.substr(2)));
   }
   if (base == name) return *found;
   return at_value(*found, parse_number(name.substr(base.size() + 1), fmt::format("family '{}'", name)));
@@ -97,7 +97,7 @@ Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) 
   for (const char c : base_name(family.name))
     stream = (stream ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   Random random(seed, stream, index);
-  return family.make(random, kinds[index % 2]);
+  return family.make(random, kind_of(index));
 }
 
 }  // namespace nearmiss

@@ -52,7 +52,10 @@ std::span<const Family> families();
 /// A family by its name, NAME or NAME@VALUE. Throws Error that lists the known ones.
 Family find_family(std::string_view name, std::span<const Family> known = families());
 
-/// Query number `index` of a family: vertex-triangle where the index is even, edge-edge where it is odd.
+/// The kind of a family's query by its number: vertex-triangle where that is even, edge-edge where it is odd.
+constexpr Kind kind_of(std::uint64_t index) { return kinds[index % kinds.size()]; }
+
+/// Query number `index` of a family.
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace nearmiss

@@ -1,13 +1,18 @@
-// The subjects basic and wang as plug-ins, with a defect that the environment plants: the wrong way round is the answer to
-// one query in NEARMISS_PLANTED, chosen by the bits of its coordinates; none if that is 0 or not set.
+// The subjects basic and wang as plug-ins, with a defect that the environment plants: one answer in NEARMISS_PLANTED is
+// wrong, chosen by the bits of the coordinates; none if that is 0 or not set.
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstdlib>
-#include <limits>
+#include <optional>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/nearmiss_subject.h"
 #include "ccd/wang.hpp"
+
+#define NEARMISS_QUOTED(x) #x
+#define NEARMISS_TEXT(x) NEARMISS_QUOTED(x)
 
 namespace {
 
@@ -27,16 +32,22 @@ bool is_chosen(const Query& query) {
 }
 
 template <Kind kind>
+bool basic(const Query& query) {
+  return nearmiss::basic<kind, double, true>(query).hit;
+}
+
+template <Kind kind>
+bool wang(const Query& query) {
+  using nearmiss::WangOptions;
+  return nearmiss::wang<kind, double, WangOptions{true, nearmiss::VeCulling::per_root}>(query, std::nullopt)
+      .hit;
+}
+
+template <Kind kind>
 int decide(const double* x, double* /*toi*/) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
-#ifdef PLANTED_IN_WANG
-  const bool hit = nearmiss::wang<kind, double, nearmiss::WangOptions{true, nearmiss::VeCulling::per_root}>(
-                       query, std::nullopt)
-                       .hit;
-#else
-  const bool hit = nearmiss::basic<kind, double, true>(query).hit;
-#endif
+  const bool hit = PLANTED_IN<kind>(query);
   return hit != is_chosen(query) ? 1 : 0;
 }
 
@@ -44,11 +55,7 @@ int decide(const double* x, double* /*toi*/) {
 
 extern "C" const nearmiss_subject* nearmiss_get_subject() {
   static const nearmiss_subject subject{NEARMISS_SUBJECT_ABI,
-#ifdef PLANTED_IN_WANG
-                                        "planted-in-wang",
-#else
-                                        "planted-in-basic",
-#endif
+                                        "planted-in-" NEARMISS_TEXT(PLANTED_IN),
                                         "1",
                                         decide<Kind::vertex_triangle>,
                                         decide<Kind::edge_edge>,

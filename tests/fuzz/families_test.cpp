@@ -189,7 +189,7 @@ TEST(Parameter, BadNamesAndValuesAreNamed) {
   const auto expect_refused = [](const std::string& name, const std::string& words) {
     EXPECT_THAT([&] { find_family(name); }, ThrowsMessage<Error>(HasSubstr(words)));
   };
-  expect_refused("aspekt@8", "unknown family 'aspekt', expected all or some of uniform, ");
+  expect_refused("aspekt@8", "unknown family 'aspekt', expected one of uniform, ");
   expect_refused("aspect@17", "found the family 'aspect@17', expected a number from 0 to 16 behind the @");
   expect_refused("scale@0.5", "found the family 'scale@0.5', expected a whole number from -1074 to 1023");
   expect_refused("aspect@x", "found 'x', expected a finite number");

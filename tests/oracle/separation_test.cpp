@@ -12,6 +12,7 @@
 
 #include "oracle/moment.hpp"
 #include "oracle/proximity.hpp"
+#include "oracle/wide.hpp"
 
 namespace nearmiss::certified {
 
@@ -119,8 +120,33 @@ double expect_within(const Product& product, const std::array<Rational, 4>& exac
 
 template <class Real>
 struct Precision : ::testing::Test {};
-using Reals = ::testing::Types<double, DoubleWord>;
+using Reals = ::testing::Types<double, DoubleWord, Wide>;
 TYPED_TEST_SUITE(Precision, Reals);
+
+/// Random bits of a precision, at any exponent that differences have.
+Wide random_wide(std::mt19937_64& random) {
+  Wide x = 1;
+  for (int i = 0; i < 6; ++i) x = ldexp(x, 64) + Wide(random());
+  return ldexp(x, static_cast<int>(random() % 2000) - 1400) * (random() % 2 == 0 ? 1 : -1);
+}
+
+TEST(WideNumbers, RoundSumsAndProductsAndDoublesAsErrorsAssume) {
+  std::mt19937_64 random(8);
+  const auto expect_near = [](const Rational& found, const Rational& exact, unsigned digits) {
+    EXPECT_LE(Rational(abs(found - exact) * Rational(boost::multiprecision::mpz_int(1) << digits)),
+              abs(exact));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const Wide x = random_wide(random), y = random_wide(random);
+    const Wide near = -x * (1 + ldexp(Wide(1), -static_cast<int>(random() % 400)));
+    const Rational exact_x(x), exact_y(y);
+    expect_near(Rational(Wide(x * y)), Rational(exact_x * exact_y), 384U);
+    expect_near(Rational(Wide(x + y)), Rational(exact_x + exact_y), 384U);
+    expect_near(Rational(Wide(x + near)), Rational(exact_x + Rational(near)), 384);
+    const double rounded = to_double(x);
+    if (std::isnormal(rounded)) expect_near(Rational(rounded), exact_x, 53);
+  }
+}
 
 TYPED_TEST(Precision, NormalsProductsAreWithinTheirErrors) {
   for (const Query& query : all_sorts(60))

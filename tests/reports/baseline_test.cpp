@@ -96,6 +96,28 @@ TEST(Changes, AFewAfterNoneAreEnough) {
   EXPECT_LT(found.rates[0].p, false_alarm_risk / 3);
 }
 
+// In no family there are enough of them, but in all together.
+TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
+  const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
+    std::map<Key, Counts> all;
+    for (int i = 0; i < 30; ++i)
+      all[{"basic", kinds[static_cast<std::size_t>(i % 2)], "family " + std::to_string(i)}] =
+          counts(20000, 10000, missed, 0);
+    all[{"basic", Kind::edge_edge, "last"}] = counts(20000, 10000, in_the_last, 0);
+    return campaign("1", std::move(all));
+  };
+  const Changes found = changes(with(1, 500), with(0, 500));
+  ASSERT_THAT(found.rates, SizeIs(1));
+  EXPECT_TRUE(found.for_the_worse());
+  EXPECT_NEAR(found.rates[0].p, 2 * std::pow(0.5, 30), 1e-15);
+  EXPECT_EQ(
+      describe(found),
+      "worse: false negatives of basic vt, ee in families with at most 5, 0 of 300,000 before, 30 of 300,000 "
+      "now\n");
+  EXPECT_THAT(changes(with(1, 500), with(1, 500)).rates, IsEmpty());
+  EXPECT_THAT(changes(with(0, 510), with(0, 500)).rates, IsEmpty());
+}
+
 TEST(Changes, CasesAndMeshesAreNoSamples) {
   const Key cases{"wang", Kind::edge_edge, "planar/"};
   const Key mesh{"wang", Kind::edge_edge, "scene:cloth"};
@@ -152,13 +174,25 @@ TEST(Changes, OfASubjectThatFailsARareUnseenSignatureIsNotNew) {
 }
 
 TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
-  const FisherTest three_of_four = fisher_test({3, 4}, {1, 4});  // Fisher 1935: 17 / 70
+  const ExactTest three_of_four = fisher_test({3, 4}, {1, 4});  // Fisher 1935: 17 / 70
   EXPECT_NEAR(three_of_four.more, 17.0 / 70, 1e-12);
   EXPECT_NEAR(three_of_four.less, 69.0 / 70, 1e-12);
   EXPECT_NEAR(fisher_test({4, 4}, {0, 4}).more, 1.0 / 70, 1e-12);
   EXPECT_EQ(fisher_test({0, 4}, {0, 4}).either(), 1);
   EXPECT_EQ(fisher_test({4, 4}, {4, 4}).either(), 1);
   EXPECT_EQ(fisher_test({0, 0}, {3, 4}).either(), 1);
+}
+
+TEST(PooledTest, IsABinomialOne) {
+  // Of 10 in campaigns of the same size 9 or more are in one with probability 11 / 1024.
+  const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
+  EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
+  EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
+  // Three times as many queries in one family, as many in the other: on average two thirds of 6 are expected now.
+  EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
+              std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
+  EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);
+  EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
 // The binomial distribution of large numbers says a larger probability, but not by much where shares are small.

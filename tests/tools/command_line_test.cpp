@@ -279,7 +279,7 @@ TEST_F(CommandLine, SubjectsAreListed) {
 
 TEST_F(CommandLine, EverySubcommandHasHelp) {
   for (const char* name : {"oracle", "verdict", "replay", "fuzz", "shrink", "scene", "merge", "report",
-                           "power", "tightness", "bench", "subjects"}) {
+                           "power", "tightness", "bench", "family", "subjects"}) {
     const Answer answer = run(std::string(name) + " --help");
     EXPECT_EQ(answer.code, 0) << name;
     EXPECT_THAT(answer.out, HasSubstr("Usage: nearmiss ")) << name;

@@ -1,0 +1,129 @@
+"""All queries of a campaign with the oracle's and the subjects' answers to each."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asking import KINDS
+
+
+@dataclass
+class Asked:
+    """The answers of one subject to the queries of one kind; arrays have an element a query."""
+
+    hit: np.ndarray  # bool
+    stage: np.ndarray  # names of the accepting stages
+    collision: np.ndarray  # bool: of the query that the subject is judged by
+    claims: bool  # whether it claims a bound
+    ratio_lo: np.ndarray  # of a false positive: distance / bound from below; NaN elsewhere
+    ratio_hi: np.ndarray  # from above
+    judged: list  # the queries that it is judged by, as lines
+
+    @property
+    def false_positive(self):
+        return self.hit & ~self.collision
+
+    @property
+    def false_negative(self):
+        return self.collision & ~self.hit
+
+
+@dataclass
+class Answers:
+    """Queries of each kind, in the order of families and numbers, and what was said of them."""
+
+    seed: int
+    family: dict  # kind -> names
+    number: dict  # kind -> numbers within the family
+    queries: dict  # kind -> lines
+    collision: dict  # kind -> bool
+    asked: dict  # (subject, kind) -> Asked
+
+    def __post_init__(self):
+        self.tallies = {}  # (subject, kinds, family) -> Tally
+        self._place = {
+            kind: {place: i for i, place in enumerate(zip(self.family[kind], self.number[kind]))}
+            for kind in KINDS
+        }
+
+    @property
+    def subjects(self):
+        return sorted({subject for subject, _ in self.asked})
+
+    def families(self, kind):
+        return sorted(set(self.family[kind]))
+
+    def place(self, kind, provenance):
+        """Which query "family:seed:number" is; None where there is no such query."""
+        family, seed, number = provenance.rsplit(':', 2)
+        if seed != str(self.seed):
+            return None
+        return self._place[kind].get((family, int(number)))
+
+
+def ask(nearmiss, seed, counts, subjects):
+    """Answers about numbers 0 to counts[family] - 1 of each family."""
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {})
+    for kind in KINDS:
+        answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
+        distances = Distances(nearmiss, kind)
+        for subject in subjects:
+            answers.asked[subject, kind] = _ask_one(nearmiss, answers, subject, kind, distances)
+    return answers
+
+
+def _queries(nearmiss, seed, counts):
+    family, number, queries = {}, {}, {}
+    for kind in KINDS:
+        family[kind], number[kind], queries[kind] = [], [], []
+        for name, count in sorted(counts.items()):
+            own = range(KINDS.index(kind), count, 2)  # even numbers are vt
+            lines = nearmiss.family(name, seed, kind, count)
+            if len(lines) != len(own):
+                raise RuntimeError(
+                    f'nearmiss family {name}: found {len(lines)} queries, expected {len(own)}'
+                )
+            family[kind] += [name] * len(own)
+            number[kind] += own
+            queries[kind] += lines
+        family[kind] = np.array(family[kind])
+        number[kind] = np.array(number[kind])
+    return family, number, queries
+
+
+def _ask_one(nearmiss, answers, subject, kind, distances):
+    verdicts = nearmiss.verdicts(kind, answers.queries[kind], subject)
+    rounds = verdicts.rounded != answers.queries[kind]
+    judged = verdicts.rounded if rounds else answers.queries[kind]
+    collision = nearmiss.collisions(kind, judged) if rounds else answers.collision[kind]
+    false = np.flatnonzero(verdicts.hit & ~collision)
+    lo, hi = distances.of([judged[i] for i in false])
+    ratio_lo, ratio_hi = np.full((2, len(judged)), np.nan)
+    ratio_lo[false], ratio_hi[false] = ratios(lo, hi, verdicts.bound[false])
+    return Asked(
+        verdicts.hit, verdicts.stage, collision, verdicts.claims, ratio_lo, ratio_hi, judged
+    )
+
+
+class Distances:
+    """Smallest distances of queries of one kind; each query is asked for once."""
+
+    def __init__(self, nearmiss, kind):
+        self._nearmiss, self._kind, self._known = nearmiss, kind, {}
+
+    def of(self, queries):
+        """Arrays of their lower and upper ends."""
+        new = sorted({query for query in queries if query not in self._known})
+        self._known.update(zip(new, self._nearmiss.distances(self._kind, new).T))
+        return np.array([self._known[query] for query in queries]).reshape(-1, 2).T
+
+
+def ratios(lo, hi, bound):
+    """Enclosures of distance / bound: infinite where the bound is 0, 0 where it is infinite."""
+    slack = 1e-15  # more than one division's rounding
+    with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
+        ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)
+    zero, infinite = bound == 0, np.isinf(bound)
+    ratio_lo[zero] = ratio_hi[zero] = np.inf
+    ratio_lo[infinite] = ratio_hi[infinite] = 0
+    return ratio_lo, ratio_hi

@@ -1,0 +1,133 @@
+"""Asks the executable: campaigns and reports on one side, single queries on the other."""
+
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+KINDS = ('vt', 'ee')
+
+
+@dataclass
+class Report:
+    """What a campaign and its report say: parsed JSON, and text."""
+
+    folder: Path
+    fuzz_json: dict
+    fuzz_text: str
+    report_text: str
+
+    def json(self):
+        return json.loads((self.folder / 'report.json').read_text())
+
+
+class Nearmiss:
+    """The executable."""
+
+    def __init__(self, path):
+        self.path = str(path)
+
+    def run(self, *arguments, text=None, codes=(0,)):
+        """Standard output; an exit code that is not among `codes` raises an error."""
+        done = subprocess.run(
+            [self.path, *map(str, arguments)],
+            input=text,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+        if done.returncode not in codes:
+            command = ' '.join(map(str, arguments))
+            raise RuntimeError(f'nearmiss {command}: exit code {done.returncode}: {done.stderr}')
+        return done.stdout
+
+    def report(self, folder, cases, seed, subjects, families):
+        """Runs a campaign and writes its report into folder/report. Misses are no error here."""
+        store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
+        fuzz_text = self.run(
+            'fuzz',
+            '--family',
+            families,
+            '--cases',
+            cases,
+            '--seed',
+            seed,
+            '--subject',
+            ','.join(subjects),
+            '--db',
+            store,
+            '--json',
+            fuzz_json,
+            '-q',
+            codes=(0, 1),
+        )
+        report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
+        return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
+
+    def family(self, name, seed, kind, count):
+        """The queries of a kind among numbers 0 to count - 1 of a family, as lines."""
+        return self.run(
+            'family', name, '--seed', seed, '--kind', kind, '--count', count
+        ).splitlines()
+
+    def collisions(self, kind, queries):
+        """Whether each query is a collision."""
+        lines = self._ask('oracle', kind, queries)
+        return np.array([line == '1' for line in lines], dtype=bool)
+
+    def distances(self, kind, queries):
+        """Lower and upper ends of the smallest distances, in the queries' unit of length."""
+        lines = self._ask('oracle', kind, queries, '--distance')
+        ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
+        return np.array(ends, dtype=float).reshape(-1, 2).T
+
+    def verdicts(self, kind, queries, subject):
+        """A subject's answers."""
+        lines = self._ask(
+            'verdict', kind, queries, '--subject', subject, '--distance-bound', '--rounded'
+        )
+        return Verdicts.parsed(lines)
+
+    def _ask(self, command, kind, queries, *options):
+        if not queries:
+            return []
+        text = '\n'.join(queries) + '\n'
+        lines = self.run(command, '--kind', kind, *options, '-', text=text).splitlines()
+        if len(lines) != len(queries):
+            raise RuntimeError(
+                f'nearmiss {command}: found {len(lines)} answers, expected {len(queries)}'
+            )
+        return lines
+
+
+@dataclass
+class Verdicts:
+    """A subject's answers, one a query."""
+
+    hit: np.ndarray  # bool
+    stage: np.ndarray  # names of the accepting stages, 'none' where there is no hit
+    bound: np.ndarray  # that measures false positives' distances, in the queries' unit of length
+    claims: bool  # whether the subject claims this bound
+    rounded: list  # the queries that it is judged by, as lines
+
+    @classmethod
+    def parsed(cls, lines):
+        hit, stage, bound, whose, rounded = [], [], [], set(), []
+        for line in lines:
+            is_hit = line.startswith('1 ')
+            words = line.split(' ', 5 if is_hit else 3)
+            hit.append(is_hit)
+            stage.append(words[1] if is_hit else 'none')
+            bound.append(float.fromhex(words[-3]))
+            whose.add(words[-2])
+            rounded.append(words[-1])
+        return cls(
+            np.array(hit, dtype=bool),
+            np.array(stage),
+            np.array(bound),
+            whose == {'claimed'},
+            rounded,
+        )

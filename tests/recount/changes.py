@@ -1,0 +1,64 @@
+"""Changes values of reports, and says whether a check finds that."""
+
+import contextlib
+
+from comparison import Comparison
+
+
+def leaves(value, path=()):
+    """Paths of all values that are neither objects nor lists."""
+    if not isinstance(value, (dict, list)):
+        yield path, value
+        return
+    for key, each in value.items() if isinstance(value, dict) else enumerate(value):
+        yield from leaves(each, (*path, key))
+
+
+def pattern(path, names):
+    """A path without the names of subjects, kinds and families, and without places in lists."""
+    return '.'.join('*' if isinstance(key, int) or key in names else key for key in path)
+
+
+def changed(value):
+    """Another value of the same type; numbers by more than a largest ratio's precision."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int):
+        return value + 1
+    if isinstance(value, float):
+        return value * 1.01 if value else 0.5
+    return 1.5 if value is None else value + 'x'
+
+
+@contextlib.contextmanager
+def put(json_value, path, value):
+    """Has this value at the path for a while."""
+    for key in path[:-1]:
+        json_value = json_value[key]
+    before = json_value[path[-1]]
+    json_value[path[-1]] = value
+    try:
+        yield
+    finally:
+        json_value[path[-1]] = before
+
+
+class Found(Exception):
+    """A difference."""
+
+
+class UntilFound(Comparison):
+    """Ends a check at its first difference."""
+
+    def _note(self, sort, where, found, expected, same):
+        if not same:
+            raise Found
+
+
+def found(check):
+    """Whether a check of a comparison finds a difference."""
+    try:
+        check(UntilFound())
+    except Found:
+        return True
+    return False

@@ -1,0 +1,193 @@
+"""The counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
+
+import numpy as np
+
+from asking import KINDS
+from tally import BINS, BORDERS, Tally, denominators, interval, rate, reported, stages, upper_bound
+
+ROUNDING = 1e-12  # relative: a quotient of two counts
+SOLVED = 1e-9  # relative: the solution of an equation, or what follows from it
+
+
+def check_statistics(comparison, where, json, answers):
+    """The sections "subjects", "oracle" and "signatures"."""
+    _check_oracle(comparison, f'{where} oracle', json['oracle'], answers)
+    _check_signatures(comparison, f'{where} signatures', json['signatures'], answers)
+    subjects = json['subjects']
+    comparison.same('names', f'{where} subjects', sorted(subjects), answers.subjects)
+    for subject in answers.subjects:
+        for kind in KINDS:
+            found = subjects[subject][kind]
+            place = f'{where} {subject} {kind}'
+            tally = Tally.of(answers, subject, [kind])
+            check_counts(comparison, place, found, tally)
+            _check_farthest(comparison, place, found['farthest'], tally, answers, subject, kind)
+            families = found['families']
+            comparison.same('names', f'{place} families', sorted(families), answers.families(kind))
+            for family in answers.families(kind):
+                own = f'{place} {family}'
+                tally = Tally.of(answers, subject, [kind], family)
+                check_counts(comparison, own, families[family], tally)
+                _check_farthest(
+                    comparison, own, families[family]['farthest'], tally, answers, subject, kind
+                )
+
+
+def check_counts(comparison, where, found, tally):
+    """Everything that is told of one subject over some queries, but for times."""
+    check_rates(comparison, where, found, tally)
+    comparison.same('counters', f'{where} positives', found['positives'], tally.positives)
+    comparison.same('counters', f'{where} faults', found['faults'], {})
+    for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
+        own = stages(tally.subject, found[f'{name}_positives_by_stage'])
+        comparison.same('stages', f'{where} {name}', own, stages(tally.subject, expected))
+    comparison.same(
+        'stages',
+        f'{where} rejected',
+        sum(found['rejected_by'].values()),
+        tally.queries - tally.positives,
+    )
+    check_histogram(comparison, where, found['fp_distance_histogram'], tally)
+
+
+def check_rates(comparison, where, found, tally):
+    """Counters, rates with their intervals, and quantiles of distances."""
+    for name in ('queries', 'collisions', 'false_negatives', 'false_positives'):
+        comparison.same('counters', f'{where} {name}', found[name], getattr(tally, name))
+    comparison.within(
+        'counters', f'{where} refuted_bounds', found['refuted_bounds'], *tally.refuted()
+    )
+    of_negatives, of_positives = denominators(tally)
+    for name, value in (
+        ('false_negative_rate', rate(tally.false_negatives, of_negatives)),
+        ('false_positive_rate', rate(tally.false_positives, of_positives)),
+    ):
+        comparison.near('rates', f'{where} {name}', found[name], value, ROUNDING)
+    upper = upper_bound(tally.false_negatives, of_negatives)
+    comparison.near(
+        'intervals',
+        f'{where} false_negative_rate',
+        found['false_negative_rate_upper_95'],
+        upper,
+        SOLVED,
+    )
+    for end, value in zip(
+        found['false_positive_rate_interval_95'], interval(tally.false_positives, of_positives)
+    ):
+        comparison.near('intervals', f'{where} false_positive_rate', end, value, SOLVED)
+    largest = tally.farthest()[0] if tally.false_positives else (0, 0)
+    comparison.within('largest ratios', where, found['max_fp_distance_over_bound'], *largest)
+    for name, part in (('median', 0.5), ('q99', 0.99)):
+        check_quantile(
+            comparison,
+            f'{where} {name}',
+            found[f'{name}_fp_distance_over_bound'],
+            tally.quantile_bins(part),
+            found['max_fp_distance_over_bound'],
+        )
+
+
+def check_quantile(comparison, where, found, bins, largest):
+    """The bin of a quantile, which ends at the largest ratio."""
+    first, last = bins or (0, 0)
+    lower = np.concatenate(([0], BORDERS))
+    upper = np.concatenate((BORDERS, [np.inf])) if bins else [0]
+    comparison.within('quantiles', f'{where} from', found[0], *outward(lower[first], lower[last]))
+    comparison.within(
+        'quantiles',
+        f'{where} to',
+        found[1],
+        *outward(min(upper[first], largest), min(upper[last], largest)),
+    )
+
+
+def outward(least, most):
+    """The same range, with room for the rounding of a border."""
+    return least * (1 - ROUNDING), most * (1 + ROUNDING)
+
+
+def check_histogram(comparison, where, found, tally):
+    """Each bin holds what is certainly in it, and besides at most what may be."""
+    least, most = tally.histogram
+    comparison.same('histogram bins', f'{where} sum', sum(found), tally.false_positives)
+    if len(found) != BINS:
+        return comparison.same('histogram bins', f'{where} number of bins', len(found), BINS)
+    wrong = np.flatnonzero((least > found) | (most < found))
+    comparison.agree('histogram bins', BINS - len(wrong))
+    for i in wrong:
+        comparison.within('histogram bins', f'{where} bin {i}', found[i], least[i], most[i])
+
+
+def _check_farthest(comparison, where, found, tally, answers, subject, kind):
+    """The farthest false positives that are kept: how far each is, and which query it is."""
+    expected = tally.farthest()
+    comparison.same('largest ratios', f'{where} number', len(found), len(expected))
+    for i, (far, ends) in enumerate(zip(found, expected)):
+        comparison.within('largest ratios', f'{where} farthest {i}', far['ratio'], *ends)
+        check_false_positive(comparison, f'{where} farthest {i}', answers, subject, kind, far)
+
+
+def _check_oracle(comparison, where, found, answers):
+    for name in ('disagreements', 'mismatches_with_recorded_truth'):
+        comparison.same('oracle', f'{where} {name}', found[name], 0)
+    sums = {'queries': 0, 'collisions': 0}
+    for kind in KINDS:
+        comparison.same(
+            'names', f'{where} {kind}', sorted(found['families'][kind]), answers.families(kind)
+        )
+        for family in answers.families(kind):
+            own = answers.family[kind] == family
+            expected = {
+                'queries': int(own.sum()),
+                'collisions': int(answers.collision[kind][own].sum()),
+            }
+            _check_truth(
+                comparison, f'{where} {kind} {family}', found['families'][kind][family], expected
+            )
+            sums = {name: sums[name] + expected[name] for name in sums}
+    _check_truth(comparison, f'{where} total', found['total'], sums)
+
+
+def _check_truth(comparison, where, found, expected):
+    for name, value in expected.items():
+        comparison.same('oracle', f'{where} {name}', found[name], value)
+    comparison.same(
+        'oracle', f'{where} decided_by', sum(found['decided_by'].values()), expected['queries']
+    )
+
+
+def _check_signatures(comparison, where, found, answers):
+    """Each false negative and each refuted bound is seen in one way."""
+    sums = {}
+    for each in found:
+        key = each['what'], each['subject']
+        sums[key] = sums.get(key, 0) + each['seen']
+    for subject in answers.subjects:
+        tally = Tally.of(answers, subject, KINDS)
+        missed = tally.false_negatives
+        comparison.same(
+            'signatures',
+            f'{where} {subject} missed',
+            sums.pop(('false-negative', subject), 0),
+            missed,
+        )
+        refuted = sums.pop(('refuted-bound', subject), 0)
+        comparison.within('signatures', f'{where} {subject} refuted', refuted, *tally.refuted())
+    comparison.same('signatures', f'{where} of no subject', sums, {})
+
+
+def check_false_positive(comparison, where, answers, subject, kind, found):
+    """A false positive with its provenance, ratio, and query as a line or a list of numbers."""
+    place = answers.place(kind, found['provenance'])
+    if place is None or not answers.asked[subject, kind].false_positive[place]:
+        return comparison.fail('provenances', where, found['provenance'], 'a false positive')
+    asked = answers.asked[subject, kind]
+    ends = reported(asked.ratio_lo[place], asked.ratio_hi[place])
+    comparison.within('largest ratios', f'{where} own', found['ratio'], *ends)
+    check_query(comparison, where, found['query'], asked.judged[place])
+
+
+def check_query(comparison, where, found, line):
+    """A query, as a line or as a list of numbers."""
+    numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
+    comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

@@ -1,0 +1,126 @@
+"""The CSV files of a report: statistics.csv, distances.csv and findings.csv."""
+
+import csv
+
+import numpy as np
+
+from asking import KINDS
+from check_counts import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
+from check_sections import check_finding
+from tally import BINS, BORDERS, Tally, denominators, interval, rate, stages, upper_bound
+
+
+def read(folder, name):
+    """Rows as dictionaries by the heading."""
+    with open(folder / name, newline='', encoding='utf-8') as file:
+        return list(csv.DictReader(file))
+
+
+def number(text):
+    """A whole number as such, and any other as a float; text that is none as it is."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+def keys(answers):
+    """Subject, kind and family of every row, in order."""
+    return [
+        (subject, kind, family)
+        for subject in answers.subjects
+        for kind in KINDS
+        for family in answers.families(kind)
+    ]
+
+
+def check_statistics_csv(comparison, _where, folder, answers):
+    """Counters, rates and quantiles."""
+    statistics = read(folder, 'statistics.csv')
+    found = [(row['subject'], row['kind'], row['family']) for row in statistics]
+    comparison.same('CSV', 'statistics.csv rows', found, keys(answers))
+    for row in statistics:
+        _check_statistics(comparison, {name: number(text) for name, text in row.items()}, answers)
+
+
+def _tally(answers, row):
+    return Tally.of(answers, row['subject'], [row['kind']], row['family'])
+
+
+def _check_statistics(comparison, row, answers):
+    """One row; times are left out."""
+    where = f'statistics.csv {row["subject"]} {row["kind"]} {row["family"]}'
+    tally = _tally(answers, row)
+    for name in ('queries', 'collisions', 'positives', 'false_negatives', 'false_positives'):
+        comparison.same('CSV', f'{where} {name}', row[name], getattr(tally, name))
+    comparison.within('CSV', f'{where} refuted_bounds', row['refuted_bounds'], *tally.refuted())
+    of_negatives, of_positives = denominators(tally)
+    lower, upper = interval(tally.false_positives, of_positives)
+    for name, value in (
+        ('false_negative_rate_upper_95', upper_bound(tally.false_negatives, of_negatives)),
+        ('false_positive_rate', rate(tally.false_positives, of_positives)),
+        ('false_positive_rate_from', lower),
+        ('false_positive_rate_to', upper),
+    ):
+        comparison.near('CSV', f'{where} {name}', row[name], value, SOLVED)
+    largest = row['max_fp_distance_over_bound']
+    comparison.within(
+        'CSV',
+        f'{where} largest',
+        largest,
+        *(tally.farthest()[0] if tally.false_positives else (0, 0)),
+    )
+    for name, part in (('median', 0.5), ('q99', 0.99)):
+        ends = [row[f'{name}_fp_distance_over_bound_{end}'] for end in ('from', 'to')]
+        check_quantile(comparison, f'{where} {name}', ends, tally.quantile_bins(part), largest)
+    for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
+        found = {key: n for key, n in row.items() if key.startswith(f'{name}_by_') and n}
+        found = {key.removeprefix(f'{name}_by_'): n for key, n in found.items()}
+        own, wanted = (stages(tally.subject, each) for each in (found, expected))
+        comparison.same('CSV', f'{where} {name} by stage', own, wanted)
+    rejected = sum(count for key, count in row.items() if key.startswith('rejected_by_'))
+    comparison.same('CSV', f'{where} rejected', rejected, tally.queries - tally.positives)
+    comparison.same(
+        'CSV', f'{where} faults', sum(n for key, n in row.items() if key.startswith('fault_')), 0
+    )
+
+
+def check_distances_csv(comparison, _where, folder, answers):
+    """The histograms' bins that are not empty."""
+    lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
+    bins = {key: [0] * BINS for key in keys(answers)}
+    for row in read(folder, 'distances.csv'):
+        where = f'distances.csv {row["subject"]} {row["kind"]} {row["family"]}'
+        ends = [number(row[f'distance_over_bound_{end}']) for end in ('from', 'to')]
+        i = int(np.argmin(np.abs(upper[:-1] - ends[1]))) if ends[1] != np.inf else BINS - 1
+        comparison.near('CSV', f'{where} from', ends[0], lower[i], ROUNDING)
+        comparison.near('CSV', f'{where} to', ends[1], upper[i], ROUNDING)
+        bins[row['subject'], row['kind'], row['family']][i] += int(row['false_positives'])
+    for (subject, kind, family), found in bins.items():
+        tally = Tally.of(answers, subject, [kind], family)
+        check_histogram(comparison, f'distances.csv {subject} {kind} {family}', found, tally)
+
+
+def check_findings_csv(comparison, _where, folder, answers, report):
+    """Every finding is a query that was found so."""
+    rows = read(folder, 'findings.csv')
+    comparison.same('CSV', 'findings.csv rows', len(rows), report['findings_total'])
+    seen = {
+        (each['what'], each['subject'], each['signature']): each['seen']
+        for each in report['signatures']
+    }
+    for i, row in enumerate(rows):
+        where = f'findings.csv row {i + 1}'
+        check_finding(comparison, where, answers, row)
+        signature = row['what'], row['subject'], row['signature']
+        comparison.same('CSV', f'{where} seen', number(row['seen']), seen.get(signature))
+        place = answers.place(row['kind'], row['provenance'])
+        if place is not None:
+            check_query(
+                comparison,
+                where,
+                row['query'],
+                answers.asked[row['subject'], row['kind']].judged[place],
+            )

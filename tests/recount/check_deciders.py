@@ -1,0 +1,38 @@
+"""The section "deciders" of report.json: what decided the queries of subjects that ask others.
+
+It adds up counts by the accepting stage, and by what told that there is no collision. The latter
+is known to a campaign alone, so the sums here are of the section "subjects", checked elsewhere."""
+
+from asking import KINDS
+
+
+def check_deciders(comparison, where, report, answers):
+    """Rows for all families ("") and for each."""
+    expected = {}
+    for subject in answers.subjects:
+        families = sorted({*answers.families('vt'), *answers.families('ee')})
+        rows = {family: _row(report['subjects'][subject], family) for family in ['', *families]}
+        if rows['']['algorithm'] and any(rows[''][name] for name in ('filter', 'finer', 'exact')):
+            expected.update({(subject, family): row for family, row in rows.items()})
+    found = report.get('deciders', [])
+    keys = [(row['subject'], row['family']) for row in found]
+    comparison.same('deciders', f'{where} rows', keys, list(expected))
+    for row, key in zip(found, keys):
+        comparison.same('deciders', f'{where} {key}', row['decided_by'], expected[key])
+        queries = sum(expected[key].values())
+        comparison.same('deciders', f'{where} {key} queries', row['queries'], queries)
+
+
+def _row(subject, family):
+    """How many queries of both kinds each decider has."""
+    deciders = {'algorithm': 0, 'filter': 0, 'finer': 0, 'exact': 0}
+    for kind in KINDS:
+        counts = subject[kind]['families'].get(family) if family else subject[kind]
+        if counts is None:
+            continue
+        names = ('true_positives_by_stage', 'false_positives_by_stage', 'rejected_by')
+        for name in ('filter', 'finer', 'exact'):
+            deciders[name] += sum(counts[each].get(name, 0) for each in names)
+        deciders['algorithm'] += counts['queries']
+    deciders['algorithm'] -= sum(deciders[name] for name in ('filter', 'finer', 'exact'))
+    return deciders

@@ -1,0 +1,245 @@
+"""The sections of report.json beside the counters: error against time, ladder, findings."""
+
+import math
+
+import numpy as np
+from scipy import stats
+
+from asking import KINDS
+from check_counts import ROUNDING, SOLVED, check_false_positive, check_query, check_rates
+from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
+from tally import BORDERS, Tally, reported
+
+TIME = 'ns_per_query'  # by which subjects stand on a front
+COARSEST, FINEST = -23, -127  # exponents of epsilon that a fit takes
+
+
+def check_borders(comparison, where, found):
+    """The histogram's lower borders."""
+    expected = [0.0, *BORDERS]
+    comparison.same('histogram borders', f'{where} number', len(found), len(expected))
+    for i, (border, value) in enumerate(zip(found, expected)):
+        comparison.near('histogram borders', f'{where} {i}', border, value, ROUNDING)
+
+
+def check_places(comparison, where, found, subject):
+    """Algorithm, scalar and epsilon of a subject."""
+    algorithm, scalar, power = place(subject)
+    comparison.same('names', f'{where} {subject} algorithm', found['algorithm'], algorithm)
+    comparison.same('names', f'{where} {subject} scalar', found['scalar'], scalar)
+    comparison.same('names', f'{where} {subject} epsilon', found['epsilon'], 2.0**power)
+
+
+def slack(subject):
+    """Relative: a claim may be this much larger, for the rounding of B in the subject's scalar."""
+    return 65 * 2.0 ** place(subject)[2] + ROUNDING
+
+
+def check_trade_offs(comparison, where, found, answers, units):
+    """Error against run time: sums over kinds and families, and their Pareto fronts.
+
+    The fronts are those of the report's own times."""
+    comparison.same('names', where, sorted(found['subjects']), answers.subjects)
+    for subject, each in found['subjects'].items():
+        own = f'{where} {subject}'
+        tally = Tally.of(answers, subject, KINDS)
+        check_rates(comparison, own, each, tally)
+        check_places(comparison, where, each, subject)
+        sound = each['false_negatives'] == 0 and each['refuted_bounds'] == 0
+        comparison.same('fronts', f'{own} sound', each['sound'], sound)
+        unit = units.of_distances(subject)
+        in_B = (
+            0 if tally.false_positives == 0 else unit and each['max_fp_distance_over_bound'] * unit
+        )
+        comparison.near(
+            'ladder', f'{own} in units of B', each['farthest_over_B'], in_B, slack(subject)
+        )
+    sound = {name: each for name, each in found['subjects'].items() if each['sound']}
+    for name, error in (
+        ('distance', 'max_fp_distance_over_bound'),
+        ('rate', 'false_positive_rate'),
+    ):
+        comparison.same('fronts', f'by {name}', found[f'front_by_{name}'], front(sound, error))
+    if 'ladder' in found:
+        known = {name: each for name, each in sound.items() if each['farthest_over_B'] is not None}
+        comparison.same(
+            'fronts',
+            'in units of B',
+            found['ladder']['front_by_distance'],
+            front(known, 'farthest_over_B'),
+        )
+        paper = paper_bound(2.0 ** EPSILONS['double'])
+        comparison.near(
+            'ladder', "the paper's bound", found['ladder']['paper_bound'], paper, SOLVED
+        )
+    scalars = {}
+    for subject in answers.subjects:
+        algorithm, scalar, _ = place(subject)
+        scalars.setdefault(algorithm, set()).add(scalar)
+    comparison.same('fronts', 'by scalars', 'ladder' in found, max(map(len, scalars.values())) > 2)
+
+
+def front(subjects, error):
+    """The names, fastest first, of those of which no other is as fast with less error."""
+    chosen = [
+        name
+        for name, own in subjects.items()
+        if not any(_dominates(other, own, error) for other in subjects.values())
+    ]
+    return sorted(chosen, key=lambda name: subjects[name][TIME])
+
+
+def _dominates(a, b, error):
+    costs = [(each[TIME], each[error]) for each in (a, b)]
+    return costs[0] != costs[1] and costs[0][0] <= costs[1][0] and costs[0][1] <= costs[1][1]
+
+
+def check_ladder(comparison, where, report, answers, units):
+    """The ladder of precisions: a rung for each subject of its algorithms, and the fits."""
+    rungs = [
+        (subject, *place(subject))
+        for subject in answers.subjects
+        if place(subject)[0] in ALGORITHMS
+    ]
+    rungs.sort(key=lambda rung: -rung[3])
+    is_ladder = any(
+        len({power for _, own, _, power in rungs if own == algorithm}) > 1
+        for algorithm in ALGORITHMS
+    )
+    comparison.same('ladder', f'{where} is there', 'ladder' in report, is_ladder)
+    if not is_ladder or 'ladder' not in report:
+        return
+    found = report['ladder']
+    comparison.same(
+        'names', where, [rung['subject'] for rung in found['rungs']], [rung[0] for rung in rungs]
+    )
+    for rung in found['rungs']:
+        own = f'{where} {rung["subject"]}'
+        check_places(comparison, where, rung, rung['subject'])
+        check_rates(comparison, own, rung, Tally.of(answers, rung['subject'], KINDS))
+        comparison.near(
+            'ladder',
+            f'{own} claimed',
+            rung['claimed'],
+            units.claimed(rung['subject']),
+            slack(rung['subject']),
+        )
+        farthest = rung['claimed'] * rung['max_fp_distance_over_bound']
+        comparison.near('ladder', f'{own} farthest', rung['farthest'], farthest, ROUNDING)
+    expected = fits(report)
+    comparison.same(
+        'names',
+        f'{where} fits',
+        [(fit['algorithm'], fit['origin'], fit['precisions']) for fit in found['fits']],
+        [(fit['algorithm'], fit['origin'], fit['precisions']) for fit in expected],
+    )
+    for fit, line in zip(found['fits'], expected):
+        for name in ('exponent', 'standard_error'):
+            own = f'{where} {fit["algorithm"]} {fit["origin"]} {name}'
+            comparison.within('fits', own, fit[name], line[name] - SOLVED, line[name] + SOLVED)
+
+
+def fits(report):
+    """The power of epsilon by which the farthest distance of each algorithm falls.
+
+    Fitted over all families ("") and by family to the report's largest ratios, which are checked
+    elsewhere."""
+    lines = []
+    families = sorted(
+        {
+            name
+            for each in report['subjects'].values()
+            for kind in KINDS
+            for name in each[kind]['families']
+        }
+    )
+    for algorithm in ALGORITHMS:
+        for origin in ['', *families]:
+            points = _points(report, algorithm, origin)
+            precisions = len({x for x, _ in points})
+            if precisions < 3:
+                continue
+            line = stats.linregress(*np.array(points).T)
+            lines.append(
+                {
+                    'algorithm': algorithm,
+                    'origin': origin,
+                    'precisions': precisions,
+                    'exponent': line.slope,
+                    'standard_error': line.stderr,
+                }
+            )
+    return lines
+
+
+def _points(report, algorithm, origin):
+    """Exponents of epsilon, and logarithms to base 2 of the farthest distances in units of B."""
+    points = []
+    for rung in report['ladder']['rungs']:
+        own = report['subjects'][rung['subject']]
+        parts = [
+            own[kind]['families'][origin] if origin else own[kind]
+            for kind in KINDS
+            if not origin or origin in own[kind]['families']
+        ]
+        farthest = rung['claimed'] * max(part['max_fp_distance_over_bound'] for part in parts)
+        power = exponent('' if rung['scalar'] == 'double' else rung['scalar'])
+        if rung['algorithm'] == algorithm and FINEST <= power <= COARSEST and farthest > 0:
+            points.append((power, math.log2(farthest)))
+    return points
+
+
+def check_findings(comparison, section, report, answers):
+    """Findings and farthest false positives name queries that were found so."""
+    seen = {
+        (each['what'], each['subject'], each['signature']): each['seen']
+        for each in report['signatures']
+    }
+    for i, found in enumerate(report['findings']):
+        where = f'{section} {i}'
+        check_finding(comparison, where, answers, found)
+        signature = found['what'], found['subject'], found['signature']
+        comparison.same('signatures', f'{where} seen', found['seen'], seen.get(signature))
+        place_of = answers.place(found['kind'], found['provenance'])
+        if place_of is not None:
+            judged = answers.asked[found['subject'], found['kind']].judged[place_of]
+            check_query(comparison, where, found['original'], judged)
+    rows = [(far['subject'], far['kind'], far['family']) for far in report['farthest']]
+    expected = [
+        (subject, kind, family)
+        for subject in answers.subjects
+        for kind in KINDS
+        for family in answers.families(kind)
+        if Tally.of(answers, subject, [kind], family).false_positives
+    ]
+    comparison.same('names', f'{section} farthest', rows, expected)
+    for found in report['farthest']:
+        where = f'farthest {found["subject"]} {found["kind"]} {found["family"]}'
+        check_false_positive(comparison, where, answers, found['subject'], found['kind'], found)
+        comparison.same('names', where, found['shown_family'], found['family'])
+        own = report['subjects'][found['subject']][found['kind']]['families'][found['family']]
+        comparison.same('largest ratios', where, found['ratio'], own['max_fp_distance_over_bound'])
+
+
+def check_finding(comparison, where, answers, found):
+    """A missed collision or a refuted bound, by its provenance."""
+    place_of = answers.place(found['kind'], found['provenance'])
+    asked = answers.asked.get((found['subject'], found['kind']))
+    if place_of is None or asked is None:
+        return comparison.fail(
+            'provenances', where, found['provenance'], 'a query of the campaign'
+        )
+    refutes = found['what'] == 'refuted-bound'
+    ends = reported(asked.ratio_lo[place_of], asked.ratio_hi[place_of]) if refutes else (0, 0)
+    ratio = float(found['ratio'] if 'ratio' in found else found['distance_over_bound'])
+    comparison.within('largest ratios', where, ratio, *ends)
+    is_so = {
+        'false-negative': asked.false_negative[place_of],
+        'refuted-bound': asked.claims and asked.ratio_hi[place_of] > 1,
+    }
+    comparison.same(
+        'provenances', f'{where} {found["what"]}', bool(is_so.get(found['what'])), True
+    )
+    comparison.same(
+        'provenances', f'{where} family', found['family'], found['provenance'].rsplit(':', 2)[0]
+    )

@@ -1,0 +1,215 @@
+"""Text in a report or printed: headline, verdicts, tables of the summary and of the ladder.
+
+Numbers in text are rounded, so texts are made of the numbers of report.json, which are checked
+elsewhere."""
+
+import re
+
+from asking import KINDS
+from tally import BORDERS, LARGEST
+
+
+def check_text(comparison, section, report, json_report):
+    """What is in the report, and what nearmiss fuzz and nearmiss report print."""
+    verdicts = {
+        subject: verdict(json_report['error_against_time']['subjects'][subject])
+        for subject in json_report['subjects']
+    }
+    comparison.same(
+        'text',
+        f'{section} headline',
+        json_report['headline']['text'],
+        headline(json_report, verdicts),
+    )
+    comparison.same(
+        'text',
+        f'{section} headline clean',
+        json_report['headline']['clean'],
+        all(clean for clean, _ in verdicts.values()),
+    )
+    comparison.same(
+        'text',
+        f'{section} verdicts',
+        [each['subject'] for each in json_report['verdicts']],
+        sorted(verdicts),
+    )
+    for each in json_report['verdicts']:
+        clean, text = verdicts.get(each['subject'], (None, None))
+        comparison.same('text', f'{section} verdict of {each["subject"]}', each['text'], text)
+        comparison.same(
+            'text', f'{section} verdict of {each["subject"]} clean', each['clean'], clean
+        )
+    comparison.same(
+        'text', f"{section} the oracle's complaint", json_report['oracle']['complaint'], ''
+    )
+    for where, text in (
+        ('nearmiss fuzz', report.fuzz_text),
+        ('nearmiss report', report.report_text),
+    ):
+        lines = text.splitlines()
+        expected = [
+            f'{" ok " if clean else "FAIL"} {subject}: {text}'
+            for subject, (clean, text) in verdicts.items()
+        ]
+        comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
+        _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
+        found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
+        comparison.same(
+            'text',
+            f'{where} oracle',
+            found and found[0],
+            oracle_line(json_report['oracle']['total']),
+        )
+    if 'ladder' in json_report:
+        _check_table(
+            comparison,
+            'nearmiss fuzz ladder',
+            report.fuzz_text.splitlines(),
+            ['subject', 'epsilon'],
+            ladder(json_report['ladder']),
+        )
+        lines = [line for line in report.fuzz_text.splitlines() if ' goes as epsilon^' in line]
+        comparison.same(
+            'text',
+            'nearmiss fuzz fits',
+            lines,
+            [fit(each) for each in json_report['ladder']['fits']],
+        )
+
+
+def verdict(found):
+    """Whether a subject is clean, and what is said of it."""
+    missed, refuted = found['false_negatives'], found['refuted_bounds']
+    text = f'MISSED {missed:,} of ' if missed else 'no miss in '
+    text += counted(found['collisions'], 'collision')
+    if refuted:
+        text += f', {refuted:,} BEYOND ITS BOUND'
+    if found['false_positives'] == 0:
+        return not missed and not refuted, text + ', no false positive'
+    largest = found['max_fp_distance_over_bound']
+    far = 'beyond a bound of 0' if largest == LARGEST else f'at {fraction(largest)} of the bound'
+    return (
+        not missed and not refuted,
+        f'{text}, {counted(found["false_positives"], "false positive")}, the farthest {far}',
+    )
+
+
+def headline(report, verdicts):
+    """The verdict in a line."""
+    groups = [
+        sorted(name for name, (clean, _) in verdicts.items() if clean == wanted)
+        for wanted in (False, True)
+    ]
+    said = [
+        f'{listed(names)} {verb}'
+        for names, verb in zip(groups, ('failed', 'did not fail'))
+        if names
+    ]
+    queries = report['oracle']['total']['queries']
+    return '; '.join(said) + f', in {counted(queries, "query", "queries")}.'
+
+
+def listed(names):
+    """ "a, b and c", or how many there are where these are more than eight."""
+    if len(names) > 8:
+        return f'{len(names)} subjects'
+    return ' and '.join([', '.join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
+
+
+def counted(count, one, many=None):
+    """A number and what it counts."""
+    return f'{count:,} {one if count == 1 else many or one + "s"}'
+
+
+def general(number, digits):
+    """C's %.*g."""
+    return f'{number:.{digits}g}'
+
+
+def fraction(ratio):
+    """Of a bound: three digits, or more where a ratio below 1 would seem to be 1."""
+    if ratio == LARGEST:
+        return 'inf'
+    if 0 < ratio < BORDERS[0]:
+        return 'below 1e-16'
+    return next(
+        text
+        for text in (general(ratio, digits) for digits in range(3, 18))
+        if ratio >= 1 or text != '1'
+    )
+
+
+def summary(report):
+    """The rows of the summary's table, but for times."""
+    rows = []
+    for subject, own in report['subjects'].items():
+        for kind in KINDS:
+            c = own[kind]
+            rows.append(
+                [
+                    subject,
+                    kind,
+                    f'{c["queries"]:,}',
+                    f'{c["collisions"]:,}',
+                    f'{c["false_negatives"]:,}',
+                    general(c['false_negative_rate_upper_95'], 2),
+                    f'{c["false_positives"]:,}',
+                    fraction(c['max_fp_distance_over_bound']),
+                ]
+            )
+    return rows
+
+
+def ladder(found):
+    """The rows of the ladder's table, but for times."""
+    return [
+        [
+            rung['subject'],
+            f'2^{json_exponent(rung["epsilon"])}',
+            f'{rung["queries"]:,}',
+            f'{rung["false_negatives"]:,}',
+            f'{rung["false_positives"]:,}',
+            general(rung['farthest'], 3),
+            general(rung['claimed'], 3),
+        ]
+        for rung in found['rungs']
+    ]
+
+
+def json_exponent(power_of_two):
+    """x of 2^x."""
+    return int(power_of_two.hex().partition('p')[2])
+
+
+def fit(found):
+    """The line of a fit."""
+    of = ', '.join(filter(None, (found['algorithm'], found['origin'])))
+    power = f'({found["exponent"]:.4f} +- {found["standard_error"]:.4f})'
+    precisions = f'from {found["precisions"]} precisions'
+    return f'{of}: the farthest distance goes as epsilon^{power}, {precisions}'
+
+
+def oracle_line(total):
+    """How queries were decided, in two lines."""
+    parts = [
+        f'oracle: {total["queries"]:,} queries',
+        f' {total["decided_by"]["undecided"]:,} left to exact arithmetic by the filters; '
+        f'{total["compared"]:,} decided by all exact methods: they agree',
+        f' and {total["missed_by_parity"]:,} of {total["compared_collisions"]:,} collisions\n'
+        'have an even number of roots',
+        ' which root parity cannot see',
+    ]
+    return ','.join(parts)
+
+
+def _check_table(comparison, where, lines, heading, rows):
+    """The rows stand below a line that begins with the heading; the last column is a time."""
+    cells = [re.split(r' {2,}', line.strip()) for line in lines]
+    start = next((i for i, row in enumerate(cells) if row[:2] == heading), None)
+    if start is None:
+        return comparison.fail('text', where, 'no table', ' '.join(heading))
+    end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)
+    found = [row[:-1] for row in cells[start + 1 : end]]
+    comparison.same('text', f'{where} number of rows', len(found), len(rows))
+    for row, expected in zip(found, rows):
+        comparison.same('text', f'{where} row {" ".join(expected[:2])}', row, expected)

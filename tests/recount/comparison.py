@@ -1,0 +1,69 @@
+"""What was compared, and what differs."""
+
+import math
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Comparison:
+    """Counts compared values by sort of check, and keeps each difference as a line of text."""
+
+    compared: dict = field(default_factory=dict)
+    differences: list = field(default_factory=list)
+    either_way: dict = field(default_factory=dict)
+
+    def _note(self, sort, where, found, expected, same):
+        self.compared[sort] = self.compared.get(sort, 0) + 1
+        if not same:
+            self.differences.append(f'{sort}: {where}: found {found}, expected {expected}')
+
+    def same(self, sort, where, found, expected):
+        """Found must be the expected value itself."""
+        self._note(sort, where, found, expected, found == expected)
+
+    def near(self, sort, where, found, expected, relative):
+        """Found must be the expected number but for a relative error; None only for None."""
+        if found is None or expected is None:
+            return self.same(sort, where, found, expected)
+        is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)
+        self._note(sort, where, found, expected, is_near)
+
+    def within(self, sort, where, found, least, most):
+        """Found must be a number from least to most."""
+        is_within = _is_number(found) and least <= found <= most
+        self._note(
+            sort, where, found, str(least) if least == most else f'{least} to {most}', is_within
+        )
+
+    def fail(self, sort, where, found, expected):
+        """A value that cannot be compared."""
+        self._note(sort, where, found, expected, False)
+
+    def agree(self, sort, count):
+        """So many values were found as expected."""
+        self.compared[sort] = self.compared.get(sort, 0) + count
+
+    def section(self, check, where, *arguments):
+        """Runs a check. A missing entry, or one of another type, is a difference."""
+        try:
+            check(self, where, *arguments)
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            self.fail('structure', where, repr(error), 'something to read')
+
+    def allow(self, what, count=1):
+        """So many values are allowed to be either way, because an enclosure holds a border."""
+        self.either_way[what] = self.either_way.get(what, 0) + count
+
+    def print(self):
+        """A line for each sort of check, for what may be either way, and for each difference."""
+        for sort, count in self.compared.items():
+            wrong = sum(line.startswith(f'{sort}: ') for line in self.differences)
+            print(f'{sort}: {count:,} values compared, {wrong:,} different')
+        for what, count in self.either_way.items():
+            print(f'either way: {count:,} {what}')
+        for line in self.differences:
+            print(f'DIFFERENCE {line}')
+
+
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

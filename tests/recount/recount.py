@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+"""Computes a report anew from single queries, and says what differs.
+
+It runs a campaign and writes its report, then asks the same executable for the same queries one by
+one (nearmiss family, oracle and verdict), and computes everything but times with NumPy and SciPy.
+Exit code 0: no difference; 1: there is one; 2: the executable failed."""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+from answers import ask
+from asking import KINDS, Nearmiss
+from check_counts import check_statistics
+from check_csv import check_distances_csv, check_findings_csv, check_statistics_csv
+from check_deciders import check_deciders
+from check_page import check_page
+from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
+from check_text import check_text
+from comparison import Comparison
+from scalars import Units
+from tally import Tally
+
+
+def counts_of(report):
+    """How many queries of each family there are, by what the report says of the oracle."""
+    families = report['oracle']['families']
+    return {
+        name: sum(families[kind].get(name, {'queries': 0})['queries'] for kind in KINDS)
+        for name in {*families['vt'], *families['ee']}
+    }
+
+
+def check_report(comparison, report, answers, units):
+    """Everything in report.json."""
+    comparison.section(check_statistics, 'report.json', report, answers)
+    comparison.section(check_borders, 'histogram_borders', report['histogram_borders'])
+    comparison.section(
+        check_trade_offs, 'error_against_time', report['error_against_time'], answers, units
+    )
+    comparison.section(check_ladder, 'ladder', report, answers, units)
+    comparison.section(check_deciders, 'deciders', report, answers)
+    comparison.section(check_findings, 'findings', report, answers)
+
+
+def check_all(comparison, report, answers, units):
+    """All that a campaign and its report say."""
+    json_report = report.json()
+    check_report(comparison, json_report, answers, units)
+    comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
+    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers)
+    comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
+    comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
+    comparison.section(check_text, 'report.json', report, json_report)
+    page = (report.folder / 'index.html').read_text(encoding='utf-8')
+    comparison.section(check_page, 'index.html', page, json_report)
+
+
+def check_cases(comparison, found, cases, counts, seed):
+    """The campaign is the one that was asked for."""
+    comparison.same('cases', 'sum over families', sum(counts.values()), cases)
+    comparison.same('cases', 'cases of the run', found['runs'][0]['cases_done'], cases)
+    comparison.same('cases', 'seed of the run', found['runs'][0]['seed'], str(seed))
+
+
+def note_either_way(comparison, answers):
+    """How many enclosures leave open in which bin a ratio is, or whether it refutes a bound."""
+    for subject in answers.subjects:
+        tally = Tally.of(answers, subject, KINDS)
+        first, last = tally.bins
+        comparison.allow('distances that may be in either of two bins', int((first != last).sum()))
+        least, most = tally.refuted()
+        comparison.allow('distances that may or may not refute a bound', most - least)
+        comparison.allow('false positives in all', tally.false_positives)
+
+
+def recount(nearmiss, folder, cases, seed, subjects, families):
+    """Runs a campaign, asks the same again, and compares."""
+    comparison = Comparison()
+    report = nearmiss.report(folder, cases, seed, subjects, families)
+    counts = counts_of(report.json())
+    check_cases(comparison, report.json(), cases, counts, seed)
+    answers = ask(nearmiss, seed, counts, subjects)
+    units = Units(nearmiss, seed)
+    check_all(comparison, report, answers, units)
+    note_either_way(comparison, answers)
+    return comparison, report, answers, units
+
+
+def main():
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument('nearmiss', type=Path, help='the executable')
+    parser.add_argument(
+        '--cases', type=int, default=4000, help='queries in all (default: %(default)s)'
+    )
+    parser.add_argument(
+        '--seed', type=int, default=1, help='of the queries (default: %(default)s)'
+    )
+    parser.add_argument(
+        '--subject',
+        default='basic,wang,wang:float,wang:p144',
+        help='built-in ones, separated by commas',
+    )
+    parser.add_argument(
+        '--family', default='all', help='as in nearmiss fuzz (default: %(default)s)'
+    )
+    options = parser.parse_args()
+    try:
+        with tempfile.TemporaryDirectory(prefix='nearmiss-recount-') as folder:
+            comparison, *_ = recount(
+                Nearmiss(options.nearmiss.resolve()),
+                Path(folder),
+                options.cases,
+                options.seed,
+                options.subject.split(','),
+                options.family,
+            )
+    except (OSError, RuntimeError) as error:
+        print(f'recount: {error}', file=sys.stderr)
+        return 2
+    comparison.print()
+    return 1 if comparison.differences else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

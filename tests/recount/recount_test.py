@@ -1,0 +1,222 @@
+#!/usr/bin/python3
+"""A report is what its queries say, and recount notices whatever number of one is changed.
+
+Usage: recount_test.py NEARMISS"""
+
+import copy
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from asking import Nearmiss
+from changes import changed, found, leaves, pattern, put
+from check_counts import check_statistics
+from check_csv import check_distances_csv, check_findings_csv, check_statistics_csv, number
+from check_page import check_page
+from check_text import check_text
+from recount import check_report, recount
+
+# A baseline that misses, claims that hold at several precisions, one that asks others, and a claim
+# that is refuted.
+SUBJECTS = ['adaptive', 'basic', 'wang', 'wang:float', 'wang:p60', 'wang:p144', 'defect:D2*10']
+CASES, SEED = 2200, 7
+
+# What cannot be computed anew: times; what a run says of its machine; what only the oracle knows
+# of its work; how findings were shrunk. Headline and verdicts are text, with a test of their own;
+# the number of findings is compared with findings.csv.
+UNCHECKED = [
+    r'^findings_total$',
+    r'\btimes\b',
+    r'_ns$',
+    r'ns_per_query$',
+    r'\.time$',
+    r'\.time_over\b',
+    r'^runs',
+    r'^oracle.*\.(near_bounds|compared.*|missed_by_parity)$',
+    r'^findings.*\.(new|shrunk.*|again|.*file)$',
+    r'^farthest.*\.file$',
+    r'^oracle\.complaint$',
+    r'^(headline|verdicts)\b',
+]
+
+
+class Recount(unittest.TestCase):
+    """One campaign, which all tests look at."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix='nearmiss-recount-'))
+        cls.comparison, cls.report, cls.answers, cls.units = recount(
+            Nearmiss(EXECUTABLE), cls.folder, CASES, SEED, SUBJECTS, 'all'
+        )
+        cls.json = cls.report.json()
+        cls.names = {
+            *SUBJECTS,
+            'vt',
+            'ee',
+            *cls.answers.families('vt'),
+            *cls.answers.families('ee'),
+        }
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def finds(self, check, *arguments):
+        """Whether a check finds a difference."""
+        return found(lambda comparison: comparison.section(check, 'changed', *arguments))
+
+    def finds_in_report(self, path, value):
+        """Whether a difference is found where report.json has this value at the path."""
+        with put(self.json, path, value):
+            return found(
+                lambda comparison: check_report(comparison, self.json, self.answers, self.units)
+            )
+
+    def one_leaf_of_each_pattern(self, value):
+        """The largest one, since a change of a number hides least where there is most."""
+        chosen = {}
+        for path, leaf in leaves(value):
+            of = pattern(path, self.names)
+            if of not in chosen or isinstance(leaf, (int, float)) and leaf > chosen[of][1]:
+                chosen[of] = path, leaf
+        return {
+            of: each
+            for of, each in chosen.items()
+            if not any(re.search(name, of) for name in UNCHECKED)
+        }
+
+    def test_a_report_is_what_its_queries_say(self):
+        self.assertEqual(self.comparison.differences, [])
+        self.assertGreater(self.comparison.compared['fits'], 0)
+        self.assertGreater(self.comparison.compared['deciders'], 1)
+        self.assertGreater(self.comparison.compared['histogram bins'], 1000)
+        self.assertGreater(
+            self.json['error_against_time']['subjects']['defect:D2*10']['refuted_bounds'], 0
+        )
+        self.assertGreater(
+            self.json['error_against_time']['subjects']['basic']['false_negatives'], 0
+        )
+
+    def test_a_change_of_any_sort_of_value_in_report_json_is_found(self):
+        chosen = self.one_leaf_of_each_pattern(self.json)
+        self.assertGreater(len(chosen), 100)
+        for name, (path, leaf) in chosen.items():
+            with self.subTest(name, seed=SEED, path=path, value=leaf):
+                self.assertTrue(self.finds_in_report(path, changed(leaf)))
+
+    def test_a_change_in_the_json_of_fuzz_is_found(self):
+        path = ('subjects', 'wang', 'ee', 'families', 'parallel', 'false_positives')
+        with put(self.report.fuzz_json, path, 1000):
+            self.assertTrue(self.finds(check_statistics, self.report.fuzz_json, self.answers))
+
+    def test_a_change_in_any_column_of_a_csv_file_is_found(self):
+        for name, check, *more in (
+            ('statistics.csv', check_statistics_csv),
+            ('distances.csv', check_distances_csv),
+            ('findings.csv', check_findings_csv, self.json),
+        ):
+            for column in (self.report.folder / name).read_text().splitlines()[0].split(','):
+                if not re.search(r'_ns$|ns_per_query$|^shrunk$', column):
+                    with self.subTest(name, column=column):
+                        folder = self.copy_with_change(name, column)
+                        self.assertTrue(self.finds(check, folder, self.answers, *more))
+
+        with put(self.json, ('findings_total',), self.json['findings_total'] + 1):
+            check = check_findings_csv, self.report.folder, self.answers, self.json
+            self.assertTrue(self.finds(*check))
+
+    def copy_with_change(self, name, column):
+        """A copy of the CSV files with another value in one column of a row in the middle."""
+        folder = self.folder / 'copy'
+        folder.mkdir(exist_ok=True)
+        for file in self.report.folder.glob('*.csv'):
+            shutil.copy(file, folder)
+        lines = (folder / name).read_text().splitlines()
+        row = lines[len(lines) // 2].split(',')
+        i = lines[0].split(',').index(column)
+        value = number(row[i])
+        row[i] = f'{row[i]} 0x1p+0' if isinstance(value, str) else f'{value * 1.01 + 1:.17g}'
+        lines[len(lines) // 2] = ','.join(row)
+        (folder / name).write_text('\n'.join(lines) + '\n')
+        return folder
+
+    def test_a_change_in_the_data_of_the_page_is_found(self):
+        page = (self.report.folder / 'index.html').read_text(encoding='utf-8')
+        start = page.index('"false_positives":', page.index('id="report"')) + len(
+            '"false_positives":'
+        )
+        other = page[:start] + '1' + page[start:]
+        self.assertTrue(self.finds(check_page, other, self.json))
+        with put(self.json, ('histogram_borders', 3), 1.0):
+            self.assertTrue(self.finds(check_page, page, self.json))
+
+    def test_a_change_in_any_text_is_found(self):
+        for path, leaf in leaves({name: self.json[name] for name in ('headline', 'verdicts')}):
+            if path[-1] in ('text', 'clean', 'subject'):
+                with self.subTest(path=path), put(self.json, path, changed(leaf)):
+                    self.assertTrue(self.finds(check_text, self.report, self.json))
+        for name in ('fuzz_text', 'report_text'):
+            for line in self.checked_lines(getattr(self.report, name)):
+                with self.subTest(name, line=line):
+                    other = copy.copy(self.report)
+                    setattr(
+                        other,
+                        name,
+                        getattr(self.report, name).replace(line, self.with_other_digit(line)),
+                    )
+                    self.assertTrue(self.finds(check_text, other, self.json))
+
+    @staticmethod
+    def checked_lines(text):
+        """Verdicts, tables, the oracle's line and fits."""
+        return [
+            line
+            for line in text.splitlines()
+            if re.match(r'(FAIL| ok ) |oracle: |[a-z]\S* +(vt|ee|2\^)| *wang.* goes as ', line)
+        ]
+
+    @staticmethod
+    def with_other_digit(line):
+        """The last digit of the last number before a time is changed."""
+        end = line.rindex('  ') if re.search(r' (vt|ee|2\^\S+) ', line) else len(line)
+        i = max(i for i in range(end) if line[i].isdigit())
+        return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'
+
+    def test_a_wrong_report_exits_with_one(self):
+        liar = self.folder / 'liar'
+        liar.write_text(
+            f'#!/bin/sh\n"{EXECUTABLE}" "$@" || exit\nif [ "$1" = report ]; then\n'
+            '  sed -i "3s/,1,/,2,/; 3s/,0,/,1,/" "$4/statistics.csv"\nfi\n'
+        )
+        liar.chmod(0o755)
+        for executable, code in ((EXECUTABLE, 0), (liar, 1)):
+            done = subprocess.run(
+                [
+                    sys.executable,
+                    Path(__file__).with_name('recount.py'),
+                    executable,
+                    '--cases',
+                    '200',
+                    '--family',
+                    'uniform,parallel',
+                    '--subject',
+                    'wang',
+                ],
+                stdout=subprocess.PIPE,
+                text=True,
+                check=False,
+            )
+            self.assertEqual(done.returncode, code, done.stdout)
+            self.assertEqual(
+                'DIFFERENCE CSV: statistics.csv' in done.stdout, code == 1, done.stdout
+            )
+
+
+if __name__ == '__main__':
+    EXECUTABLE = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

@@ -1,0 +1,62 @@
+"""What the names of subjects say, and the distance bounds that they claim, in units of B."""
+
+import math
+
+import numpy as np
+
+ALGORITHMS = ('wang', 'wang-tight')  # of the ladder of precisions
+EPSILONS = {'': -52, 'double': -52, 'float': -23, 'longdouble': -63, 'dd': -102, 'quad': -112}
+AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-eps', 'wang-plain')
+
+
+def exponent(scalar):
+    """Of the machine epsilon, a power of two; None for what is no scalar."""
+    if scalar.startswith('p') and scalar[1:].isdigit():
+        return 1 - int(scalar[1:])
+    return EPSILONS.get(scalar)
+
+
+def place(subject):
+    """Algorithm, scalar and exponent of epsilon; one over no scalar is an algorithm of its own."""
+    algorithm, _, scalar = subject.partition(':')
+    if exponent(scalar) is None:
+        return subject, 'double', EPSILONS['double']
+    return algorithm, scalar or 'double', exponent(scalar)
+
+
+def paper_bound(epsilon):
+    """The paper's largest distance of a false positive, in units of B.
+
+    sqrt(D^2 + 2 delta) with D^2 = 1678 eps^(1/2) and delta = 311 eps (sections 4.2 and 4.5)."""
+    return math.sqrt(1678 * math.sqrt(epsilon) + 2 * 311 * epsilon)
+
+
+class Units:
+    """Distance bounds of subjects in units of B."""
+
+    def __init__(self, nearmiss, seed):
+        self._nearmiss, self._seed, self._known = nearmiss, seed, {}
+
+    def claimed(self, subject):
+        """The bound that a subject claims; None where nothing is claimed in proportion to B.
+
+        That is its quotient by the bound that wang claims of the same queries, times wang's."""
+        if subject not in self._known:
+            self._known[subject] = self._measured(subject)
+        return self._known[subject]
+
+    def of_distances(self, subject):
+        """In which its distance / bound is given: the claimed bound, or for basic that of wang."""
+        algorithm, _, _ = place(subject)
+        if algorithm in ('basic', 'basic-plain'):
+            return paper_bound(2.0 ** EPSILONS['double'])
+        return self.claimed(subject) if algorithm in AS_WANG + ALGORITHMS else None
+
+    def _measured(self, subject):
+        queries = self._nearmiss.family('uniform', self._seed, 'vt', 200)
+        own = self._nearmiss.verdicts('vt', queries, subject)
+        wangs = self._nearmiss.verdicts('vt', own.rounded, 'wang')
+        quotients = own.bound / wangs.bound
+        if not own.claims or np.ptp(quotients) > 1e-12 * quotients[0]:
+            return None
+        return float(quotients[0]) * paper_bound(2.0 ** EPSILONS['double'])

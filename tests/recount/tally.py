@@ -1,0 +1,150 @@
+"""Counters, histograms and intervals, computed anew from single answers."""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import betaincinv
+
+# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One bin lies below them,
+# and one above.
+BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
+BINS = len(BORDERS) + 1
+FARTHEST = 5  # so many of the farthest false positives are kept
+PRECISION = 1.01e-3  # by which a largest ratio may be above the true one, relative to it
+LARGEST = np.finfo(float).max
+
+
+@dataclass
+class Tally:
+    """Counters of one subject over some queries, and distance / bound of its false positives."""
+
+    subject: str
+    queries: int
+    collisions: int
+    positives: int
+    false_negatives: int
+    false_positives: int
+    claims: bool
+    true_by_stage: dict
+    false_by_stage: dict
+    ratio_lo: np.ndarray  # an enclosure for each false positive
+    ratio_hi: np.ndarray
+
+    @classmethod
+    def of(cls, answers, subject, kinds, family=None):
+        """Over the queries of these kinds; of all families where none is named. Computed once."""
+        key = subject, tuple(kinds), family
+        if key not in answers.tallies:
+            answers.tallies[key] = cls._of(answers, *key)
+        return answers.tallies[key]
+
+    @classmethod
+    def _of(cls, answers, subject, kinds, family):
+        parts = [_part(answers, subject, kind, family) for kind in kinds]
+        hit, collision, stage, lo, hi = (np.concatenate(column) for column in zip(*parts))
+        false = hit & ~collision
+        return cls(
+            subject,
+            len(hit),
+            int(collision.sum()),
+            int(hit.sum()),
+            int((collision & ~hit).sum()),
+            int(false.sum()),
+            answers.asked[subject, kinds[0]].claims,
+            _by_name(stage[hit & collision]),
+            _by_name(stage[false]),
+            lo[false],
+            hi[false],
+        )
+
+    @functools.cached_property
+    def bins(self):
+        """The histogram's bin of each false positive by its ratio's lower end, and the upper."""
+        return [
+            np.searchsorted(BORDERS, ratio, side='right')
+            for ratio in (self.ratio_lo, self.ratio_hi)
+        ]
+
+    @functools.cached_property
+    def histogram(self):
+        """How many are certainly in each bin, and how many may be."""
+        first, last = self.bins
+        least = np.bincount(first[first == last], minlength=BINS)
+        most = least.copy()
+        for lowest, highest in zip(first[first != last], last[first != last]):
+            most[lowest : highest + 1] += 1
+        return least, most
+
+    def refuted(self):
+        """The least and the largest number of refuted bounds that the enclosures allow."""
+        if not self.claims:
+            return 0, 0
+        return int((self.ratio_lo > 1).sum()), int((self.ratio_hi > 1).sum())
+
+    def farthest(self):
+        """Enclosures of the largest ratios, largest first."""
+        lo, hi = (np.sort(ratio)[::-1][:FARTHEST] for ratio in (self.ratio_lo, self.ratio_hi))
+        return [reported(*ends) for ends in zip(lo, hi)]
+
+    def quantile_bins(self, part):
+        """The first and the last bin that may hold the ratio which a part of all does not exceed.
+
+        None where there is no false positive."""
+        if self.false_positives == 0:
+            return None
+        place = max(int(np.ceil(part * self.false_positives)), 1) - 1
+        return tuple(int(np.sort(bins)[place]) for bins in self.bins)
+
+
+def _part(answers, subject, kind, family):
+    asked = answers.asked[subject, kind]
+    own = slice(None) if family is None else answers.family[kind] == family
+    return [
+        each[own]
+        for each in (asked.hit, asked.collision, asked.stage, asked.ratio_lo, asked.ratio_hi)
+    ]
+
+
+def _by_name(stages):
+    return {str(name): int(count) for name, count in zip(*np.unique(stages, return_counts=True))}
+
+
+def reported(lo, hi):
+    """What may stand in a report for a ratio from lo to hi, since reports tell it from above.
+
+    Infinity is the largest double; what is below all borders is only known to be there."""
+    most = BORDERS[0] if lo < BORDERS[0] else 0
+    return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)
+
+
+def stages(subject, counts):
+    """Counts by the accepting stage that do not depend on which queries are decided side by side.
+
+    The subject exact decides many at once, and its filter then leaves other ones undecided."""
+    if subject != 'exact':
+        return counts
+    others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}
+    return {**others, 'filter or exact': sum(counts.values()) - sum(others.values())}
+
+
+def denominators(tally):
+    """What false negatives and false positives are counted among."""
+    return tally.collisions, tally.queries - tally.collisions
+
+
+def rate(count, total):
+    """0 where there is nothing to count among."""
+    return count / total if total else 0.0
+
+
+@functools.cache
+def upper_bound(count, total, risk=0.05):
+    """Clopper and Pearson's upper bound of a rate, wrong with probability `risk` at most."""
+    return 1.0 if count >= total else float(betaincinv(count + 1, total - count, 1 - risk))
+
+
+def interval(count, total, risk=0.05):
+    """Clopper and Pearson's interval of a rate, with half of the risk at each end."""
+    lower = 0.0 if count == 0 else float(betaincinv(count, total - count + 1, risk / 2))
+    return lower, upper_bound(count, total, risk / 2)

@@ -1,0 +1,71 @@
+// The commands that print queries, and what subjects are judged by, from outside.
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using testing::CommandLine;
+using ::testing::MatchesRegex;
+
+TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
+  write("q.vt", hit + miss);
+  const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
+  EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
+  // basic claims none and is measured by wang's.
+  std::string expected = wangs;
+  for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
+    expected.replace(at, 7, "wang");
+  EXPECT_EQ(run("verdict --kind vt --subject basic --distance-bound q.vt").out, expected);
+}
+
+TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
+  const std::string fine = "0x1.0000001p+0 0x1p+0 0x1p+1";
+  const std::string triangle = " 0x0p+0 0x0p+0 0x0p+0 0x1p+0 0x0p+0 0x0p+0 0x0p+0 0x1p+0 0x0p+0";
+  const std::string end = " 0x1p+0 0x1p+0 0x1p+0" + triangle + "\n";
+  write("q.vt", fine + triangle + end);
+  EXPECT_EQ(run("verdict --kind vt --subject wang --rounded q.vt").out, "0 " + fine + triangle + end);
+  EXPECT_EQ(run("verdict --kind vt --subject wang:float --rounded q.vt").out,
+            "0 0x1p+0 0x1p+0 0x1p+1" + triangle + end);
+}
+
+TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
+  // Numbers 2 to 6 of the family: three are even, two odd.
+  const auto lines = [&](const std::string& options) {
+    const Answer answer = run("family parallel --seed 5 " + options);
+    EXPECT_EQ(answer.code, 0) << answer.error;
+    return answer.out;
+  };
+  const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  EXPECT_EQ(count(lines("--kind vt --first 2 --count 5")), 3);
+  EXPECT_EQ(count(lines("--kind ee --first 2 --count 5")), 2);
+  EXPECT_EQ(lines("--kind ee --count 8"),
+            lines("--kind ee --count 4") + lines("--kind ee --first 4 --count 4"));
+  EXPECT_EQ(lines("--kind ee --count 1"), "");
+  // They are those of a campaign, and give its counts.
+  EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
+  write("q.ee", lines("--kind ee --count 1000"));
+  EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);
+  const json campaign = read_json("fuzz.json")["subjects"]["wang"]["ee"];
+  const json replay = read_json("replay.json")["subjects"]["wang"]["ee"];
+  for (const char* each : {"queries", "collisions", "positives", "false_positives"})
+    EXPECT_EQ(replay[each], campaign[each]) << each;
+  ASSERT_FALSE(campaign["farthest"].empty());
+  EXPECT_EQ(replay["farthest"][0]["query"], campaign["farthest"][0]["query"]);
+}
+
+TEST_F(CommandLine, FamilyRefusesWhatItDoesNotKnow) {
+  expect_refused("family uniforms --kind vt --count 1", {"unknown family 'uniforms'", "uniform-end"});
+  expect_refused("family all --kind vt --count 1", {"unknown family 'all'"});
+  expect_refused("family needle@5 --kind vt --count 1", {"'needle@5'", "from -16 to 0"});
+  expect_refused("family uniform --count 1", {"--kind is required"});
+  expect_refused("family uniform --kind vf --count 1", {"--kind", "vf"});
+  expect_refused("family uniform --kind vt", {"--count is required"});
+  expect_refused("family uniform --kind vt --count 0", {"--count"});
+  expect_refused("family uniform --kind vt --count 1 --first=-1", {"--first"});
+  expect_refused("family uniform --kind vt --count 1 --seed x", {"--seed"});
+  expect_refused("family --kind vt --count 1", {"NAME is required"});
+}
+
+}  // namespace
+}  // namespace nearmiss

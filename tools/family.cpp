@@ -1,0 +1,63 @@
+// nearmiss family: the queries of a family, as text.
+#include "fuzz/families/families.hpp"
+
+#include <fmt/format.h>
+
+#include "corpus/query_text.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::string name, kind;
+  std::uint64_t seed = 1;
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
+/// Prints those of queries first .. first + count - 1 that are of the kind, in order.
+void run(const Options& options) {
+  const Family family = find_family(options.name);
+  const Kind kind = parse_kind(options.kind, "--kind");
+  for (std::uint64_t i = 0; i < options.count; ++i) {
+    const std::uint64_t index = options.first + i;
+    if (kind_of(index) == kind) fmt::print("{}\n", to_line(make_query(family, options.seed, index)));
+  }
+}
+
+}  // namespace
+
+void add_family(CLI::App& app, int& /*exit_code*/) {
+  constexpr std::uint64_t most = std::uint64_t{1}
+                                 << 62;  // of first and count, so that their sum does not overflow
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "family", "Print queries of a family of random queries: a line each, for nearmiss oracle and verdict");
+  command
+      ->add_option("NAME", options->name, "The family, as nearmiss fuzz --help lists it; NAME@VALUE likewise")
+      ->required();
+  command
+      ->add_option(
+          "--kind", options->kind,
+          "Print the queries of this kind: those with an even number are vt, those with an odd one ee")
+      ->required()
+      ->check(CLI::IsMember({"vt", "ee"}));
+  add_seed_option(*command, options->seed);
+  command->add_option("--count", options->count, "How many numbers; about half of them are of each kind")
+      ->required()
+      ->check(CLI::Range(std::uint64_t{1}, most))
+      ->type_name("N");
+  command->add_option("--first", options->first, "The first number; a campaign begins with 0")
+      ->check(CLI::Range(std::uint64_t{0}, most))
+      ->capture_default_str()
+      ->type_name("I");
+  command->footer(
+      "\nThe provenance NAME:S:I in a report is query I of family NAME with seed S.\n"
+      "Example: nearmiss family uniform --kind vt --count 1000 | nearmiss oracle --kind vt");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nearmiss::tools
