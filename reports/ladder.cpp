@@ -33,6 +33,9 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
+/// What is nearer than all borders of the histogram is known from above only.
+bool is_measured(const Rung& rung) { return rung.counts.max_ratio() >= Histogram::border(1); }
+
 bool is_ladder(const std::vector<Rung>& all) {
   std::map<std::string, std::set<int>> exponents;
   for (const Rung& rung : all) exponents[rung.algorithm].insert(rung.epsilon_exponent);
@@ -92,7 +95,7 @@ std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algori
   line.algorithm = algorithm;
   line.least_part = std::numeric_limits<double>::infinity();
   for (const Rung& rung : rungs)
-    if (rung.algorithm == algorithm && rung.farthest > 0 && rung.epsilon_exponent <= coarsest &&
+    if (rung.algorithm == algorithm && is_measured(rung) && rung.epsilon_exponent <= coarsest &&
         rung.epsilon_exponent >= finest) {
       points.emplace_back(rung.epsilon_exponent, std::log2(rung.farthest));
       precisions.insert(rung.epsilon_exponent);
@@ -188,7 +191,8 @@ std::string ladder_table(const Statistics& statistics) {
                     fmt::format("{:.3g}", rung.claimed),
                     fmt::format("{:.0f}", rung.counts.times.ns_per_query())});
   std::string text = "\n" + columns(rows, 1);
-  for (const Fit& line : fits(statistics)) text += describe(line) + "\n";
+  for (const Fit& line : fits(statistics))
+    if (line.origin.empty()) text += describe(line) + "\n";
   return text;
 }
 

@@ -48,8 +48,8 @@ struct Fit {
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
-/// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive; nothing for fewer
-/// than three ε.
+/// Over the rungs of an algorithm with ε from 2^-127 to 2^-23 that have a false positive, and not all nearer than the
+/// histogram's lowest border; nothing for fewer than three ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
 
 /// For each algorithm that over all, and those over each origin.
@@ -61,7 +61,7 @@ std::string describe(const Fit& line);
 /// "rungs" and "fits"; nothing where fewer than two precisions of an algorithm are there.
 std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics);
 
-/// A row for each rung, and the fits; "" likewise.
+/// A row for each rung, and the fits over all; "" likewise.
 std::string ladder_table(const Statistics& statistics);
 
 }  // namespace nearmiss

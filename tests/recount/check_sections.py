@@ -130,13 +130,18 @@ def check_ladder(comparison, where, report, answers, units):
     comparison.same(
         'names',
         f'{where} fits',
-        [(fit['algorithm'], fit['origin'], fit['precisions']) for fit in found['fits']],
-        [(fit['algorithm'], fit['origin'], fit['precisions']) for fit in expected],
+        [(fit['algorithm'], fit['origin']) for fit in found['fits']],
+        [(fit['algorithm'], fit['origin']) for fit in expected],
     )
     for fit, line in zip(found['fits'], expected):
+        own = f'{where} {fit["algorithm"]} {fit["origin"]}'
+        for name in ('points', 'precisions', 'restates_the_bound'):
+            comparison.same('fits', f'{own} {name}', fit[name], line[name])
         for name in ('exponent', 'standard_error'):
-            own = f'{where} {fit["algorithm"]} {fit["origin"]} {name}'
-            comparison.within('fits', own, fit[name], line[name] - SOLVED, line[name] + SOLVED)
+            least, most = line[name] - SOLVED, line[name] + SOLVED
+            comparison.within('fits', f'{own} {name}', fit[name], least, most)
+        for name in ('half_width_95', 'least_part_of_claimed', 'greatest_part_of_claimed'):
+            comparison.near('fits', f'{own} {name}', fit[name], line[name], SOLVED)
 
 
 def fits(report):
@@ -156,24 +161,31 @@ def fits(report):
     for algorithm in ALGORITHMS:
         for origin in ['', *families]:
             points = _points(report, algorithm, origin)
-            precisions = len({x for x, _ in points})
+            precisions = len({x for x, _, _ in points})
             if precisions < 3:
                 continue
-            line = stats.linregress(*np.array(points).T)
+            x, y, part = np.array(points).T
+            line = stats.linregress(x, y)
             lines.append(
                 {
                     'algorithm': algorithm,
                     'origin': origin,
+                    'points': len(points),
                     'precisions': precisions,
                     'exponent': line.slope,
                     'standard_error': line.stderr,
+                    'half_width_95': line.stderr * stats.t.ppf(0.975, len(points) - 2),
+                    'least_part_of_claimed': part.min(),
+                    'greatest_part_of_claimed': part.max(),
+                    'restates_the_bound': bool(part.min() > 0.9),
                 }
             )
     return lines
 
 
 def _points(report, algorithm, origin):
-    """Exponents of epsilon, and logarithms to base 2 of the farthest distances in units of B."""
+    """Exponents of epsilon, logarithms to base 2 of the farthest distances in units of B, and their
+    parts of the claimed ones."""
     points = []
     for rung in report['ladder']['rungs']:
         own = report['subjects'][rung['subject']]
@@ -182,10 +194,11 @@ def _points(report, algorithm, origin):
             for kind in KINDS
             if not origin or origin in own[kind]['families']
         ]
-        farthest = rung['claimed'] * max(part['max_fp_distance_over_bound'] for part in parts)
+        part = max(part['max_fp_distance_over_bound'] for part in parts)
+        farthest = rung['claimed'] * part
         power = exponent('' if rung['scalar'] == 'double' else rung['scalar'])
-        if rung['algorithm'] == algorithm and FINEST <= power <= COARSEST and farthest > 0:
-            points.append((power, math.log2(farthest)))
+        if rung['algorithm'] == algorithm and FINEST <= power <= COARSEST and part >= BORDERS[0]:
+            points.append((power, math.log2(farthest), part))
     return points
 
 

@@ -68,12 +68,14 @@ def check_text(comparison, section, report, json_report):
             ['subject', 'epsilon'],
             ladder(json_report['ladder']),
         )
-        lines = [line for line in report.fuzz_text.splitlines() if ' goes as epsilon^' in line]
+        lines = [
+            line for line in report.fuzz_text.splitlines() if ' of the claimed distance' in line
+        ]
         comparison.same(
             'text',
             'nearmiss fuzz fits',
             lines,
-            [fit(each) for each in json_report['ladder']['fits']],
+            [fit(each) for each in json_report['ladder']['fits'] if not each['origin']],
         )
 
 
@@ -183,10 +185,14 @@ def json_exponent(power_of_two):
 
 def fit(found):
     """The line of a fit."""
-    of = ', '.join(filter(None, (found['algorithm'], found['origin'])))
-    power = f'({found["exponent"]:.4f} +- {found["standard_error"]:.4f})'
-    precisions = f'from {found["precisions"]} precisions'
-    return f'{of}: the farthest distance goes as epsilon^{power}, {precisions}'
+    of = found['algorithm']
+    subjects = f'{found["points"]} subjects with {found["precisions"]} precisions'
+    ends = [fraction(found[f'{end}_part_of_claimed']) for end in ('least', 'greatest')]
+    parts = f'{" to ".join(ends)} of the claimed distance'
+    if found['restates_the_bound']:
+        return f'{of}: the farthest are at {parts} for {subjects}'
+    power = f'({found["exponent"]:.4f} +- {found["half_width_95"]:.2g}, 95 %)'
+    return f'{of}: the farthest distance goes as epsilon^{power}, from {subjects}; at {parts}'
 
 
 def oracle_line(total):

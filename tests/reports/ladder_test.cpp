@@ -92,6 +92,15 @@ TEST(Ladder, TheIntervalIsStudents) {
             "0.125 to 1 of the claimed distance");
 }
 
+TEST(Ladder, WhatIsKnownFromAboveOnlyIsInNoFit) {
+  const auto with = [](double part) {
+    return fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p80", part}})),
+               "wang");
+  };
+  EXPECT_EQ(with(1e-16)->points, 4);
+  EXPECT_EQ(with(0.9e-16)->points, 3);
+}
+
 TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   Statistics statistics = farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}});
   const auto families = statistics.counts;
