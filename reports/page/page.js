@@ -54,10 +54,10 @@ function drawBaseline() {
       `(about ${short(Math.round(baseline.expected_unseen))} were to be expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
   for (const way of ways(baseline.gone_signatures)) say(`Not seen any more: ${way}.`);
   say(baseline.changed_rates.length === 0
-    ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (Fisher's exact test, ` +
+    ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (exact tests, ` +
       `level ${baseline.level} for all together).`
     : `${worse} of ${integer(baseline.compared_rates)} rates are worse and ${baseline.changed_rates.length - worse} better than chance ` +
-      `explains (Fisher's exact test, level ${baseline.level} for all together).`, worse > 0);
+      `explains (exact tests, level ${baseline.level} for all together).`, worse > 0);
   const rate = (title, when) => ({ title, number: (r) => r[when].rate,
     text: (r) => `${percent(r[when].rate)} (${percentRange(r[when].interval_95)}), ${integer(r[when].count)} of ${integer(r[when].total)}` });
   if (baseline.changed_rates.length > 0)
