@@ -23,6 +23,7 @@ using nlohmann::ordered_json;
 std::vector<std::pair<std::string_view, Share>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
+          {"false positives beyond the bound", {counts.distances.at_least_one(), counts.others()}},
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  std::string_view what;  ///< "false negatives", "false positives" or "no answer"
+  std::string_view what;  ///< "false negatives", "false positives", those beyond the bound, or "no answer"
   std::string subject, kind, family;
   Share before, now;
   double p = 1;  ///< of an exact test: how likely such a difference is if the rates are the same

@@ -38,6 +38,10 @@ void Histogram::merge(const Histogram& other) {
   for (std::size_t i = 0; i < bin_count; ++i) bins[i] += other.bins[i];
 }
 
+std::uint64_t Histogram::at_least_one() const {
+  return std::accumulate(bins.begin() + static_cast<std::ptrdiff_t>(bin_of(1)), bins.end(), std::uint64_t{0});
+}
+
 Bin Histogram::quantile(double part) const {
   const auto i = quantile_bin(bins, part);
   return i ? Bin{border(*i), border(*i + 1)} : Bin{};

@@ -44,6 +44,8 @@ struct Histogram {
   static double border(std::size_t i);
   /// That of the bin of a ratio.
   static double lower_border(double ratio);
+  /// How many ratios are not below 1, which is a border.
+  [[nodiscard]] std::uint64_t at_least_one() const;
   /// The bin of the ratio that a part of all, in (0, 1], does not exceed; (0, 0) where there is none.
   [[nodiscard]] Bin quantile(double part) const;
 
