@@ -1,26 +1,24 @@
 // Quantiles of what is counted in bins.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <optional>
+#include <functional>
+#include <iterator>
 
 namespace nearmiss {
 
-/// The place of the first bin up to which a part of everything is counted; nothing if nothing is counted.
-template <class Counts>
-std::optional<std::size_t> quantile_bin(const Counts& counts, double part) {
-  const double wanted =
-      part * static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+/// The first bin up to which a part of everything is counted; the end if nothing is counted. `count_of` says what is
+/// counted in a bin.
+template <class Bins, class CountOf = std::identity>
+auto quantile_bin(const Bins& bins, double part, const CountOf& count_of = {}) {
+  double all = 0;
+  for (const auto& bin : bins) all += static_cast<double>(count_of(bin));
   double sum = 0;
-  std::size_t i = 0;
-  for (const std::uint64_t count : counts) {
-    sum += static_cast<double>(count);
-    if (sum > 0 && sum >= wanted) return i;
-    ++i;
+  for (auto bin = std::begin(bins); bin != std::end(bins); ++bin) {
+    sum += static_cast<double>(count_of(*bin));
+    if (sum > 0 && sum >= part * all) return bin;
   }
-  return std::nullopt;
+  return std::end(bins);
 }
 
 }  // namespace nearmiss

@@ -43,8 +43,10 @@ std::uint64_t Histogram::at_least_one() const {
 }
 
 Bin Histogram::quantile(double part) const {
-  const auto i = quantile_bin(bins, part);
-  return i ? Bin{border(*i), border(*i + 1)} : Bin{};
+  const auto bin = quantile_bin(bins, part);
+  if (bin == bins.end()) return {};
+  const auto i = static_cast<std::size_t>(bin - bins.begin());
+  return {border(i), border(i + 1)};
 }
 
 namespace {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numeric>
-#include <ranges>
 
 #include "reports/quantile.hpp"
 
@@ -33,13 +31,13 @@ void BatchTimes::merge(const BatchTimes& other) {
 }
 
 std::uint64_t BatchTimes::queries() const {
-  const auto counts = std::views::values(bins_);
-  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  return std::accumulate(bins_.begin(), bins_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& bin) { return sum + bin.second; });
 }
 
 double BatchTimes::median() const {
-  const auto i = static_cast<std::ptrdiff_t>(quantile_bin(std::views::values(bins_), 0.5).value());
-  return static_cast<double>(std::next(bins_.begin(), i)->first) / 1000;
+  return static_cast<double>(quantile_bin(bins_, 0.5, [](const auto& bin) { return bin.second; })->first) /
+         1000;
 }
 
 void TimeHistogram::add(std::uint64_t nanoseconds) {
@@ -56,8 +54,9 @@ std::uint64_t TimeHistogram::total() const {
 }
 
 double TimeHistogram::quantile(double part) const {
-  const auto i = quantile_bin(bins, part);
-  return i ? std::exp2(static_cast<double>(*i + 1) / per_octave) : std::numeric_limits<double>::quiet_NaN();
+  const auto bin = quantile_bin(bins, part);
+  if (bin == bins.end()) return std::numeric_limits<double>::quiet_NaN();
+  return std::exp2(static_cast<double>(bin - bins.begin() + 1) / per_octave);
 }
 
 namespace {
