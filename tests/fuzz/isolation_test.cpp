@@ -56,6 +56,21 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   }
 }
 
+// It sleeps so long at least, so this does not depend on speed.
+TEST(Isolation, WaitingForADeviceCounts) {
+  const auto queries = some_queries(20);
+  std::vector<Verdict> verdicts(queries.size());
+  for (const bool isolated : {false, true}) {
+    const auto subject = isolated ? make_isolated_plugin(plugin("waits")) : make_subject(plugin("waits"));
+    const BatchTime time = subject->decide_timed(queries, verdicts);
+    EXPECT_EQ(time.queries, 20);
+    EXPECT_GE(time.nanoseconds, 20 * 90'000);
+    std::vector<std::optional<std::uint64_t>> times(queries.size());
+    subject->time_each(queries, times);
+    for (const auto& each : times) EXPECT_GE(each, 90'000);
+  }
+}
+
 struct Misbehaviour {
   std::string plugin, signature;
   Fault fault;
