@@ -109,11 +109,13 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_TRUE(found.for_the_worse());
-  EXPECT_NEAR(found.rates[0].p, 2 * std::pow(0.5, 30), 1e-15);
+  EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);  // three numbers of few are tried
   EXPECT_EQ(
       describe(found),
       "worse: false negatives of basic vt, ee in families with at most 5, 0 of 300,000 before, 30 of 300,000 "
       "now\n");
+  EXPECT_THAT(describe(changes(with(12, 500), with(6, 500))),
+              HasSubstr("in families with at most 20, 180 of"));
   EXPECT_THAT(changes(with(1, 500), with(1, 500)).rates, IsEmpty());
   EXPECT_THAT(changes(with(0, 510), with(0, 500)).rates, IsEmpty());
 }
