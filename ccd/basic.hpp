@@ -12,13 +12,14 @@ namespace nearmiss {
 /// guaranteed: a root that rounding hides, or a weight that it moves outside, is a miss.
 template <Kind kind, class T, bool plane_culling>
 Verdict basic(const Query& query) {
-  if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Miss::planes);
+  if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
   Pair<kind, T> pair;  // without a bound B, and so without normalisation
   form_vectors(query, pair);
   const auto roots = solve_cubic(coplanarity(pair), T(0));
   for (const T& t : roots)
-    if (Figure<kind, T>(pair, t).inside()) return Verdict::accepted(Stage::proximity, static_cast<double>(t));
-  return Verdict::rejected(roots.count == 0 ? Miss::no_root : Miss::tests);
+    if (Configuration<kind, T>(pair, t).inside())
+      return Verdict::accepted(Stage::proximity, static_cast<double>(t));
+  return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::tests);
 }
 
 }  // namespace nearmiss

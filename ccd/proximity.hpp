@@ -10,19 +10,19 @@
 
 namespace nearmiss {
 
-/// The figure of a pair at one time: p, q, r of `Pair`, the normal N = q × r and the barycentric weights.
+/// The configuration of a pair at one time: p, q, r of `Pair`, the normal N = q × r and the barycentric weights.
 ///
 /// vertex-triangle: weights of x3, x2 and their sum (1 minus that of x1), each times N·N; x01 = β x31 + α x21
 /// gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: α on x0x1 and β on x2x3 from
 /// x20 = α x10 - β x32: N·(x20 × x32) = α N·N, N·(x20 × x10) = β N·N.
 template <Kind kind, class T>
-struct Figure {
+struct Configuration {
   Vector3<T> p, q, r, N;
   T NN;
   static constexpr int weight_count = kind == Kind::vertex_triangle ? 3 : 2;
   std::array<T, weight_count> weights;
 
-  Figure(const Pair<kind, T>& pair, T t)
+  Configuration(const Pair<kind, T>& pair, T t)
       : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(N.dot(N)) {
     if constexpr (kind == Kind::vertex_triangle) {
       weights[0] = N.dot(q.cross(p));

@@ -13,7 +13,7 @@ namespace nearmiss {
 enum class Step : std::uint8_t {
   // plane_culling.hpp
   both_ends,       ///< a plane must separate at t = 1 too
-  touching_meets,  ///< touching figures are not separate
+  touching_meets,  ///< touching primitives are not separate
   // motion.hpp
   velocity_in_bound,  ///< B = E + W; without: E
   normalisation,      ///< powers of two against over- and underflow

@@ -37,8 +37,8 @@ inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none",    "proximity", "ve-end", "ve-minimum", "ve-equal",
     "ve-zero", "vv",        "filter", "exact",      "unspecified"};
 
-/// What told that a pair does not collide.
-enum class Miss : std::uint8_t {
+/// Why a pair was not reported.
+enum class Rejection : std::uint8_t {
   untold,   ///< a collision was reported, or the subject does not tell
   planes,   ///< plane culling
   apart,    ///< vectors that no colliding pair has (§4.1)
@@ -50,10 +50,10 @@ enum class Miss : std::uint8_t {
   exact,    ///< exact arithmetic
 };
 
-inline constexpr std::size_t miss_count = 9;
+inline constexpr std::size_t rejection_count = 9;
 
 /// Names of these, in order, as they stand in files and reports.
-inline constexpr std::array<std::string_view, miss_count> miss_names{
+inline constexpr std::array<std::string_view, rejection_count> rejection_names{
     "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
 /// Why a subject gave no answer.
@@ -77,11 +77,11 @@ struct Verdict {
   Stage stage = Stage::none;
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] where hit; NaN where not known
   Fault fault = Fault::none;                               ///< otherwise there is no answer
-  Miss miss = Miss::untold;
+  Rejection rejection = Rejection::untold;
   std::int32_t fault_code = 0;  ///< what an error returned; of a crash the signal, or the exit code negated
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
-  static Verdict rejected(Miss miss) { return {.miss = miss}; }
+  static Verdict rejected(Rejection rejection) { return {.rejection = rejection}; }
 };
 
 /// How long some answers took, in the thread that decides, or in the process if the subject has one of its own: less

@@ -63,10 +63,11 @@ bool brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
 /// their relative velocity has components within W (the velocity of a point of a primitive is a convex
 /// combination of its vertices'). A weight is linear in p, so moving p by δ moves it by at most ‖N‖‖edge‖ δ;
 /// a weight farther than that (and the rounding error) outside [0, N·N] proves that nothing touches at t0.
-/// The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the figure's own lengths (‖·‖₁ >= ‖·‖₂).
+/// The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the configuration's own lengths (‖·‖₁ >= ‖·‖₂).
 template <VeCulling culling, Kind kind, class T, class Steps = AllSteps>
-bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figure<kind, T>& figure, T t,
-                        const Tolerances<T>& tol, const Steps& steps = {}) {
+bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
+                        const Configuration<kind, T>& configuration, T t, const Tolerances<T>& tol,
+                        const Steps& steps = {}) {
   using std::abs;
   using std::sqrt;
   const T B = pair.B;
@@ -93,13 +94,13 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F, const Figu
       h *= 2;
     }
     if (h > 1) return false;
-    const T edges = figure.q.template lpNorm<1>() + figure.r.template lpNorm<1>();
+    const T edges = configuration.q.template lpNorm<1>() + configuration.r.template lpNorm<1>();
     const T root3 = T(1.7320508075688775);
-    spread = figure.N.template lpNorm<1>() * edges * root3 * pair.W * h;
+    spread = configuration.N.template lpNorm<1>() * edges * root3 * pair.W * h;
   }
   const T slack = (steps.does(Step::culling_spread) ? spread : 0) + rounding;
-  return std::any_of(figure.weights.begin(), figure.weights.end(),
-                     [&](T w) { return w < -slack || w > figure.NN + slack; });
+  return std::any_of(configuration.weights.begin(), configuration.weights.end(),
+                     [&](T w) { return w < -slack || w > configuration.NN + slack; });
 }
 
 }  // namespace nearmiss

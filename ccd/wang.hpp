@@ -38,7 +38,7 @@ inline constexpr auto ve_tests = [] {
 template <Kind kind, class T, class Steps>
 [[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const Order& order,
                                             const Tolerances<T>& tol, const Steps& steps) {
-  if (!steps.does(Step::vertex_edge)) return Verdict::rejected(Miss::tests);
+  if (!steps.does(Step::vertex_edge)) return Verdict::rejected(Rejection::tests);
   for (const auto& test : ve_tests<kind>) {
     if (&test == &ve_tests<kind>.back() && !steps.does(Step::last_edge)) break;
     const int vertex = order[static_cast<std::size_t>(test[0])];
@@ -49,7 +49,7 @@ template <Kind kind, class T, class Steps>
                            relative_motion<T>(query, vertex, j, frame)};
     if (const Verdict verdict = vertex_edge(ve, tol, steps); verdict.hit) return verdict;
   }
-  return Verdict::rejected(Miss::tests);
+  return Verdict::rejected(Rejection::tests);
 }
 
 // A pair with a given B in the place of its own, in the frame that this B asks for.
@@ -96,12 +96,11 @@ template <Kind kind, class T, WangOptions options, class Steps>
   const auto roots = solve_cubic(F, tol.mu, steps);
   bool culled = options.ve_culling != VeCulling::none;
   const auto proximity = [&](T t, bool root) {
-    const Figure<kind, T> figure(pair, t);
-    const bool well_shaped = figure.well_shaped(tol, steps);
-    if (well_shaped && figure.inside(steps) && steps.does(Step::proximity)) return true;
-    culled =
-        culled &&
-        (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, figure, t, tol, steps)));
+    const Configuration<kind, T> configuration(pair, t);
+    const bool well_shaped = configuration.well_shaped(tol, steps);
+    if (well_shaped && configuration.inside(steps) && steps.does(Step::proximity)) return true;
+    culled = culled && (!root || (well_shaped && excludes_collision<options.ve_culling>(
+                                                     pair, F, configuration, t, tol, steps)));
     return false;
   };
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
@@ -112,7 +111,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
   using std::abs;
   if (steps.does(Step::proximity_end) && at_most(T(abs(F(T(1)))), tol.mu, steps) && proximity(T(1), false))
     return hit(T(1));
-  if (culled) return Verdict::rejected(roots.count == 0 ? Miss::no_root : Miss::culled);
+  if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol, steps);
 }
 
@@ -122,7 +121,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
                                        const Steps& steps) {
   auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query, steps), given_order, steps);
   if (given) pair = with_given_bound(query, pair, *given);
-  if (!bring_within_reach(query, pair, steps)) return Verdict::rejected(Miss::apart);
+  if (!bring_within_reach(query, pair, steps)) return Verdict::rejected(Rejection::apart);
   return wang_tests<kind, T, options>(query, pair, coplanarity(pair), steps);
 }
 
@@ -134,12 +133,13 @@ template <Kind kind, class T, WangOptions options, class Steps>
 /// set, takes the place of the pair's own B; one that is smaller throws Error (§5).
 template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt, const Steps& steps = {}) {
-  if (options.plane_culling && separated_by_plane<kind>(query, steps)) return Verdict::rejected(Miss::planes);
+  if (options.plane_culling && separated_by_plane<kind>(query, steps))
+    return Verdict::rejected(Rejection::planes);
   Pair<kind, T> pair;
   form_vectors(query, pair);
   const Cubic<T> F = coplanarity(pair);
   if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, steps))
-    return Verdict::rejected(Miss::no_root);
+    return Verdict::rejected(Rejection::no_root);
   detail::form_bound(pair, steps);
   if (given || !in_range(pair.B) || !within_reach(pair))
     return detail::wang_careful<kind, T, options>(query, given, steps);

@@ -5,7 +5,7 @@
 
 namespace nearmiss::certified {
 
-/// Whether the figures of a query certainly touch at t = `time`, 0 or 1: exact where the triangle, or both
+/// Whether the primitives of a query certainly touch at t = `time`, 0 or 1: exact where the triangle, or both
 /// edges together, have an area; false where they have none.
 bool touch_at_end(const Query& query, int time);
 

@@ -15,7 +15,7 @@ namespace nearmiss {
 namespace exact {
 namespace {
 
-/// How the figures meet at a time at which all four points are in one plane (see Predicates), if they do.
+/// How the primitives meet at a time at which all four points are in one plane (see Predicates), if they do.
 std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int side = t.sign_of(predicates.N()[k]);

@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// The earliest contact of a query's figures, as exact arithmetic sees it.
+/// The earliest contact of a query's primitives, as exact arithmetic sees it.
 struct ContactFeatures {
   enum class Multiplicity : std::uint8_t {
     planar,    ///< F is zero identically

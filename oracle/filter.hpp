@@ -17,7 +17,7 @@ enum class FilterStage : std::uint8_t {
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: wherever F may vanish, two weights have opposite signs
   sign_change,  ///< yes: F changes its sign where all weights are inside
-  at_an_end,    ///< yes: the figures touch at t = 0 or t = 1, by exact predicates
+  at_an_end,    ///< yes: the primitives touch at t = 0 or t = 1, by exact predicates
   undecided,    ///< exact arithmetic must decide
 };
 

@@ -1,4 +1,4 @@
-// The first contact of a query's figures, in exact arithmetic.
+// The first contact of a query's primitives, in exact arithmetic.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace nearmiss::exact {
 
-/// How the figures meet at a time.
+/// How the primitives meet at a time.
 struct Meeting {
   /// How many weights vanish: none inside of triangle or edges, one on an edge or at one end, two in a vertex
-  /// or at two ends. Figures without a common normal always meet at a border: one or two.
+  /// or at two ends. Primitives without a common normal always meet at a border: one or two.
   int vanishing_weights = 0;
   /// No common normal: a triangle without an area, edges parallel or without a length.
   bool degenerate = false;

@@ -248,7 +248,8 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 /// The images of the faces. A triangle is a patch with a side of length 0.
 std::vector<Patch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
-  std::array<std::array<std::array<Vector, 2>, 4>, 4> differences;  // of a vertex and one of the other figure
+  std::array<std::array<std::array<Vector, 2>, 4>, 4>
+      differences;  // of a vertex and one of the other primitive
   for (int i = 0; i < split(query.kind); ++i)
     for (int j = split(query.kind); j < 4; ++j)
       for (const int time : {0, 1})

@@ -14,7 +14,7 @@
 //   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
 //   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
-// Where F = 0, the figures meet only if, in every component, these agree in sign or are zero:
+// Where F = 0, the primitives meet only if, in every component, these agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
 //   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
 // For a meeting point makes each weight a number in [0, 1], and each W that number times N, N = 0 included.

@@ -1,4 +1,4 @@
-// The polynomials in t whose signs decide whether the figures of a query meet at a time.
+// The polynomials in t whose signs decide whether the primitives of a query meet at a time.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct OnSegment {
 /// The coordinates are the query's, times one power of two (`unit`).
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
-///  - if a component N_k of the normal is not zero, the figures are faithfully seen along axis k, and they
+///  - if a component N_k of the normal is not zero, the primitives are faithfully seen along axis k, and they
 ///    meet iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric
 ///    ones times N: of x1, x2, x3 for a triangle (their sum is N); of x1 and x0 on the first edge, of x3 and
 ///    x2 on the second one (pairwise sum N), from x20 = α x10 - β x32;

@@ -1,4 +1,4 @@
-// Whether two figures come as near as a bound, in exact arithmetic.
+// Whether two primitives come as near as a bound, in exact arithmetic.
 #pragma once
 
 #include "ccd/query.hpp"

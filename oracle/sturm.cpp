@@ -78,13 +78,13 @@ struct OnSegment {
   }
 };
 
-/// The figures of a query. Where F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
+/// The primitives of a query. Where F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
 /// at least zero: x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on
 /// N; x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and (x2 - x0) × (x1 - x0) = β N
 /// with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials: each is made when first asked for.
-class Figures {
+class Primitives {
  public:
-  explicit Figures(const Query& query) : kind_(query.kind) {
+  explicit Primitives(const Query& query) : kind_(query.kind) {
     const auto units = exponents_of_units(query);
     for (int i = 0; i < 4; ++i) x_[static_cast<std::size_t>(i)] = moving_point(query, i, units);
     const auto& [x0, x1, x2, x3] = x_;
@@ -136,17 +136,17 @@ class Figures {
 
 enum class Meeting { none, inside, at_border };
 
-Meeting meeting_at(Figures& figures, const Root& t) {
-  if (t.sign(figures.area()) > 0) {
+Meeting meeting_at(Primitives& primitives, const Root& t) {
+  if (t.sign(primitives.area()) > 0) {
     int least = 1;
-    for (const Polynomial& weight : figures.weights()) {
+    for (const Polynomial& weight : primitives.weights()) {
       least = std::min(least, t.sign(weight));
       if (least < 0) return Meeting::none;
     }
     return least > 0 && !t.is_end() ? Meeting::inside : Meeting::at_border;
   }
   const bool any =
-      std::any_of(figures.segments().begin(), figures.segments().end(),
+      std::any_of(primitives.segments().begin(), primitives.segments().end(),
                   [&](const OnSegment& on) { return t.sign(on.off_line) == 0 && t.sign(on.beyond) <= 0; });
   return any ? Meeting::at_border : Meeting::none;
 }
@@ -160,19 +160,19 @@ int multiplicity(const Polynomial& F, const Root& t) {
 
 /// F is zero identically: the set of colliding times is closed, and its least element is 0 or a root of one
 /// of the polynomials whose signs decide.
-bool collides_in_plane(Figures& figures) {
-  std::vector<const Polynomial*> deciding{&figures.area()};
-  for (const Polynomial& weight : figures.weights()) deciding.push_back(&weight);
-  for (const OnSegment& on : figures.segments()) {
+bool collides_in_plane(Primitives& primitives) {
+  std::vector<const Polynomial*> deciding{&primitives.area()};
+  for (const Polynomial& weight : primitives.weights()) deciding.push_back(&weight);
+  for (const OnSegment& on : primitives.segments()) {
     deciding.push_back(&on.off_line);
     deciding.push_back(&on.beyond);
   }
-  if (meeting_at(figures, Root(Dyadic{0, 0})) != Meeting::none) return true;
+  if (meeting_at(primitives, Root(Dyadic{0, 0})) != Meeting::none) return true;
   return std::any_of(deciding.begin(), deciding.end(), [&](const Polynomial* p) {
     if (p->is_zero()) return false;
     const auto roots = roots_in_unit_interval(*p);
     return std::any_of(roots.begin(), roots.end(),
-                       [&](const Root& t) { return meeting_at(figures, t) != Meeting::none; });
+                       [&](const Root& t) { return meeting_at(primitives, t) != Meeting::none; });
   });
 }
 
@@ -182,21 +182,21 @@ bool collides_in_plane(Figures& figures) {
 RootCount count_roots(const Query& query) {
   using namespace sturm;
   const PlainArithmetic guard;
-  Figures figures(query);
+  Primitives primitives(query);
   RootCount count;
-  if (figures.F().is_zero()) {
+  if (primitives.F().is_zero()) {
     count.planar = true;
-    count.collision = collides_in_plane(figures);
+    count.collision = collides_in_plane(primitives);
     count.on_boundary = count.collision;
     return count;
   }
-  for (const Root& t : roots_in_unit_interval(figures.F())) {
-    const Meeting meeting = meeting_at(figures, t);
+  for (const Root& t : roots_in_unit_interval(primitives.F())) {
+    const Meeting meeting = meeting_at(primitives, t);
     if (meeting == Meeting::none) continue;
     count.collision = true;
     count.on_boundary |= meeting == Meeting::at_border;
     ++count.distinct;
-    count.with_multiplicity += multiplicity(figures.F(), t);
+    count.with_multiplicity += multiplicity(primitives.F(), t);
   }
   return count;
 }

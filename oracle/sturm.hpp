@@ -10,8 +10,8 @@ struct RootCount {
   bool collision = false;
   bool planar = false;  ///< F is zero identically: there are no roots to count
   bool on_boundary =
-      false;         ///< a contact at t = 0 or t = 1, at a border of a figure, or of figures without an area
-  int distinct = 0;  ///< roots at which the figures meet
+      false;  ///< a contact at t = 0 or t = 1, at a border of a primitive, or of primitives without an area
+  int distinct = 0;           ///< roots at which the primitives meet
   int with_multiplicity = 0;  ///< the same, a double root counted twice
 
   /// What a root-parity CCD answers: an even number of roots is none to it.

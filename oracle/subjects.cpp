@@ -33,7 +33,7 @@ class Exact : public Subject {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(infos[0].name);
     const bool hit = settle(query, stage);
     const bool filtered = stage != FilterStage::undecided;
-    if (!hit) return Verdict::rejected(filtered ? Miss::filter : Miss::exact);
+    if (!hit) return Verdict::rejected(filtered ? Rejection::filter : Rejection::exact);
     return {.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
   }
 

@@ -30,7 +30,7 @@ std::string statistics_csv(const Statistics& statistics) {
   text += ",median_ns,q99_ns";
   for (const auto stage : stage_names) text += fmt::format(",true_by_{}", stage);
   for (const auto stage : stage_names) text += fmt::format(",false_by_{}", stage);
-  for (const auto miss : miss_names) text += fmt::format(",rejected_by_{}", miss);
+  for (const auto rejection : rejection_names) text += fmt::format(",rejected_by_{}", rejection);
   text += '\n';
   for (const auto& [key, c] : statistics.counts) {
     const Interval rate = clopper_pearson(c.false_positives, c.others());

@@ -24,10 +24,10 @@ Deciders deciders(const Counts& counts) {
     const auto i = static_cast<std::size_t>(stage);
     return counts.true_by_stage[i] + counts.false_by_stage[i];
   };
-  const auto misses = [&](Miss miss) { return counts.rejected_by[static_cast<std::size_t>(miss)]; };
-  const std::uint64_t filter = hits(Stage::filter) + misses(Miss::filter);
-  const std::uint64_t finer = misses(Miss::finer);
-  const std::uint64_t exact = hits(Stage::exact) + misses(Miss::exact);
+  const auto rejections = [&](Rejection by) { return counts.rejected_by[static_cast<std::size_t>(by)]; };
+  const std::uint64_t filter = hits(Stage::filter) + rejections(Rejection::filter);
+  const std::uint64_t finer = rejections(Rejection::finer);
+  const std::uint64_t exact = hits(Stage::exact) + rejections(Rejection::exact);
   return {counts.queries - counts.faults_total() - filter - finer - exact, filter, finer, exact};
 }
 

@@ -16,7 +16,7 @@ namespace nearmiss {
 
 inline constexpr std::size_t decider_count = 4;
 
-/// In the order in which they are asked, as they stand in files. The last three are the stages and misses of
+/// In the order in which they are asked, as they stand in files. The last three are the stages and rejections of
 /// these names, the algorithm is all the rest.
 inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
                                                                            "exact"};

@@ -14,7 +14,7 @@ struct Extreme {
   enum class Of : std::uint8_t {
     accepting_tolerance,  ///< the largest factor on it, all others as the paper has them, with which a
                           ///< collision is missed; 0 where none was found
-    keeping_tolerance,  ///< of one that keeps degenerate figures out: the smallest factor; infinity where none
+    keeping_tolerance,  ///< of one that keeps degenerate primitives out: the smallest factor; infinity where none
     distance,           ///< the largest distance / bound of a false positive of these tests; 0 where none
   };
 

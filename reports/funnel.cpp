@@ -59,21 +59,21 @@ Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<st
 
 /// What the pairs that are asked need: rows of the subjects that tell, and of the oracle.
 void add_needs(const Scene& scene, std::array<std::uint64_t, 2> asked, std::vector<Row>& rows) {
-  static const std::map<Miss, std::string_view> left_out{
-      {Miss::planes, "planes separate, nothing else is computed"},
-      {Miss::apart, "too far apart for a root"},
-      {Miss::no_root, "the cubic has no root, no test is needed"},
-      {Miss::culled, "vertex-edge tests are culled"}};
+  static const std::map<Rejection, std::string_view> left_out{
+      {Rejection::planes, "planes separate, nothing else is computed"},
+      {Rejection::apart, "too far apart for a root"},
+      {Rejection::no_root, "the cubic has no root, no test is needed"},
+      {Rejection::culled, "vertex-edge tests are culled"}};
   for (const auto& subject : scene.subjects) {
     const std::string& name = subject.first;
     const auto& counts = subject.second;
-    const auto by = [&](Miss miss, std::size_t i) {
-      return counts[i].rejected_by[static_cast<std::size_t>(miss)];
+    const auto by = [&](Rejection rejection, std::size_t i) {
+      return counts[i].rejected_by[static_cast<std::size_t>(rejection)];
     };
     std::array<std::uint64_t, 2> rest = asked;
     std::vector<Row> own;
-    for (const auto& [miss, what] : left_out) {
-      const std::array<std::uint64_t, 2> parts{by(miss, 0), by(miss, 1)};
+    for (const auto& [rejection, what] : left_out) {
+      const std::array<std::uint64_t, 2> parts{by(rejection, 0), by(rejection, 1)};
       if (parts[0] + parts[1] == 0) continue;
       own.push_back(row(fmt::format("  {}: {}", name, what), parts, asked));
       for (std::size_t i = 0; i < 2; ++i) rest[i] -= parts[i];

@@ -16,8 +16,8 @@ struct Statistics;
 
 /// What becomes of a pair. All but the last are left out: a subject is not asked.
 enum class PairFate : std::uint8_t {
-  boxes_apart,     ///< the boxes that the figures sweep do not meet
-  share_vertex,    ///< the figures have a vertex in common
+  boxes_apart,     ///< the boxes that the primitives sweep do not meet
+  share_vertex,    ///< the primitives have a vertex in common
   at_rest,         ///< relative to each other: a static test decides
   in_translation,  ///< relative to each other: a linear test decides
   asked,

@@ -75,7 +75,7 @@ ordered_json counts_json(const Counts& counts) {
   json["times"] = times_json(counts.times);
   json["true_positives_by_stage"] = by_name(counts.true_by_stage, stage_names);
   json["false_positives_by_stage"] = by_name(counts.false_by_stage, stage_names);
-  json["rejected_by"] = by_name(counts.rejected_by, miss_names);
+  json["rejected_by"] = by_name(counts.rejected_by, rejection_names);
   json["fp_distance_histogram"] = counts.distances.bins;
   json["farthest"] = ordered_json::array();
   for (const FarCase& far : counts.farthest)

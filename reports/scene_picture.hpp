@@ -1,4 +1,4 @@
-// What a page shows of a scene: its figures at t = 0 and t = 1, and what is said of them.
+// What a page shows of a scene: its primitives at t = 0 and t = 1, and what is said of them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace nearmiss {
 
 /// JSON, since only a page reads it:
 ///   meanings   of bit i of a mark: "collides" and so on
-///   figures    how many the step has; of very many not all are here
+///   primitives    how many the step has; of very many not all are here
 ///   points     x y z at t = 0 and x y z at t = 1, one after the other, as integers with blanks between them: the
 ///              box of all is within 0 and 9999, on one scale
 ///   triangles  three points and a mark, one after the other; lines: two and a mark; dots: one and a mark

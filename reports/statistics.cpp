@@ -75,7 +75,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
   }
   collisions += outcome.collision ? 1 : 0;
   positives += hit ? 1 : 0;
-  rejected_by[static_cast<std::size_t>(outcome.verdict.miss)] += hit ? 0 : 1;
+  rejected_by[static_cast<std::size_t>(outcome.verdict.rejection)] += hit ? 0 : 1;
   if (outcome.collision) {
     if (hit)
       ++true_by_stage[stage];
@@ -108,7 +108,7 @@ void Counts::merge(const Counts& other) {
     true_by_stage[i] += other.true_by_stage[i];
     false_by_stage[i] += other.false_by_stage[i];
   }
-  for (std::size_t i = 0; i < miss_count; ++i) rejected_by[i] += other.rejected_by[i];
+  for (std::size_t i = 0; i < rejection_count; ++i) rejected_by[i] += other.rejected_by[i];
   distances.merge(other.distances);
   farthest.insert(farthest.end(), other.farthest.begin(), other.farthest.end());
   keep_farthest(farthest);

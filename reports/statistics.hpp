@@ -80,9 +80,9 @@ struct Counts {
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;
-  std::array<std::uint64_t, stage_count> true_by_stage{};   ///< true positives by the stage that accepted
-  std::array<std::uint64_t, stage_count> false_by_stage{};  ///< false positives likewise
-  std::array<std::uint64_t, miss_count> rejected_by{};      ///< what it does not report, by what told
+  std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
+  std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives likewise
+  std::array<std::uint64_t, rejection_count> rejected_by{};  ///< what it does not report, by what told
   Histogram distances;
   std::vector<FarCase> farthest;                    ///< at most far_cases, farthest first
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by why

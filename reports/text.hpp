@@ -1,4 +1,4 @@
-// Figures and tables as text, the same on every page and in every terminal.
+// Numbers and tables as text, the same on every page and in every terminal.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 
 namespace nearmiss::tools {
 

@@ -12,8 +12,8 @@
 
 #include "ccd/query.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/isolation/isolated_plugin.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "fuzz/trial/trial.hpp"
 
 namespace nearmiss::tools {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/file.hpp"
-#include "fuzz/audit/audit.hpp"
-#include "fuzz/audit/tolerance_table.hpp"
+#include "fuzz/studies/audit/audit.hpp"
+#include "fuzz/studies/audit/tolerance_table.hpp"
 #include "reports/text.hpp"
 #include "tools/commands.hpp"
 

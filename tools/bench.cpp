@@ -10,7 +10,7 @@
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "oracle/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

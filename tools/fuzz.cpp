@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fuzz/campaign.hpp"
-#include "fuzz/families/mesh_family.hpp"
-#include "fuzz/ladder/scalars.hpp"
+#include "fuzz/families/search.hpp"
+#include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
-#include "fuzz/search.hpp"
+#include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/trial/campaign.hpp"
 #include "reports/shell.hpp"
 #include "reports/text.hpp"
 #include "tools/arguments.hpp"

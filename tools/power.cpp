@@ -10,9 +10,9 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
-#include "fuzz/power/defects.hpp"
-#include "fuzz/power/power.hpp"
-#include "fuzz/search.hpp"
+#include "fuzz/families/search.hpp"
+#include "fuzz/studies/power.hpp"
+#include "fuzz/subjects/defects.hpp"
 #include "reports/power_table.hpp"
 #include "reports/text.hpp"
 #include "tools/arguments.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/trial.hpp"
+#include "fuzz/trial/trial.hpp"
 #include "reports/campaign.hpp"
 #include "reports/store.hpp"
 

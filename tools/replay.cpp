@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "corpus/readers.hpp"
-#include "fuzz/trial_stream.hpp"
+#include "fuzz/trial/trial_stream.hpp"
 #include "reports/shell.hpp"
 #include "reports/text.hpp"
 #include "tools/arguments.hpp"

@@ -12,7 +12,7 @@
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "reports/shell.hpp"
 #include "reports/text.hpp"
 #include "tools/commands.hpp"

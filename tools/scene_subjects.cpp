@@ -10,7 +10,7 @@
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/precision.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "reports/text.hpp"
 #include "tools/terminal.hpp"
 

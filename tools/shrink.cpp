@@ -1,5 +1,5 @@
 // nearmiss shrink: the simplest query that fails in the same way.
-#include "fuzz/failures/shrink.hpp"
+#include "fuzz/trial/shrink.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/failures/failure.hpp"
+#include "fuzz/trial/failure.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

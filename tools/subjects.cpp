@@ -1,9 +1,9 @@
 // nearmiss subjects: which CCDs can be put on trial.
 #include <fmt/format.h>
 
-#include "fuzz/ladder/scalars.hpp"
-#include "fuzz/power/defects.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fuzz/power/tightness.hpp"
+#include "fuzz/studies/tightness.hpp"
 #include "reports/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

@@ -5,8 +5,8 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/failures/failure.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/failure.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "fuzz/families/figures.hpp"
+#include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
@@ -16,7 +16,7 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first figure is as fast as that; now and then so is the second, or what changes the figures' shapes.
+/// The first primitive is as fast as that; now and then so is the second, or what changes the primitives' shapes.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   Numbers numbers(random);
@@ -66,7 +66,7 @@ Query scale(Random& random, Kind kind, double x) {
 }
 
 /// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as
-/// often as not. Most figures start in a plane across that axis, and half of the coordinates are at rest.
+/// often as not. Most primitives start in a plane across that axis, and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
@@ -86,7 +86,7 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has an exponent of its own. The figures touch at the origin, and go on touching
+/// Each vertex and each axis has an exponent of its own. The primitives touch at the origin, and go on touching
 /// there whatever a vertex or an axis is multiplied by.
 Query mixed_scale(Random& random, Kind kind, double x) {
   Numbers numbers(random);
@@ -105,7 +105,7 @@ Query mixed_scale(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// One figure rests, every bit of it; the other moves as fast as that.
+/// One primitive rests, every bit of it; the other moves as fast as that.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   Numbers numbers(random);
@@ -191,12 +191,12 @@ Query rigid(Random& random, Kind kind, double x) {
 
 std::vector<Family> extreme_families() {
   return {
-      with_parameter("stiff", "motion far smaller or larger than the figures",
-                     {"speed / size of the figures = 10^x", -16, 16, false, stiff}),
+      with_parameter("stiff", "motion far smaller or larger than the primitives",
+                     {"speed / size of the primitives = 10^x", -16, 16, false, stiff}),
       with_parameter("aspect", "long and short edges",
                      {"ratio of the edges' lengths = 10^x", 0, 16, false, aspect}),
-      with_parameter("offset", "figures far from the origin",
-                     {"distance / size of the figures = 10^x", 0, 16, false, offset}),
+      with_parameter("offset", "primitives far from the origin",
+                     {"distance / size of the primitives = 10^x", 0, 16, false, offset}),
       with_parameter("scale", "subnormal to nearly overflowing",
                      {"largest coordinate is from 2^x to 2^(x + 1)", -1074, 1023, true, scale}),
       {.name = "overflow",
@@ -208,10 +208,10 @@ std::vector<Family> extreme_families() {
       with_parameter("near-parallel-edges",
                      "an edge beside the other edge, or the motion beside an edge of the triangle",
                      {"angle = 10^x", -16, 0, false, near_parallel}),
-      with_parameter("needle", "long thin figures", {"height / length = 10^x", -16, 0, false, needle}),
-      with_parameter("static-pair", "one figure rests",
-                     {"speed of the other / size of the figures = 10^x", -16, 16, false, static_pair}),
-      with_parameter("rigid", "both figures turn together, and move a little apart",
+      with_parameter("needle", "long thin primitives", {"height / length = 10^x", -16, 0, false, needle}),
+      with_parameter("static-pair", "one primitive rests",
+                     {"speed of the other / size of the primitives = 10^x", -16, 16, false, static_pair}),
+      with_parameter("rigid", "both primitives turn together, and move a little apart",
                      {"angle of the rotation = 2 atan(10^x / 2)", -16, 2, false, rigid}),
   };
 }

@@ -17,7 +17,7 @@ namespace nearmiss {
 /// What a sweep drives: a number x from lo to hi.
 struct Parameter {
   std::string
-      about;  ///< what x is, with its base where it is an exponent: "speed / size of the figures = 10^x"
+      about;  ///< what x is, with its base where it is an exponent: "speed / size of the primitives = 10^x"
   double lo, hi;
   bool whole = false;  ///< only whole numbers
   std::function<Query(Random&, Kind, double)> make;

@@ -1,5 +1,5 @@
-// Queries at random, exact collisions, and what the paper names: parallel, small, thin and planar figures.
-#include "fuzz/families/figures.hpp"
+// Queries at random, exact collisions, and what the paper names: parallel, small, thin and planar primitives.
+#include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
@@ -50,7 +50,7 @@ Query grazing(Random& random, Kind kind) {
 
 // --- nearly degenerate contact, in floating point ---------------------------------------------------
 
-/// Unit figures aimed at each other, at a place that is outside of them now and then.
+/// Unit primitives aimed at each other, at a place that is outside of them now and then.
 Contact aimed_contact(Random& random, Kind kind) {
   const auto path = [&](double size, double speed) {
     const Vector start = random.vector(size);
@@ -72,7 +72,7 @@ Contact aimed_contact(Random& random, Kind kind) {
   return contact;
 }
 
-/// The relative motion is nearly in the plane of the figures (§3.3, parallel motion; §3.4, perpendicular to
+/// The relative motion is nearly in the plane of the primitives (§3.3, parallel motion; §3.4, perpendicular to
 /// N).
 Query parallel(Random& random, Kind kind) {
   const Contact contact = aimed_contact(random, kind);
@@ -82,7 +82,7 @@ Query parallel(Random& random, Kind kind) {
   return shuffled(random, meet(kind, contact, contact.velocity(kind) + in_plane + out_of_plane));
 }
 
-/// Figures far smaller than their motion (§3.3, small triangle; §3.4, small quadrilateral).
+/// Primitives far smaller than their motion (§3.3, small triangle; §3.4, small quadrilateral).
 Query small(Random& random, Kind kind) {
   Contact contact = aimed_contact(random, kind);
   const double size = random.log_uniform(1e-12, 1e-2);
@@ -178,8 +178,8 @@ std::vector<Family> random_families() {
             planted, true),
       plain("planted-ulp", "planted collisions with a few coordinates moved by ulps", planted_ulp),
       plain("grazing", "tangential contact: a double root, exactly or but for ulps", grazing),
-      plain("parallel", "relative motion nearly in the plane of the figures", parallel),
-      plain("small", "figures down to 1e-12 of their motion", small),
+      plain("parallel", "relative motion nearly in the plane of the primitives", parallel),
+      plain("small", "primitives down to 1e-12 of their motion", small),
       plain("sliver", "thin triangles and nearly parallel edges", sliver),
       plain("planar", "everything stays in one plane: F is zero identically", planar),
       plain("small-integer", "coordinates are integers in -3 .. 3: touching, coplanar, coincident",

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fuzz/families/figures.hpp"
+#include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/families/figures.hpp"
+#include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
@@ -11,7 +11,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The place of contact, seen from the first figure's x0, is β r + sign α q.
+/// The place of contact, seen from the first primitive's x0, is β r + sign α q.
 double sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
 
 /// A contact that is exact at t = 0 or t = 1; then one coordinate of that time is moved.
@@ -25,10 +25,10 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// The first figure moves along a tangent of the curved path that the place of contact takes where the
+/// The first primitive moves along a tangent of the curved path that the place of contact takes where the
 /// weights change at the rates α' and β': a double root. The path leaves its tangent by (β' r' + sign α'
-/// q') (t - time)²: moved by what that is at time ± h, the first figure meets it at both; moved to the
-/// other side, never. Half of the figures lie in a coordinate plane at their time and leave it along its
+/// q') (t - time)²: moved by what that is at time ± h, the first primitive meets it at both; moved to the
+/// other side, never. Half of the primitives lie in a coordinate plane at their time and leave it along its
 /// normal, so that the smallest move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
@@ -62,7 +62,7 @@ Query even_roots(Random& random, Kind kind, double x) {
 }
 
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
-/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The figures touch where M0 turns
+/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The primitives touch where M0 turns
 /// the vector (1, -sign α, -β) into 0: all rows of C but the first are at right angles to it, and J has no
 /// use for the first. Then q and r are moved a little, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
@@ -98,7 +98,7 @@ std::vector<Family> root_families() {
       with_parameter("even-roots", "touching, passing and coming back; or coming near and turning back",
                      {"time between the roots = 10^x", -16, 0, false, even_roots}),
       with_parameter("triple-root", "a triple root of F, or nearly so",
-                     {"how far the figures are off = 10^x", -16, 0, false, triple_root}),
+                     {"how far the primitives are off = 10^x", -16, 0, false, triple_root}),
   };
 }
 

@@ -15,9 +15,9 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/mutation.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
-#include "fuzz/mutation.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "reports/finding_case.hpp"
 
 namespace nearmiss::libfuzzer {

@@ -5,7 +5,7 @@
 #include <iosfwd>
 
 #include "corpus/case.hpp"
-#include "fuzz/scenes/mesh.hpp"
+#include "fuzz/meshes/mesh.hpp"
 
 namespace nearmiss::libfuzzer {
 
@@ -18,7 +18,7 @@ void expect(bool condition, const char* what);
 /// A case as text must be read as the same case, to the last bit.
 void expect_round_trip(const Case& each);
 
-/// A mesh must have a point, finite coordinates, and figures of points that exist.
+/// A mesh must have a point, finite coordinates, and primitives of points that exist.
 void expect_sound(const Mesh& mesh);
 
 }  // namespace nearmiss::libfuzzer

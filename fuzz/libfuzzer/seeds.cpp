@@ -60,7 +60,7 @@ std::string sample_csv(const Case& each) {
 }
 
 std::string obj(const Query& query) {
-  std::string text = "# eight points\no figure\n";
+  std::string text = "# eight points\no primitive\n";
   for (std::size_t i = 0; i < 8; ++i)
     text += fmt::format("v {} {} {}\n", query.x[3 * i], query.x[3 * i + 1], query.x[3 * i + 2]);
   return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";

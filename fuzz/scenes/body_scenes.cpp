@@ -25,13 +25,13 @@ Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int c
   const auto shape = [shapes](int body) -> const Mesh& {
     return shapes[static_cast<std::size_t>(body) % shapes.size()];
   };
-  Mesh figures;
+  Mesh primitives;
   int first = 0;
   for (int body = 0; body < count; ++body) {
-    add_triangles(figures, shape(body), first);
+    add_triangles(primitives, shape(body), first);
     first += static_cast<int>(shape(body).points.size());
   }
-  return scene_of_formula(frames, std::move(figures), [=](double frame) {
+  return scene_of_formula(frames, std::move(primitives), [=](double frame) {
     Points points;
     points.reserve(static_cast<std::size_t>(first));
     for (int body = 0; body < count; ++body) {

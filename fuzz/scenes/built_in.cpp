@@ -57,11 +57,11 @@ Scene built_in_scene(const std::string& text) {
   return scene;
 }
 
-Scene scene_of_formula(std::size_t frames, Mesh figures, std::function<Points(double frame)> points) {
-  figures.points = points(0);
+Scene scene_of_formula(std::size_t frames, Mesh primitives, std::function<Points(double frame)> points) {
+  primitives.points = points(0);
   return {.name = {},
           .frames = frames,
-          .mesh = std::move(figures),
+          .mesh = std::move(primitives),
           .points = [points = std::move(points)](std::size_t frame) {
             return points(static_cast<double>(frame));
           }};

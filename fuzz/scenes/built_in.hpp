@@ -13,7 +13,7 @@ namespace nearmiss {
 
 /// A way to make a scene. Each frame is a pure function of the size and its number, in the same bits on every
 /// machine, and is computed when asked for. Edges are about 1 long in all sizes: a larger scene has more of
-/// everything, not smaller figures in the same place, so that its candidates grow with its figures.
+/// everything, not smaller primitives in the same place, so that its candidates grow with its primitives.
 struct BuiltIn {
   std::string name;
   std::string description;

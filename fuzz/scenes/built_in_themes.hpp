@@ -12,7 +12,7 @@ std::vector<BuiltIn> cloth_scenes();
 std::vector<BuiltIn> twisted_scenes();
 std::vector<BuiltIn> body_scenes();
 
-/// A scene from its figures and the formula for their points.
-Scene scene_of_formula(std::size_t frames, Mesh figures, std::function<Points(double frame)> points);
+/// A scene from its primitives and the formula for their points.
+Scene scene_of_formula(std::size_t frames, Mesh primitives, std::function<Points(double frame)> points);
 
 }  // namespace nearmiss

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "ccd/query.hpp"
-#include "fuzz/scenes/mesh.hpp"
+#include "fuzz/meshes/mesh.hpp"
 
 namespace nearmiss {
 
@@ -20,7 +20,7 @@ struct Candidate {
   auto operator<=>(const Candidate&) const = default;
 };
 
-/// Takes a pair whose figures have no vertex in common.
+/// Takes a pair whose primitives have no vertex in common.
 using CandidateSink = std::function<void(const Candidate&)>;
 
 /// Whether to end early.
@@ -53,7 +53,7 @@ std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const Candidate
 /// Of both kinds, vertex-triangle pairs first.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
 
-/// The same as find_candidates in another way, which shares no code but the sink: figures in the order of
+/// The same as find_candidates in another way, which shares no code but the sink: primitives in the order of
 /// their boxes along one axis, each compared with those that begin before it ends.
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
                                        const Stop& stop);

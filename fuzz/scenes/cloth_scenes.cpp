@@ -41,7 +41,7 @@ void add_spike_points(Points& points, double x, double y) {
 
 /// A square of spikes, and the cloth that falls on them: by 0.2 in a step, from above the tips to half their
 /// height; it is held up where a spike is, by as much above it as is drawn for each, too little for some.
-/// Spikes are no larger or farther apart where the scene is, there are more of them; so a figure has as many
+/// Spikes are no larger or farther apart where the scene is, there are more of them; so a primitive has as many
 /// others near it in all sizes.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
@@ -65,11 +65,11 @@ Scene spikes(int size) {
     return Vector3<double>(x, y, smooth_max(falling, held, 0.5) + waves.at(x, y, frame));
   };
 
-  Mesh figures;
-  add_surface(figures, 0, squares + 1, squares + 1);
+  Mesh primitives;
+  add_surface(primitives, 0, squares + 1, squares + 1);
   const int in_cloth = (squares + 1) * (squares + 1);
-  for (int i = 0; i < row * row; ++i) add_spike(figures, in_cloth + i * (1 + spike_rings * spike_sides));
-  return scene_of_formula(21, std::move(figures), [=](double frame) {
+  for (int i = 0; i < row * row; ++i) add_spike(primitives, in_cloth + i * (1 + spike_rings * spike_sides));
+  return scene_of_formula(21, std::move(primitives), [=](double frame) {
     // So that the cloth's edges are not along the rows of spikes.
     const Rotation turned({0, 0, 1}, 0.02);
     Points points = sheet_points(squares, [&](double x, double y) {
@@ -89,9 +89,9 @@ Scene sheets(int size) {
   constexpr int count = 5;
   const int squares = nearest(std::sqrt(size / (2.0 * count)));
   const int in_sheet = (squares + 1) * (squares + 1);
-  Mesh figures;
-  for (int i = 0; i < count; ++i) add_surface(figures, i * in_sheet, squares + 1, squares + 1);
-  return scene_of_formula(25, std::move(figures), [=](double frame) {
+  Mesh primitives;
+  for (int i = 0; i < count; ++i) add_surface(primitives, i * in_sheet, squares + 1, squares + 1);
+  return scene_of_formula(25, std::move(primitives), [=](double frame) {
     Points points;
     points.reserve(static_cast<std::size_t>(count * in_sheet));
     for (int i = 0; i < count; ++i) {
@@ -117,9 +117,9 @@ Scene sheets(int size) {
 /// Points fall, each at its own speed, through a surface that waves, of about as many triangles.
 Scene points(int size) {
   const int squares = nearest(std::sqrt(size / 2.0));
-  Mesh figures;
-  add_surface(figures, 0, squares + 1, squares + 1);
-  return scene_of_formula(21, std::move(figures), [=](double frame) {
+  Mesh primitives;
+  add_surface(primitives, 0, squares + 1, squares + 1);
+  return scene_of_formula(21, std::move(primitives), [=](double frame) {
     const Waves waves(points_waves, 0, 0.4);
     Points all = sheet_points(
         squares, [&](double x, double y) { return Vector3<double>(x, y, waves.at(x, y, frame)); });

@@ -13,12 +13,12 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_figures = 8000;  // with a mark, and as many without
-constexpr std::size_t most_subjects = 15;   // bits of a mark: 1 + 2 * 15
+constexpr std::size_t most_primitives = 8000;  // with a mark, and as many without
+constexpr std::size_t most_subjects = 15;      // bits of a mark: 1 + 2 * 15
 
-template <class Figure>
-std::uint32_t mark_of(const std::map<Figure, std::uint32_t>& marks, const Figure& figure) {
-  const auto found = marks.find(figure);
+template <class Primitive>
+std::uint32_t mark_of(const std::map<Primitive, std::uint32_t>& marks, const Primitive& primitive) {
+  const auto found = marks.find(primitive);
   return found == marks.end() ? 0 : found->second;
 }
 
@@ -49,7 +49,7 @@ class Points {
     scale_ = (hi_ / 2 - lo_ / 2).maxCoeff();
   }
 
-  /// Adds a figure to a list: the numbers of its points, and its mark.
+  /// Adds a primitive to a list: the numbers of its points, and its mark.
   void show(Numbers& list, const std::vector<int>& vertices, std::uint32_t mark) {
     for (const int vertex : vertices) list.add(number(vertex));
     list.add(mark);
@@ -115,8 +115,8 @@ void Marks::add(const Candidate& candidate, Mark mark) {
 }
 
 void Marks::merge(const Marks& other) {
-  for (const auto& [figure, mark] : other.triangles_) triangles_[figure] |= mark;
-  for (const auto& [figure, mark] : other.edges_) edges_[figure] |= mark;
+  for (const auto& [primitive, mark] : other.triangles_) triangles_[primitive] |= mark;
+  for (const auto& [primitive, mark] : other.edges_) edges_[primitive] |= mark;
   for (const auto& [point, mark] : other.points_) points_[point] |= mark;
 }
 
@@ -124,10 +124,10 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
                             const std::vector<std::string>& subjects) const {
   std::vector<Marked> marked;
   std::vector<Marked> others;
-  const auto add_figure = [&](std::vector<int> vertices, Mark mark) {
+  const auto add_primitive = [&](std::vector<int> vertices, Mark mark) {
     (mark != 0 ? marked : others).push_back({std::move(vertices), mark});
   };
-  std::vector<bool> in_figure(mesh.start.size());
+  std::vector<bool> in_primitive(mesh.start.size());
   std::vector<std::array<int, 2>> of_triangles;
   for (const auto& t : mesh.triangles) {
     Mark mark = mark_of(triangles_, t);
@@ -135,27 +135,27 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
       mark |= mark_of(edges_, side);
       of_triangles.push_back(side);
     }
-    add_figure({t.begin(), t.end()}, mark);
-    for (const int vertex : t) in_figure[static_cast<std::size_t>(vertex)] = true;
+    add_primitive({t.begin(), t.end()}, mark);
+    for (const int vertex : t) in_primitive[static_cast<std::size_t>(vertex)] = true;
   }
   std::ranges::sort(of_triangles);
   for (const auto& e : mesh.edges) {
-    if (!std::ranges::binary_search(of_triangles, e)) add_figure({e.begin(), e.end()}, mark_of(edges_, e));
-    for (const int vertex : e) in_figure[static_cast<std::size_t>(vertex)] = true;
+    if (!std::ranges::binary_search(of_triangles, e)) add_primitive({e.begin(), e.end()}, mark_of(edges_, e));
+    for (const int vertex : e) in_primitive[static_cast<std::size_t>(vertex)] = true;
   }
   for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)
-    if (const Mark mark = mark_of(points_, v); mark != 0 || !in_figure[static_cast<std::size_t>(v)])
-      add_figure({v}, mark);
+    if (const Mark mark = mark_of(points_, v); mark != 0 || !in_primitive[static_cast<std::size_t>(v)])
+      add_primitive({v}, mark);
 
   nlohmann::json json;
-  json["figures"] = marked.size() + others.size();
+  json["primitives"] = marked.size() + others.size();
   json["meanings"] = {"collides"};
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
   std::array<Numbers, 3> lists;  // by the number of points
   Points points(mesh);
-  for (const std::vector<Marked>& some : {thinned(others, most_figures), thinned(marked, most_figures)})
+  for (const std::vector<Marked>& some : {thinned(others, most_primitives), thinned(marked, most_primitives)})
     for (const Marked& each : some) points.show(lists[each.vertices.size() - 1], each.vertices, each.mark);
   json["points"] = points.coordinates().text();
   json["dots"] = lists[0].text();

@@ -1,4 +1,4 @@
-// What is said of the figures of a step, and a picture of it.
+// What is said of the primitives of a step, and a picture of it.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// Figures in pairs that collide, or of which a subject says so falsely, or misses that they do.
+/// Primitives in pairs that collide, or of which a subject says so falsely, or misses that they do.
 class Marks {
  public:
   void add_collision(const Candidate& candidate) { add(candidate, 1); }
@@ -22,10 +22,10 @@ class Marks {
   void add(const Candidate& candidate, std::size_t subject, const Outcome& outcome);
   void merge(const Marks& other);
 
-  /// How many figures are marked.
+  /// How many primitives are marked.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
-  /// Of a step; `subjects` are the names. Triangles have the marks of their edges too. Of figures with a
+  /// Of a step; `subjects` are the names. Triangles have the marks of their edges too. Of primitives with a
   /// mark, and of those without, as many are shown as a page can bear.
   [[nodiscard]] ScenePicture picture(const std::string& step, const MovingMesh& mesh,
                                      const std::vector<std::string>& subjects) const;

@@ -8,7 +8,7 @@
 
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/trial/trial.hpp"
 
 namespace nearmiss {
 

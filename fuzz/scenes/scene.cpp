@@ -105,9 +105,9 @@ std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& poi
 }
 
 template <std::size_t n>
-void renumber(std::vector<std::array<int, n>>& figures, const std::vector<int>& number) {
-  for (auto& figure : figures)
-    for (int& vertex : figure) vertex = number[static_cast<std::size_t>(vertex)];
+void renumber(std::vector<std::array<int, n>>& primitives, const std::vector<int>& number) {
+  for (auto& primitive : primitives)
+    for (int& vertex : primitive) vertex = number[static_cast<std::size_t>(vertex)];
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ std::string step_name(const Scene& scene, std::size_t step) {
 Scene scene_of_files(const fs::path& start, const fs::path& end) {
   Mesh first = read_mesh(start);
   Mesh last = read_mesh(end);
-  expect_same_figures(first, start.string(), last, end.string());
+  expect_same_primitives(first, start.string(), last, end.string());
   std::vector<std::vector<Vector3<double>>> points{first.points, std::move(last.points)};
   return {.name = start.stem().string(),
           .frames = 2,
@@ -150,7 +150,7 @@ Scene scene_of_folder(const fs::path& folder) {
           .points = [files, first](std::size_t frame) {
             if (frame == 0) return first->points;
             Mesh mesh = read_mesh(files.at(frame));
-            expect_same_figures(*first, files[0].string(), mesh, files[frame].string());
+            expect_same_primitives(*first, files[0].string(), mesh, files[frame].string());
             return std::move(mesh.points);
           }};
 }

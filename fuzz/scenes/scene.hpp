@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "fuzz/scenes/mesh.hpp"
+#include "fuzz/meshes/mesh.hpp"
 
 namespace nearmiss {
 
@@ -16,7 +16,7 @@ struct Scene {
   std::size_t frames = 2;  ///< at least 2
   Mesh mesh;               ///< at frame 0
   /// The points of a frame, read or made when asked for. Throws Error where the frame does not have the same
-  /// figures as the others.
+  /// primitives as the others.
   std::function<std::vector<Vector3<double>>(std::size_t frame)> points;
 
   [[nodiscard]] std::size_t steps() const { return frames - 1; }
@@ -38,7 +38,7 @@ Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::
 /// knows which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene with points that are in one place at frame 0 (0 and -0 are equal) made one, and the figures
+/// The scene with points that are in one place at frame 0 (0 and -0 are equal) made one, and the primitives
 /// renumbered: files repeat points at seams, and neighbours that share none would be tested for collision. A
 /// triangle may become one that has a vertex twice. `points` throws Error for a frame that tears such points
 /// apart.

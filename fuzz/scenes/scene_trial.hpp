@@ -10,7 +10,7 @@
 #include "fuzz/scenes/marks.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
-#include "fuzz/sifted_trials.hpp"
+#include "fuzz/trial/sifted_trials.hpp"
 
 namespace nearmiss {
 
@@ -29,7 +29,7 @@ class SceneTrial {
   void hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
             const std::function<void(double)>& progress);
 
-  /// Of the step so far with the most figures that collide, or are reported falsely; nothing where there is
+  /// Of the step so far with the most primitives that collide, or are reported falsely; nothing where there is
   /// none.
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "fuzz/scenes/mesh.hpp"
+#include "fuzz/meshes/mesh.hpp"
 
 namespace nearmiss {
 

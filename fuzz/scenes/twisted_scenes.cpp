@@ -76,9 +76,9 @@ Scene knot(int size) {
   const double radius = std::sqrt(size / (2 * turn * radii_long));
   const int sides = std::max(3, nearest(turn * radius));
   const int rings = std::max(20, nearest(size / (2.0 * sides)));
-  Mesh figures;
-  add_surface(figures, 0, rings + 1, sides, true);
-  return scene_of_formula(steps + 1, std::move(figures), [=, knot_line = KnotLine()](double frame) {
+  Mesh primitives;
+  add_surface(primitives, 0, rings + 1, sides, true);
+  return scene_of_formula(steps + 1, std::move(primitives), [=, knot_line = KnotLine()](double frame) {
     const double scale = (2 * radius - 0.3) / 1.415 + 0.05 * (steps - frame);
     const double edge = radii_long * radius / rings;
     Points line;
@@ -97,9 +97,9 @@ Scene hair(int size) {
   const auto lines_of = [](int count) { return nearest(4 * std::sqrt(static_cast<double>(count))); };
   while (static_cast<double>(hairs) * lines_of(hairs) < size) ++hairs;
   const int lines = lines_of(hairs);
-  Mesh figures;
-  for (int i = 0; i < hairs; ++i) add_polyline(figures, i * (lines + 1), lines + 1);
-  return scene_of_formula(31, std::move(figures), [=](double frame) {
+  Mesh primitives;
+  for (int i = 0; i < hairs; ++i) add_polyline(primitives, i * (lines + 1), lines + 1);
+  return scene_of_formula(31, std::move(primitives), [=](double frame) {
     constexpr double golden = 0.3819660112501051;  // of a turn: evenly spread over a disc
     const double widest = 0.56 * std::sqrt(static_cast<double>(hairs));
     const double turns = 0.2 + 0.12 / widest * frame;
@@ -166,9 +166,9 @@ Scene mat(int size) {
   const int squares = nearest(std::sqrt(size / 6.0));
   const int length = nearest(size / (2.0 * squares));
   const double outermost = std::sqrt(squares / 2.0 / tightest);  // when it is rolled up
-  Mesh figures;
-  add_surface(figures, 0, length + 1, squares + 1);
-  return scene_of_formula(steps + 1, std::move(figures), [=](double frame) {
+  Mesh primitives;
+  add_surface(primitives, 0, length + 1, squares + 1);
+  return scene_of_formula(steps + 1, std::move(primitives), [=](double frame) {
     double tightness = tightest;
     for (int i = steps; i > static_cast<int>(frame); --i) tightness *= 1 - std::min(0.06, 1.4 / squares);
     const Points section = rolled(squares, tightness);

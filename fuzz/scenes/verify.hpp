@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fuzz/scenes/plan.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/trial/trial.hpp"
 
 namespace nearmiss {
 

@@ -35,7 +35,7 @@ function drawLadder() {
   fillTable(element("ladder"), [
     text("subject", "subject"), { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) }, count("queries", "queries"),
     count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),
-    figure("farthest / B", "farthest"), figure("claimed / B", "claimed"), count("beyond", "refuted_bounds", true), figure("ns / query", "ns_per_query"),
+    number("farthest / B", "farthest"), number("claimed / B", "claimed"), count("beyond", "refuted_bounds", true), number("ns / query", "ns_per_query"),
   ], rungs, true);
   const hue = algorithmColor([...new Set(rungs.map((r) => r.algorithm))]);
   const x = { field: "epsilon", type: "quantitative", title: "machine epsilon ε", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } };
@@ -59,14 +59,14 @@ function drawAudit() {
   show("audit-section");
   fillTable(element("audit"), [
     text("constant", "name"), text("section", "section"), text("unit", "unit"),
-    { ...figure("quoted", "quoted"), bad: (r) => r.too_small }, figure("derived", "derived"), figure("proven", "proven"),
-    figure("largest seen", "seen"), figure("slack", "slack"), { title: "", text: remark, bad: (r) => r.too_small },
+    { ...number("quoted", "quoted"), bad: (r) => r.too_small }, number("derived", "derived"), number("proven", "proven"),
+    number("largest seen", "seen"), number("slack", "slack"), { title: "", text: remark, bad: (r) => r.too_small },
   ], report.audit.constants);
   fillTable(element("tolerances"), [
     text("scalar", "scalars"), { title: "ε", number: (r) => r.epsilon, text: (r) => `2^${r.epsilon_exponent}` },
-    figure("the paper's bound, B ε^¼", "paper_bound"),
+    number("the paper's bound, B ε^¼", "paper_bound"),
     { title: "failure-proof", text: (r) => (r.paper_breaks ? `no: ${r.paper_breaks}` : "yes"), bad: (r) => r.paper_breaks !== "" },
-    figure("smallest bound, B ε^¼", "tight_bound"), figure("in B", "tight_bound_over_B"), figure("μ / B³ε", "mu"), figure("τ / B²ε^½", "tau"),
-    figure("η / Bε^¼", "eta"), figure("R / Bε^¼", "R"), figure("λ² / B²ε^½", "lambda2"), figure("D² / B²ε^½", "D2"), figure("ψ / B²ε^½", "psi"),
+    number("smallest bound, B ε^¼", "tight_bound"), number("in B", "tight_bound_over_B"), number("μ / B³ε", "mu"), number("τ / B²ε^½", "tau"),
+    number("η / Bε^¼", "eta"), number("R / Bε^¼", "R"), number("λ² / B²ε^½", "lambda2"), number("D² / B²ε^½", "D2"), number("ψ / B²ε^½", "psi"),
   ], report.audit.tolerances);
 }

@@ -13,8 +13,8 @@ function markColours(meanings, subject) {
 
 const numbersOf = (text) => (text === "" ? [] : text.split(" ").map(Number));
 
-/** The figures of a picture by kind: [{points: [indices], mark}]. */
-function figuresOf(picture) {
+/** The primitives of a picture by kind: [{points: [indices], mark}]. */
+function primitivesOf(picture) {
   const cut = (text, size) => {
     const list = numbersOf(text);
     return Array.from({ length: list.length / (size + 1) }, (_, i) =>
@@ -25,8 +25,8 @@ function figuresOf(picture) {
 
 /** @param picture an entry of report.pictures, whose format reports/scene_picture.hpp says */
 function drawMesh(picture) {
-  const figures = figuresOf(picture);
-  const marked = figures.filter((figure) => figure.mark !== 0);
+  const primitives = primitivesOf(picture);
+  const marked = primitives.filter((primitive) => primitive.mark !== 0);
   const subjects = [...new Set(picture.meanings.filter((m) => m.startsWith("missed by ")).map((m) => m.slice("missed by ".length)))];
   const points = numbersOf(picture.points);
   const count = points.length / 6;
@@ -40,11 +40,11 @@ function drawMesh(picture) {
     return (lo + hi) / 2;
   });
   const said = (subject) => markColours(picture.meanings, subject).slice(0, 2).reduce((bits, each) => bits | each.bits, 0);
-  const wrong = subjects.find((subject) => figures.some((figure) => figure.mark & said(subject)));
+  const wrong = subjects.find((subject) => primitives.some((primitive) => primitive.mark & said(subject)));
   const view = { yaw: -0.6, pitch: 0.45, zoom: 1, time: 1, subject: wrong ?? subjects[0] };
 
   const canvas = made("canvas", [], { class: "mesh", tabindex: "0", role: "img", "aria-label":
-    `The mesh of ${picture.step.replace(/^scene:/, "")}: ${integer(marked.length)} of ${integer(figures.length)} figures are marked; ` +
+    `The mesh of ${picture.step.replace(/^scene:/, "")}: ${integer(marked.length)} of ${integer(primitives.length)} primitives are marked; ` +
     "arrow keys turn the picture, + and - change its size" });
   const legend = made("div", [], { class: "mesh-legend" });
 
@@ -73,11 +73,11 @@ function drawMesh(picture) {
     paint.scale(dense, dense);
     paint.lineJoin = "round";
     const at = seen(size);
-    const depth = (figure) => figure.points.reduce((sum, p) => sum + at[3 * p + 2], 0) / figure.points.length;
-    const inOrder = figures.map((figure) => ({ figure, depth: depth(figure), hit: colours.find((each) => figure.mark & each.bits) }))
+    const depth = (primitive) => primitive.points.reduce((sum, p) => sum + at[3 * p + 2], 0) / primitive.points.length;
+    const inOrder = primitives.map((primitive) => ({ primitive, depth: depth(primitive), hit: colours.find((each) => primitive.mark & each.bits) }))
       .sort((a, b) => b.depth - a.depth);
-    for (const { figure, hit } of inOrder) {
-      const [first, ...others] = figure.points;
+    for (const { primitive, hit } of inOrder) {
+      const [first, ...others] = primitive.points;
       paint.beginPath();
       if (others.length === 0) {
         paint.arc(at[3 * first], at[3 * first + 1], hit ? 2.2 : 1.2, 0, 7);
@@ -97,7 +97,7 @@ function drawMesh(picture) {
       paint.stroke();
     }
     legend.replaceChildren(...colours.flatMap(({ bits, name, paint: fill }) => {
-      const number = figures.filter((figure) => figure.mark & bits).length;
+      const number = primitives.filter((primitive) => primitive.mark & bits).length;
       const swatch = made("span", [], { class: "swatch" });
       swatch.style.background = fill;
       return number === 0 ? [] : [made("span", [swatch, ` ${name} (${integer(number)}) `])];
@@ -123,7 +123,7 @@ function drawMesh(picture) {
   draw();
   return made("figure", [
     made("figcaption", [made("strong", picture.step.replace(/^scene:/, "")),
-      figures.length < picture.figures ? `: ${integer(figures.length)} of ${integer(picture.figures)} figures are shown` : ""]),
+      primitives.length < picture.primitives ? `: ${integer(primitives.length)} of ${integer(picture.primitives)} primitives are shown` : ""]),
     canvas, legend,
     made("div", [made("label", ["t ", time]), ...(subjects.length > 1 ? [made("label", [" said by ", which])] : []), " ",
       button("larger", "+"), button("smaller", "-")], { class: "mesh-controls" }),

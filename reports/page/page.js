@@ -99,7 +99,7 @@ function drawCounts() {
   const rows = countRows(byFamily);
   if (rows.length === 0) return;
   show("counts-section");
-  const largest = { ...figure("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) };
+  const largest = { ...number("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) };
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
@@ -112,7 +112,7 @@ function drawCounts() {
     range("median dist.", "median_fp_distance_over_bound"), range("99 % dist.", "q99_fp_distance_over_bound"),
     { ...largest, text: (r) => { const far = farthestOf(r); return far ? made("a", largest.text(r), { href: far.file }) : "–"; } },
     count("beyond", "refuted_bounds", true), ...(rows.some(faults) ? [noAnswer] : []),
-    figure("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
+    number("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
     { title: "timed singly", number: (r) => r.times.sampled, text: (r) => integer(r.times.sampled) },
   ];
   fillTable(element("counts"), columns, rows, true);
@@ -141,7 +141,7 @@ function drawDeciders() {
   fillTable(element("deciders"), [
     text("subject", "subject"), { title: "family", text: (r) => r.family || "all" }, count("queries", "queries"),
     share("its algorithm", "algorithm"), share("certified filter", "filter"), share("finer scalar", "finer"),
-    share("exact arithmetic", "exact"), figure("ns / query", "ns_per_query"), ...over("wang"), ...over("exact"),
+    share("exact arithmetic", "exact"), number("ns / query", "ns_per_query"), ...over("wang"), ...over("exact"),
   ], rows, true);
 }
 
@@ -202,7 +202,7 @@ function drawTightness() {
   const says = { "accepting-tolerance": "missed with this factor or less", "keeping-tolerance": "missed with this factor or more",
     distance: "distance / bound" };
   fillTable(element("tightness"), [
-    text("tolerance or tests", "name"), { title: "figure", text: (r) => says[r.of] },
+    text("tolerance or tests", "name"), { title: "value", text: (r) => says[r.of] },
     { title: "value", number: (r) => r.value ?? 0, text: (r) => (r.value === null ? "none found" : short(r.value)) },
     count("queries", "queries"), { title: "from", text: (r) => r.provenance ?? "" },
   ], rows);
@@ -238,7 +238,7 @@ function drawFindings() {
     : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. A few of each are kept, shrunk to the simplest query ` +
       "that fails in the same way; they are in findings.csv and stand as case files in cases/, beside the queries as they " +
       "were found. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
-      "Pictures show both figures at contact, or where there is none when they are closest; pale at t = 0, pale and dashed at t = 1; " +
+      "Pictures show both primitives at contact, or where there is none when they are closest; pale at t = 0, pale and dashed at t = 1; " +
       "mouse and arrow keys turn them.";
   if (seen === 0) return;
   const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));

@@ -1,12 +1,12 @@
-// A picture of a query: both figures at t = 0, at the moment that matters and at t = 1, and the paths of their vertices.
+// A picture of a query: both primitives at t = 0, at the moment that matters and at t = 1, and the paths of their vertices.
 "use strict";
 
 /** @param {string} kind "vt" or "ee" @param {number[]} x 24 numbers @param {number} time in [0, 1] */
 function drawPicture(kind, x, time) {
   const size = 220;
   const namespace = "http://www.w3.org/2000/svg";
-  // The figures as lists of vertices: a vertex and a triangle, or two edges.
-  const figures = kind === "vt" ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
+  // The primitives as lists of vertices: a vertex and a triangle, or two edges.
+  const primitives = kind === "vt" ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
 
   const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
   const moments = [[0, "start"], [1, "end"], [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
@@ -52,8 +52,8 @@ function drawPicture(kind, x, time) {
       add("line", { x1, y1, x2, y2, class: "path" });
     }
     for (const { name, points } of moments)
-      figures.forEach((vertices, which) => {
-        const shown = `${name} figure${which}`;
+      primitives.forEach((vertices, which) => {
+        const shown = `${name} primitive${which}`;
         const corners = vertices.map((i) => seen(points[i]));
         if (corners.length > 1) add("polygon", { points: corners.map((p) => p.join(",")).join(" "), class: shown });
         for (const [cx, cy] of corners) add("circle", { cx, cy, r: corners.length === 1 ? 4 : 2, class: shown });

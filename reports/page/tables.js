@@ -69,7 +69,7 @@ function fillTable(table, columns, rows, sortable = false) {
 const count = (title, field, bad) => ({
   title, number: (r) => r[field], text: (r) => integer(r[field]), bad: bad ? (r) => r[field] > 0 : undefined,
 });
-const figure = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
+const number = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
 const text = (title, field) => ({ title, text: (r) => r[field] });
 
 /** A button that copies text. */

@@ -1,4 +1,4 @@
-// How a figure is turned by mouse and keys.
+// How a primitive is turned by mouse and keys.
 "use strict";
 
 /**

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
-#include "fuzz/isolation/isolated_plugin.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "tests/benchmarks/known_time.h"
 
 namespace nearmiss {

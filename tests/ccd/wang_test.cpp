@@ -39,28 +39,28 @@ TEST_P(EveryWang, ReportsEdgesThatCross) {
 }
 
 TEST(Wang, TellsWhatRejectedAPair) {
-  const auto miss = [](const char* name, const Query& query) {
-    return make_subject(name)->decide(query).miss;
+  const auto rejection = [](const char* name, const Query& query) {
+    return make_subject(name)->decide(query).rejection;
   };
   const Query above = falling_vertex(0.25, 0.25, 2, 1);
-  EXPECT_EQ(miss("wang", above), Miss::planes);
-  EXPECT_EQ(miss("wang-plain", above), Miss::tests);
-  EXPECT_EQ(miss("basic-plain", above), Miss::no_root);
+  EXPECT_EQ(rejection("wang", above), Rejection::planes);
+  EXPECT_EQ(rejection("wang-plain", above), Rejection::tests);
+  EXPECT_EQ(rejection("basic-plain", above), Rejection::no_root);
 
   const Vector3<double> o(0, 0, 0);
   const Vector3<double> a(1, 0, 0), b(0, 2, 0);
   const Query beside =
       make_query(Kind::vertex_triangle, {{0.6, 1, 0.25}, o, a, b}, {{0.6, 1, -0.25}, o, a, b});
-  EXPECT_EQ(miss("wang", beside), Miss::culled);
-  EXPECT_EQ(miss("wang-plain", beside), Miss::tests);
-  EXPECT_EQ(miss("basic", beside), Miss::tests);
+  EXPECT_EQ(rejection("wang", beside), Rejection::culled);
+  EXPECT_EQ(rejection("wang-plain", beside), Rejection::tests);
+  EXPECT_EQ(rejection("basic", beside), Rejection::tests);
 
   const Vector3<double> c(1, 0, 1), d(0, 2, 2);
   const Query above_slope =
       make_query(Kind::vertex_triangle, {{0.5, 0.5, 1.9}, o, c, d}, {{0.5, 0.5, 1.2}, o, c, d});
-  EXPECT_EQ(miss("wang", above_slope), Miss::no_root);
-  EXPECT_EQ(miss("wang-plain", above_slope), Miss::tests);
-  EXPECT_EQ(miss("wang", falling_vertex(0.25, 0.25, 1, -1)), Miss::untold);
+  EXPECT_EQ(rejection("wang", above_slope), Rejection::no_root);
+  EXPECT_EQ(rejection("wang-plain", above_slope), Rejection::tests);
+  EXPECT_EQ(rejection("wang", falling_vertex(0.25, 0.25, 1, -1)), Rejection::untold);
 }
 
 TEST_P(EveryWang, ReportsContactAtTheStart) {
@@ -119,10 +119,10 @@ TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   ee.p = ee.q = ee.r = rest;
   EXPECT_TRUE(within_reach(vt));
   EXPECT_TRUE(within_reach(ee));
-  EXPECT_TRUE(Figure(vt, 0.0).well_shaped(tol));
-  EXPECT_TRUE(Figure(ee, 0.0).well_shaped(tol));
-  EXPECT_TRUE(Figure(vt, 0.0).inside());
-  EXPECT_TRUE(Figure(ee, 0.0).inside());
+  EXPECT_TRUE(Configuration(vt, 0.0).well_shaped(tol));
+  EXPECT_TRUE(Configuration(ee, 0.0).well_shaped(tol));
+  EXPECT_TRUE(Configuration(vt, 0.0).inside());
+  EXPECT_TRUE(Configuration(ee, 0.0).inside());
 }
 
 TEST_P(EveryWang, ReportsAPairThatIsOnePoint) {

@@ -1,5 +1,5 @@
 // The audit of rounding constants.
-#include "fuzz/audit/audit.hpp"
+#include "fuzz/studies/audit/audit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "ccd/cubic.hpp"
 #include "ccd/proximity.hpp"
 #include "ccd/vertex_edge.hpp"
-#include "fuzz/audit/samples.hpp"
+#include "fuzz/studies/audit/samples.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 
@@ -213,7 +213,7 @@ TEST(FullErrors, AreNotAboveThoseOfTheRules) {
 
   Pair<Kind::vertex_triangle, Number> vt;
   vt.p = vt.q = vt.r = leaves(1, 1, 3);
-  const Figure triangle(vt, exact_time(0.5));
+  const Configuration triangle(vt, exact_time(0.5));
   std::ignore = triangle.well_shaped(tol, log);
   EXPECT_LT(roundings(errors.area), taken(0));
   std::ignore = triangle.inside(log);
@@ -223,7 +223,7 @@ TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   Pair<Kind::edge_edge, Number> ee;
   ee.p = leaves(2, 1, 4);
   ee.q = ee.r = leaves(1, 1, 3);
-  const Figure quadrilateral(ee, exact_time(0.5));
+  const Configuration quadrilateral(ee, exact_time(0.5));
   std::ignore = quadrilateral.well_shaped(tol, log);
   EXPECT_LT(roundings(errors.height_ee), taken(1));
   std::ignore = quadrilateral.inside(log);

@@ -35,7 +35,7 @@ class EveryScene : public ::testing::TestWithParam<BuiltIn> {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
                          [](const auto& each) { return each.param.name; });
 
-/// Of the first, a middle and the last frame, and of the figures.
+/// Of the first, a middle and the last frame, and of the primitives.
 std::uint64_t fingerprint(const Scene& scene) {
   std::uint64_t hash = 0;
   const auto add = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x100000001b3, 29); };
@@ -85,7 +85,7 @@ TEST_P(EveryScene, IsAboutAsLargeAsAsked) {
   }
 }
 
-TEST_P(EveryScene, IsFiniteAndFiguresJoinItsPoints) {
+TEST_P(EveryScene, IsFiniteAndPrimitivesJoinItsPoints) {
   for (const int size : {0, 3000}) {
     const Scene scene = of_size(size);
     const auto count = static_cast<int>(scene.mesh.points.size());

@@ -1,5 +1,5 @@
 // A campaign is the same whoever runs it and however it is cut.
-#include "fuzz/campaign.hpp"
+#include "fuzz/trial/campaign.hpp"
 
 #include <gtest/gtest.h>
 

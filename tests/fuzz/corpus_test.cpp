@@ -6,7 +6,7 @@
 
 #include "ccd/subject.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/power/defects.hpp"
+#include "fuzz/subjects/defects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

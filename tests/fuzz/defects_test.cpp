@@ -1,5 +1,5 @@
 // The library of defects: the real code but for one thing.
-#include "fuzz/power/defects.hpp"
+#include "fuzz/subjects/defects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -221,7 +221,7 @@ TEST(Scale, IsThatOfTheLargestCoordinate) {
         << exponent;
 }
 
-TEST(StaticPair, OneFigureRests) {
+TEST(StaticPair, OnePrimitiveRests) {
   const auto rests = [](const Query& query, int first, int last) {
     for (int i = first; i < last; ++i)
       if (query.start(i) != query.end(i)) return false;
@@ -247,7 +247,7 @@ TEST(EvenRoots, ThereAreTwoHoweverNear) {
     const RootCount roots = count_roots(query);
     return roots.distinct == 1 && roots.with_multiplicity == 2;
   };
-  EXPECT_GT(count("even-roots@-2", is_double), 4);  // one in eight, where the figures are exact
+  EXPECT_GT(count("even-roots@-2", is_double), 4);  // one in eight, where the primitives are exact
 }
 
 TEST(TripleRoot, IsExactHereAndThere) {

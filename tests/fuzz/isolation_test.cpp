@@ -7,11 +7,11 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
-#include "fuzz/failures/failure.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/isolation/isolated_plugin.hpp"
 #include "fuzz/parallel.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/trial.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

@@ -1,5 +1,5 @@
 // Subjects over other scalars than double.
-#include "fuzz/ladder/scalars.hpp"
+#include "fuzz/subjects/ladder/scalars.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 #include "ccd/scalar_name.hpp"
 #include "ccd/tolerances.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/ladder/adaptive.hpp"
-#include "fuzz/ladder/bits.hpp"
-#include "fuzz/ladder/double_double.hpp"
 #include "fuzz/random.hpp"
-#include "fuzz/subjects.hpp"
-#include "fuzz/trial.hpp"
+#include "fuzz/subjects/ladder/adaptive.hpp"
+#include "fuzz/subjects/ladder/bits.hpp"
+#include "fuzz/subjects/ladder/double_double.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/trial.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 
@@ -285,7 +285,7 @@ TEST(Ladder, FloatTakesQueriesOfAnySize) {
 TEST(Adaptive, SaysWhatExactSaysAndEachOfItsStagesIsNeeded) {
   const auto adaptive = try_make_adaptive("adaptive");
   std::set<Stage> accepted;
-  std::set<Miss> rejected;
+  std::set<Rejection> rejected;
   for (const Batch& batch : batches(5, 200)) {
     std::vector<Verdict> verdicts(batch.queries.size());
     adaptive->decide(batch.queries, verdicts);
@@ -295,13 +295,13 @@ TEST(Adaptive, SaysWhatExactSaysAndEachOfItsStagesIsNeeded) {
       if (verdicts[i].hit)
         accepted.insert(verdicts[i].stage);
       else
-        rejected.insert(verdicts[i].miss);
+        rejected.insert(verdicts[i].rejection);
     }
   }
   EXPECT_EQ(accepted, (std::set{Stage::filter, Stage::exact}));
-  for (const Miss miss :
-       {Miss::planes, Miss::no_root, Miss::culled, Miss::tests, Miss::filter, Miss::finer, Miss::exact})
-    EXPECT_TRUE(rejected.contains(miss)) << miss_names[static_cast<std::size_t>(miss)];
+  for (const Rejection rejection : {Rejection::planes, Rejection::no_root, Rejection::culled,
+                                    Rejection::tests, Rejection::filter, Rejection::finer, Rejection::exact})
+    EXPECT_TRUE(rejected.contains(rejection)) << rejection_names[static_cast<std::size_t>(rejection)];
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The family of a moving mesh.
-#include "fuzz/families/mesh_family.hpp"
+#include "fuzz/scenes/mesh_family.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

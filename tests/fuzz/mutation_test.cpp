@@ -1,5 +1,5 @@
 // Mutations: finite, pure functions, and each changes what its name says.
-#include "fuzz/mutation.hpp"
+#include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -293,7 +293,7 @@ TEST(Mutation, ScaleIsByOnePowerOfTwo) {
   });
 }
 
-TEST(Mutation, TranslateKeepsTheFigures) {
+TEST(Mutation, TranslateKeepsThePrimitives) {
   bool to_the_origin = false;
   expect_of("translate", "small-integer", [&](const Query& before, const Query& after) {
     for (int i = 0; i < 4; ++i) {
@@ -333,7 +333,7 @@ std::vector<Query> seeds() {
     for (std::uint64_t i = 0; i < 16; ++i) queries.push_back(make_query(family, 5, i));
   using Limits = std::numeric_limits<double>;
   for (const Kind kind : kinds) {
-    for (const double size : {1e-100, 1e-150, 1e-300}) {  // small figures, far apart along x
+    for (const double size : {1e-100, 1e-150, 1e-300}) {  // small primitives, far apart along x
       Query query{.kind = kind};
       for (std::size_t i = 0; i < 24; ++i) query.x[i] = size * std::sqrt(i);
       for (int i = split(kind); i < 4; ++i) {

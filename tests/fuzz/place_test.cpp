@@ -1,5 +1,5 @@
-// Places: figures are made to touch by moving one position.
-#include "fuzz/place.hpp"
+// Places: primitives are made to touch by moving one position.
+#include "fuzz/families/place.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(Place, ThereIsAlwaysAPositionThatNeedNotMoveFar) {
   }
 }
 
-TEST(Place, ItsOwnIsWhereTheFiguresTouch) {
+TEST(Place, ItsOwnIsWhereThePrimitivesTouch) {
   Random random(3, 0, 0);
   const Place falling = own_place(random, testing::falling_vertex(0.25, 0.5, 1, -3));
   EXPECT_EQ(falling.time, 0.25);

@@ -12,7 +12,7 @@
 #include "fuzz/scenes/precision.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/scenes/verify.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -233,7 +233,7 @@ TEST(SceneTrial, ThePictureMarksWhatCollides) {
   EXPECT_EQ(picture->step, "scene:grids");
   const auto json = nlohmann::json::parse(picture->json);
   EXPECT_EQ(json["meanings"].size(), 7);
-  EXPECT_EQ(json["figures"], 3);  // triangle, line, and the vertex that falls
+  EXPECT_EQ(json["primitives"], 3);  // triangle, line, and the vertex that falls
   const auto numbers = [&](const char* name) {
     std::istringstream text(json[name].get<std::string>());
     return std::vector(std::istream_iterator<int>(text), {});

@@ -1,9 +1,9 @@
 // The time to the first failure.
-#include "fuzz/power/power.hpp"
+#include "fuzz/studies/power.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

@@ -200,7 +200,7 @@ TEST_F(ReadersTest, FacesThatAreDegenerateOrThereTwiceAreKept) {
             faces);
 }
 
-TEST_F(ReadersTest, PointsNeedNoFigure) {
+TEST_F(ReadersTest, PointsNeedNoPrimitive) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
   for (const auto& [ending, text] :
@@ -291,7 +291,7 @@ TEST_F(ReadersTest, BadPlyIsNamedWithItsLine) {
   refused("list uchar int", "list float int", ":9: found 'float', expected a type of integers");
   refused("list uchar int", "list uchar short", ": found no list of int or uint that is vertex_indices");
   refused("vertex_indices", "corners", ": found no list of int or uint that is vertex_indices");
-  refused("face 2", "edge 2", ": found the element edge, expected no other figures than face");
+  refused("face 2", "edge 2", ": found the element edge, expected no other primitives than face");
   refused("face 2", "face 2\nelement nothing 1000000000000", ": found no");
   refused("end_header\n", "", ":10: found '0', expected element, property of an element, or end_header");
   refused("1 0 0", "1 0 nan", ":12: found 'nan', expected a finite number");

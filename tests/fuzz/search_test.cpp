@@ -1,10 +1,10 @@
 // The directed search, on defects that are known to be there.
-#include "fuzz/search.hpp"
+#include "fuzz/families/search.hpp"
 
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -79,7 +79,7 @@ double farthest(const Subject& subject, std::uint64_t searches) {
 
 TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) { EXPECT_GT(farthest(*make_subject("wang"), 20), 0.9); }
 
-// Where figures must be as small as what they are looked for.
+// Where primitives must be as small as what they are looked for.
 TEST(FarSearch, ComesNearTheBoundOfAFineScalarToo) {
   EXPECT_GT(farthest(*make_any_subject("wang-tight:p112"), 10), 0.9);
 }

@@ -1,5 +1,5 @@
 // Shrinking: simpler, and still failing in the same way.
-#include "fuzz/failures/shrink.hpp"
+#include "fuzz/trial/shrink.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "ccd/error.hpp"
-#include "fuzz/failures/failure.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/trial/failure.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 

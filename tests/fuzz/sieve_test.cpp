@@ -1,10 +1,10 @@
 // Of each way to fail a few are kept.
-#include "fuzz/failures/sieve.hpp"
+#include "fuzz/trial/sieve.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fuzz/failures/failure.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/trial/failure.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

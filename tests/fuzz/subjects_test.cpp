@@ -1,5 +1,5 @@
 // Subjects by name.
-#include "fuzz/subjects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

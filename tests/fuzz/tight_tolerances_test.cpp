@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ccd/wang.hpp"
-#include "fuzz/audit/tolerance_table.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/studies/audit/tolerance_table.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

@@ -1,11 +1,11 @@
 // How tight tolerances are, as measured on known ones.
-#include "fuzz/power/tightness.hpp"
+#include "fuzz/studies/tightness.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
-#include "fuzz/power/defects.hpp"
+#include "fuzz/subjects/defects.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -38,7 +38,7 @@ TEST(Tightness, GivesAFactorWithWhichItsQueryIsMissed) {
   EXPECT_TRUE(try_make_defect(scaled_tolerance("D2", extreme.value * 1.1))->decide(extreme.query).hit);
 }
 
-TEST(Tightness, TurnsRoundForTolerancesThatKeepFiguresOut) {
+TEST(Tightness, TurnsRoundForTolerancesThatKeepPrimitivesOut) {
   const Extreme extreme = measure("eta");
   ASSERT_TRUE(extreme.found());
   EXPECT_EQ(extreme.of, Extreme::Of::keeping_tolerance);

@@ -1,12 +1,12 @@
 // Subjects beside the oracle.
-#include "fuzz/trial.hpp"
+#include "fuzz/trial/trial.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/trial_stream.hpp"
+#include "fuzz/trial/trial_stream.hpp"
 #include "reports/campaign.hpp"
 #include "tests/queries.hpp"
 

@@ -16,7 +16,7 @@ using testing::falling_edge;
 using testing::falling_vertex;
 using testing::HostileArithmetic;
 
-/// Contacts and misses by the last bit, of figures down to the smallest.
+/// Contacts and misses by the last bit, of primitives down to the smallest.
 std::vector<Query> close_calls() {
   std::vector<Query> queries;
   for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})

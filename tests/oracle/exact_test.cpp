@@ -162,7 +162,7 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }
 
-/// Random queries with coordinates in -3..3, which are full of degenerate figures.
+/// Random queries with coordinates in -3..3, which are full of degenerate primitives.
 Query small_integers(std::mt19937_64& random, Kind kind) {
   Query query{.kind = kind};
   for (double& c : query.x) c = static_cast<double>(random() % 7) - 3;

@@ -74,7 +74,7 @@ TEST(Features, KnowThatFIsZeroIdentically) {
   EXPECT_EQ(sliding_to(-0.5, 0.5), "none");
 }
 
-TEST(Features, KnowFiguresWithoutANormal) {
+TEST(Features, KnowPrimitivesWithoutANormal) {
   // A triangle that is the segment from (0,0,0) to (2,0,0).
   const auto falling_at = [](double x) {
     const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(2, 0, 0);

@@ -14,7 +14,7 @@
 namespace nearmiss {
 namespace {
 
-/// Small integers, so that figures often touch, are degenerate, or lie in one plane; each figure has one
+/// Small integers, so that primitives often touch, are degenerate, or lie in one plane; each primitive has one
 /// velocity.
 Query translating_query(std::mt19937_64& random, Kind kind, bool rest) {
   std::uniform_int_distribution<int> coordinate(-3, 3);

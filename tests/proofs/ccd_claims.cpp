@@ -31,8 +31,8 @@ constexpr double largest_eps = 0x1p-10;
 constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }
 
-std::function<Problem()> figure_of(Kind kind, Reach reach, FigurePart part) {
-  return [=] { return figure(kind, reach, part); };
+std::function<Problem()> primitive_of(Kind kind, Reach reach, ConfigurationPart part) {
+  return [=] { return configuration(kind, reach, part); };
 }
 std::function<Problem()> edge_of(Reach reach, EdgePart part) {
   return [=] { return vertex_edge(reach, part); };
@@ -52,18 +52,22 @@ std::vector<Claim> printed_claims() {
   constexpr auto here = "printed_errors, ccd/constraints.hpp";
   constexpr auto paper = "the paper, 4.4";
   return {
-      {"VT: N", here, printed.area, proven::normal, b2, gappa, figure_of(vt, near, FigurePart::normal)},
-      {"EE: N", here, printed.area, proven::normal, b2, gappa, figure_of(ee, near, FigurePart::normal)},
+      {"VT: N", here, printed.area, proven::normal, b2, gappa,
+       primitive_of(vt, near, ConfigurationPart::normal)},
+      {"EE: N", here, printed.area, proven::normal, b2, gappa,
+       primitive_of(ee, near, ConfigurationPart::normal)},
       {"VT: height test", here, printed.height_vt, proven::height_vt, b2, gappa,
-       figure_of(vt, near, FigurePart::height)},
+       primitive_of(vt, near, ConfigurationPart::height)},
       {"EE: height test", here, printed.height_ee, proven::height_ee, b2, gappa,
-       figure_of(ee, near, FigurePart::height)},
-      {"VT: weight", paper, 181, proven::weight, b4, gappa, figure_of(vt, near, FigurePart::weight)},
-      {"EE: weight", paper, 181, proven::weight, b4, gappa, figure_of(ee, near, FigurePart::weight)},
+       primitive_of(ee, near, ConfigurationPart::height)},
+      {"VT: weight", paper, 181, proven::weight, b4, gappa,
+       primitive_of(vt, near, ConfigurationPart::weight)},
+      {"EE: weight", paper, 181, proven::weight, b4, gappa,
+       primitive_of(ee, near, ConfigurationPart::weight)},
       {"VT: barycentric test", here, printed.weight_vt, proven::inside_vt, b4, gappa,
-       figure_of(vt, near, FigurePart::inside)},
+       primitive_of(vt, near, ConfigurationPart::inside)},
       {"EE: barycentric test", here, printed.weight_ee, proven::inside_ee, b4, gappa,
-       figure_of(ee, near, FigurePart::inside)},
+       primitive_of(ee, near, ConfigurationPart::inside)},
       {"VE: squared length", here, printed.length2, proven::length2, b2, gappa,
        edge_of(near, EdgePart::length2)},
       {"VE: weight", "the paper, 4.3", 22, proven::weight_ve, b2, gappa, edge_of(near, EdgePart::weight)},
@@ -81,15 +85,16 @@ std::vector<Claim> printed_claims() {
 std::vector<Claim> full_claims() {
   constexpr auto here = "full_errors, ccd/constraints.hpp";
   return {
-      {"area", here, factor(full.area), proven::normal, b2, edges, figure_of(ee, far, FigurePart::normal)},
+      {"area", here, factor(full.area), proven::normal, b2, edges,
+       primitive_of(ee, far, ConfigurationPart::normal)},
       {"height_vt", here, factor(full.height_vt), proven::height_vt, b2, gappa,
-       figure_of(vt, near, FigurePart::height)},
+       primitive_of(vt, near, ConfigurationPart::height)},
       {"height_ee", here, factor(full.height_ee), proven::height_ee, b2, edges,
-       figure_of(ee, far, FigurePart::height)},
+       primitive_of(ee, far, ConfigurationPart::height)},
       {"weight_vt", here, factor(full.weight_vt), proven::inside_vt, b4, gappa,
-       figure_of(vt, near, FigurePart::inside)},
+       primitive_of(vt, near, ConfigurationPart::inside)},
       {"weight_ee", here, factor(full.weight_ee), proven::inside_ee_far, b4, edges,
-       figure_of(ee, far, FigurePart::inside)},
+       primitive_of(ee, far, ConfigurationPart::inside)},
       {"length2", here, factor(full.length2), proven::length2, b2, edges, edge_of(far, EdgePart::length2)},
       {"weight_ve", here, factor(full.weight_ve), proven::inside_ve_far, b2, edges,
        edge_of(far, EdgePart::inside)},
@@ -110,7 +115,7 @@ std::vector<Claim> audited_claims() {
   };
   return {
       only("EE: weight, far p", "weight_far, ccd/proven.hpp", proven::weight_far, b4, edges,
-           figure_of(ee, far, FigurePart::weight)),
+           primitive_of(ee, far, ConfigurationPart::weight)),
       only("VE of EE: weight", "weight_ve_far, ccd/proven.hpp", proven::weight_ve_far, b2, edges,
            edge_of(far, EdgePart::weight)),
       only("VE: F_0ij", "F_ve, ccd/proven.hpp", proven::F_ve, b2, gappa, edge_of(near, EdgePart::F)),
@@ -176,9 +181,9 @@ std::vector<Claim> other_claims() {
       {"EE: F(t)", "evaluation_error, ccd/ve_culling.hpp", evaluation_error, proven::value_ee, b3, edges,
        cubic_of(ee, CubicPart::value)},
       {"VT: weight_error", "weight_error, ccd/ve_culling.hpp", weight_error, proven::inside_vt, b4, gappa,
-       figure_of(vt, near, FigurePart::inside)},
+       primitive_of(vt, near, ConfigurationPart::inside)},
       {"EE: weight_error", "weight_error, ccd/ve_culling.hpp", weight_error, proven::inside_ee_far, b4, edges,
-       figure_of(ee, far, FigurePart::inside)},
+       primitive_of(ee, far, ConfigurationPart::inside)},
       {"VT: spread_error", "spread_error, ccd/ve_culling.hpp", spread_error, proven::spread_vt, b4, gappa,
        [] { return spread(vt); }},
       {"EE: spread_error", "spread_error, ccd/ve_culling.hpp", spread_error, proven::spread_ee, b4, edges,

@@ -75,27 +75,28 @@ Pair<kind, Traced> pair_of(Problem& problem, Reach reach) {
 }
 
 template <Kind kind>
-Problem figure(Reach reach, FigurePart part) {
+Problem configuration(Reach reach, ConfigurationPart part) {
   Problem problem = begun();
   const auto pair = pair_of<kind>(problem, reach);
-  const Figure figure(pair, problem.time);
-  if (part == FigurePart::normal || part == FigurePart::weight) {
-    problem.left = part == FigurePart::normal ? figure.N[0] : figure.weights[0];
-    problem.degree = part == FigurePart::normal ? 2 : 4;
+  const Configuration configuration(pair, problem.time);
+  if (part == ConfigurationPart::normal || part == ConfigurationPart::weight) {
+    problem.left = part == ConfigurationPart::normal ? configuration.N[0] : configuration.weights[0];
+    problem.degree = part == ConfigurationPart::normal ? 2 : 4;
     return problem;
   }
   Comparisons kept;
   const KeptComparisons log(kept);
   Tolerances<Traced> tol{};
-  if (part == FigurePart::height) {
+  if (part == ConfigurationPart::height) {
     tol.eta = threshold(problem, "eta");
-    std::ignore = figure.well_shaped(tol, log);
+    std::ignore = configuration.well_shaped(tol, log);
     // The third edge of a triangle is within B too.
     if (kind == vt)
-      for (int i = 0; i < 3; ++i) problem.facts.push_back({figure.r[i] - figure.q[i], -1, 1, 1});
+      for (int i = 0; i < 3; ++i)
+        problem.facts.push_back({configuration.r[i] - configuration.q[i], -1, 1, 1});
     problem.degree = 2;
   } else {
-    std::ignore = figure.inside(log);
+    std::ignore = configuration.inside(log);
     problem.degree = 4;
   }
   // Of the weights of a triangle the third is the sum of the others, and the last.
@@ -175,14 +176,14 @@ Culling culling() {
   problem.degree = 4;
   pair.B = problem.trace->input("B", 4);
   problem.inputs.push_back({pair.B, 1, 1, 1});
-  const Figure figure(pair, problem.time);
+  const Configuration configuration(pair, problem.time);
   Tolerances<Traced> tol{};
-  if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), figure, problem.time, tol))
+  if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), configuration, problem.time, tol))
     throw std::runtime_error("the sample of a collision is taken for none");
   // Decisions end with h > 1, then w < -slack and N·N + slack < w for each weight.
   const auto& decisions = problem.trace->decisions();
   const auto last = decisions.size() - 1;
-  const Decision& h_above_1 = decisions.at(last - 2 * figure.weights.size());
+  const Decision& h_above_1 = decisions.at(last - 2 * configuration.weights.size());
   if (h_above_1.left->operation != Operation::constant || h_above_1.left->value != 1)
     throw std::runtime_error("the last comparison but those of weights is not with 1");
   problem.inputs.push_back({Traced(h_above_1.right), 0, 1, 0});
@@ -224,8 +225,8 @@ Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
 
 }  // namespace
 
-Problem figure(Kind kind, Reach reach, FigurePart part) {
-  return kind == vt ? figure<vt>(reach, part) : figure<ee>(reach, part);
+Problem configuration(Kind kind, Reach reach, ConfigurationPart part) {
+  return kind == vt ? configuration<vt>(reach, part) : configuration<ee>(reach, part);
 }
 
 Problem cubic(Kind kind, CubicPart part) { return kind == vt ? cubic<vt>(part) : cubic<ee>(part); }

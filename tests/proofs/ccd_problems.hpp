@@ -13,9 +13,9 @@ enum class Reach : std::uint8_t {
   far,   ///< p (edges), x_0i (vertex against an edge) and x_ji (two vertices) may be within 2B
 };
 
-/// The figure at a time (proximity.hpp): a component of N, or one side or both of a comparison.
-enum class FigurePart : std::uint8_t { normal, height, weight, inside };
-Problem figure(Kind kind, Reach reach, FigurePart part);
+/// The configuration at a time (proximity.hpp): a component of N, or one side or both of a comparison.
+enum class ConfigurationPart : std::uint8_t { normal, height, weight, inside };
+Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
 /// The cubic (cubic.hpp).
 enum class CubicPart : std::uint8_t { a, b, c, d, value };

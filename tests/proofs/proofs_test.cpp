@@ -73,7 +73,7 @@ TEST(ProofsClaims, FailWhereGappaProvesNoSuchBound) {
 TEST(ProofsClaims, FailWhereTheFormulaIsAnother) {
   Claim claim = claim_of("VT: N");
   claim.problem = [] {
-    Problem problem = figure(Kind::vertex_triangle, Reach::near, FigurePart::normal);
+    Problem problem = configuration(Kind::vertex_triangle, Reach::near, ConfigurationPart::normal);
     problem.left *= 1 + Traced(0x1p-5);  // one more rounding
     return problem;
   };

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/ladder/bits.hpp"
 #include "fuzz/random.hpp"
+#include "fuzz/subjects/ladder/bits.hpp"
 
 namespace nearmiss::proofs {
 

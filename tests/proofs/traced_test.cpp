@@ -66,13 +66,13 @@ TEST(ProofsTraced, EvaluatesAsTheTemplatesDo) {
     }
   }
   inputs["time"] = 0.3;
-  const Figure figure(pair, 0.3);
-  const Figure recorded(traced, trace.input("time", 0));
+  const Configuration configuration(pair, 0.3);
+  const Configuration recorded(traced, trace.input("time", 0));
   Program program;
   for (int i = 0; i < 3; ++i) {
     const int index = program.add(recorded.N[i]);
     const auto results = evaluate<double>(program, inputs, 0x1p-52);
-    EXPECT_EQ(results[static_cast<std::size_t>(index)], figure.N[i]);
+    EXPECT_EQ(results[static_cast<std::size_t>(index)], configuration.N[i]);
   }
 }
 

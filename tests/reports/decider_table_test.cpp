@@ -22,21 +22,23 @@ void add(Statistics& statistics, const Key& key, std::initializer_list<Outcome> 
 }
 
 Outcome accepted(Stage stage) { return {.verdict = Verdict::accepted(stage, 0), .collision = true}; }
-Outcome rejected(Miss miss) { return {.verdict = Verdict::rejected(miss), .collision = false}; }
+Outcome rejected(Rejection rejection) {
+  return {.verdict = Verdict::rejected(rejection), .collision = false};
+}
 
 Statistics some_statistics() {
-  const auto filter = rejected(Miss::filter);
+  const auto filter = rejected(Rejection::filter);
   const auto vt = [](const char* subject, const char* family) {
     return Key{subject, Kind::vertex_triangle, family};
   };
   Statistics statistics;
   add(statistics, vt("adaptive", "near"),
-      {rejected(Miss::planes), filter, rejected(Miss::finer), accepted(Stage::exact)}, 300);
+      {rejected(Rejection::planes), filter, rejected(Rejection::finer), accepted(Stage::exact)}, 300);
   add(statistics, {"adaptive", Kind::edge_edge, "near"},
-      {rejected(Miss::culled), accepted(Stage::filter), filter, rejected(Miss::exact)}, 500);
-  add(statistics, vt("adaptive", "far"), {rejected(Miss::no_root)}, 50);
+      {rejected(Rejection::culled), accepted(Stage::filter), filter, rejected(Rejection::exact)}, 500);
+  add(statistics, vt("adaptive", "far"), {rejected(Rejection::no_root)}, 50);
   add(statistics, vt("wang", "near"), {accepted(Stage::vv)}, 100);
-  add(statistics, vt("wang", "far"), {rejected(Miss::no_root)}, 25);
+  add(statistics, vt("wang", "far"), {rejected(Rejection::no_root)}, 25);
   add(statistics, vt("exact", "near"), {filter, accepted(Stage::exact)}, 600);
   return statistics;
 }
@@ -67,8 +69,8 @@ TEST(Deciders, TimesAreOverThoseOfTheSameFamiliesAndKinds) {
 TEST(Deciders, OfASceneAllStepsAreOneRow) {
   Statistics statistics;
   for (const char* step : {"scene:mat@300#0", "scene:mat@300#1", "scene:hair#0"})
-    add(statistics, {"adaptive", Kind::edge_edge, step}, {rejected(Miss::planes), accepted(Stage::filter)},
-        10);
+    add(statistics, {"adaptive", Kind::edge_edge, step},
+        {rejected(Rejection::planes), accepted(Stage::filter)}, 10);
   const auto rows = decider_rows(statistics);
   ASSERT_EQ(rows.size(), 3);
   EXPECT_EQ(rows[1].family, "scene:hair");
@@ -79,7 +81,7 @@ TEST(Deciders, OfASceneAllStepsAreOneRow) {
 TEST(Deciders, WhatGaveNoAnswerWasDecidedByNothing) {
   Statistics statistics;
   add(statistics, {"adaptive", Kind::edge_edge, "f"},
-      {rejected(Miss::planes), accepted(Stage::filter), {.verdict = {.fault = Fault::time}}}, 10);
+      {rejected(Rejection::planes), accepted(Stage::filter), {.verdict = {.fault = Fault::time}}}, 10);
   EXPECT_THAT(decider_rows(statistics)[0].queries, ElementsAre(1, 1, 0, 0));
 }
 

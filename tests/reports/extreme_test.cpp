@@ -29,7 +29,7 @@ TEST(Extreme, KeepsTheLargestFactorOfAnAcceptingTolerance) {
   EXPECT_EQ(merged_value(extreme(of, 0.25, "a"), nothing_found(of, "mu")), 0.25);
 }
 
-TEST(Extreme, KeepsTheSmallestFactorOfOneThatKeepsFiguresOut) {
+TEST(Extreme, KeepsTheSmallestFactorOfOneThatKeepsPrimitivesOut) {
   const auto of = Extreme::Of::keeping_tolerance;
   EXPECT_EQ(merged_value(extreme(of, 20, "a"), extreme(of, 50, "b")), 20);
   EXPECT_EQ(merged_value(extreme(of, 20, "a"), nothing_found(of, "mu")), 20);

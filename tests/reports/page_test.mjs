@@ -98,7 +98,7 @@ async function showsFindings(browser) {
 
   assert.equal(await count(page, "#findings svg.picture"), report.findings.length);
   const picture = page.locator("#findings svg.picture").first();
-  assert.equal(await picture.locator(".moment.figure0").count() > 0, true);
+  assert.equal(await picture.locator(".moment.primitive0").count() > 0, true);
   const drawn = () => picture.innerHTML();
   const before = await drawn();
   await picture.scrollIntoViewIfNeeded();

@@ -81,7 +81,7 @@ TEST(Counts, EachOutcomeIsCountedOnce) {
   Counts counts;
   counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, here);
   counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, here);
-  counts.add({.verdict = Verdict::rejected(Miss::planes), .collision = false}, query, here);
+  counts.add({.verdict = Verdict::rejected(Rejection::planes), .collision = false}, query, here);
   counts.add(false_positive(0.5), query, here);
   counts.add(false_positive(2, true), query, here);
   EXPECT_EQ(counts.queries, 5);
@@ -92,8 +92,8 @@ TEST(Counts, EachOutcomeIsCountedOnce) {
   EXPECT_EQ(counts.refuted_bounds, 1);
   EXPECT_EQ(counts.true_by_stage[static_cast<std::size_t>(Stage::proximity)], 1);
   EXPECT_EQ(counts.false_by_stage[static_cast<std::size_t>(Stage::vv)], 2);
-  EXPECT_EQ(counts.rejected_by[static_cast<std::size_t>(Miss::planes)], 1);
-  EXPECT_EQ(counts.rejected_by[static_cast<std::size_t>(Miss::untold)], 1);
+  EXPECT_EQ(counts.rejected_by[static_cast<std::size_t>(Rejection::planes)], 1);
+  EXPECT_EQ(counts.rejected_by[static_cast<std::size_t>(Rejection::untold)], 1);
   EXPECT_EQ(counts.max_ratio(), 2);
 }
 

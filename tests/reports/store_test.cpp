@@ -29,7 +29,7 @@ Statistics some_statistics(const std::string& subject) {
              [] { return "uniform:1:1"; });
   counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
              [] { return "uniform:1:3"; });
-  counts.add({.verdict = Verdict::rejected(Miss::culled)}, query, [] { return "uniform:1:5"; });
+  counts.add({.verdict = Verdict::rejected(Rejection::culled)}, query, [] { return "uniform:1:5"; });
   counts.times.add(Kind::edge_edge, "uniform", {3, 99});
   OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
   oracle.queries = 2;

@@ -1,0 +1,311 @@
+#include "fuzz/families/mutation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fuzz/families/contacts.hpp"
+#include "fuzz/families/place.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+// --- sizes and choices ------------------------------------------------------------------------------
+
+int sign(Random& random) { return random.one_in(2) ? 1 : -1; }
+
+template <class Range>
+auto one_of(Random& random, const Range& range) {
+  return range[static_cast<std::size_t>(random.integer(0, static_cast<int>(range.size()) - 1))];
+}
+
+/// The extent of a query; 1 where all is one point.
+double size_of(const Query& query) {
+  const double size = extent(query);
+  return size == 0 ? 1 : size;
+}
+
+/// Vertices start, first + 1 .. last of a random choice: one, or all of a primitive.
+struct Vertices {
+  int first, last;
+};
+
+Vertices some_vertices(Random& random, Kind kind) {
+  const int one = random.integer(0, 3);
+  if (random.one_in(2)) return {one, one};
+  return one < split(kind) ? Vertices{0, split(kind) - 1} : Vertices{split(kind), 3};
+}
+
+Vector position(const Query& query, int point) {
+  return point < 4 ? Vector(query.start(point)) : Vector(query.end(point - 4));
+}
+
+void set_position(Query& query, int point, const Vector& x) {
+  if (point < 4)
+    query.set_start(point, x);
+  else
+    query.set_end(point - 4, x);
+}
+
+/// Which of the positions at t = 0 and t = 1 are changed: one of them, or both.
+struct Moments {
+  bool start, end;
+};
+
+Moments some_moments(Random& random) {
+  const int which = random.integer(0, 2);
+  return {which != 0, which != 1};
+}
+
+// --- coordinates ------------------------------------------------------------------------------------
+
+Query by_ulps(Random& random, const Query& query) {
+  return nudged(random, query, random.integer(1, 4), random.one_in(4) ? 64 : 4);
+}
+
+/// A position, or all coordinates a little, by a fraction of the distance between two positions.
+Query by_a_fraction(Random& random, const Query& query) {
+  const Vector from = position(query, random.integer(0, 7));
+  const Vector to = position(query, random.integer(0, 7));
+  const double distance = from == to ? size_of(query) : (to - from).norm();
+  const double step = distance * random.log_uniform(random.one_in(2) ? 0x1p-8 : 0x1p-53, 1);
+  Query result = query;
+  if (random.one_in(4)) {
+    for (double& c : result.x) c += step * random.uniform(-1, 1);
+  } else {
+    const int point = random.integer(0, 7);
+    set_position(result, point, position(query, point) + random.vector(step));
+  }
+  return result;
+}
+
+Query exponents(Random& random, const Query& query) {
+  Query result = query;
+  const std::array extremes{0.0, std::numeric_limits<double>::denorm_min(),
+                            std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
+  for (int count = random.integer(1, 3); count > 0; --count) {
+    double& c = result.x[static_cast<std::size_t>(random.integer(0, 23))];
+    const int up_or_down = sign(random);
+    if (random.one_in(64))
+      c = up_or_down * one_of(random, extremes);
+    else
+      c = std::ldexp(c, up_or_down * random.integer(1, random.one_in(4) ? 60 : 2));
+  }
+  return result;
+}
+
+Query coordinate_copied(Random& random, const Query& query) {
+  Query result = query;
+  for (int count = random.integer(1, 3); count > 0; --count) {
+    const auto to = static_cast<std::size_t>(random.integer(0, 23));
+    const auto other = static_cast<std::size_t>(random.integer(0, 23));
+    const std::size_t from = random.one_in(4) ? other : other - other % 3 + to % 3;
+    result.x[to] = sign(random) * result.x[from];
+  }
+  return result;
+}
+
+/// To multiples of a power of two near the largest coordinate: small integers but for their unit.
+Query rounded(Random& random, const Query& query) {
+  double largest = 0;
+  for (const double c : query.x) largest = std::max(largest, std::abs(c));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double unit = std::ldexp(1, exponent - random.integer(1, random.one_in(4) ? 30 : 6));
+  const auto one = static_cast<std::size_t>(random.integer(0, 7));
+  const bool all = random.one_in(2);
+  Query result = query;
+  for (std::size_t i = 0; i < 24; ++i)
+    if (all || i / 3 == one) result.x[i] = std::nearbyint(query.x[i] / unit) * unit;
+  return result;
+}
+
+// --- contact ----------------------------------------------------------------------------------------
+
+Query joined_somehow(Random& random, const Query& query, const Place& place) {
+  return joined(query, place, one_of(random, movable_points(query.kind, place)));
+}
+
+Query planted(Random& random, const Query& query) {
+  return joined_somehow(random, query, random_place(random, query.kind));
+}
+
+Query restored(Random& random, const Query& query) {
+  return joined_somehow(random, query, own_place(random, query));
+}
+
+Place anywhere_in_planes(Random& random) {
+  const double alpha = random.one_in(2) ? random.integer(-2, 3) : random.uniform(-2, 3);
+  const double beta = random.one_in(2) ? random.integer(-2, 3) : random.uniform(-2, 3);
+  return {alpha, beta, random.uniform()};
+}
+
+Query coplanar_once(Random& random, const Query& query) {
+  Place place = anywhere_in_planes(random);
+  if (random.one_in(2)) place.time = random.integer(0, 16) / 16.0;
+  return joined_somehow(random, query, place);
+}
+
+/// A vertex keeps to one place of the plane, or line, of the others; or all keep to a plane across an axis.
+Query coplanar_always(Random& random, const Query& query) {
+  if (random.one_in(2)) {
+    Query result = query;
+    const auto axis = static_cast<std::size_t>(random.integer(0, 2));
+    const double level = query.x[3 * static_cast<std::size_t>(random.integer(0, 7)) + axis];
+    for (std::size_t i = 0; i < 8; ++i) result.x[3 * i + axis] = level;
+    return result;
+  }
+  Place place = random.one_in(2) ? anywhere_in_planes(random) : random_place(random, query.kind);
+  place.time = 0;
+  const int point = one_of(random, movable_points(query.kind, place));
+  const Query start = joined(query, place, point);
+  place.time = 1;
+  return joined(start, place, 4 + point);
+}
+
+// --- primitives and motion -----------------------------------------------------------------------------
+
+/// Two vertices come nearer to each other by a factor, or become one.
+Query edge_shrunk(Random& random, const Query& query) {
+  const int fixed = random.integer(0, 3);
+  const int moving = (fixed + random.integer(1, 3)) % 4;
+  const double factor = random.one_in(3) ? 0 : random.log_uniform(0x1p-52, 1);
+  const auto nearer = [&](const Vector& x, const Vector& to) -> Vector { return to + factor * (x - to); };
+  const Moments moments = some_moments(random);
+  Query result = query;
+  if (moments.start) result.set_start(moving, nearer(query.start(moving), query.start(fixed)));
+  if (moments.end) result.set_end(moving, nearer(query.end(moving), query.end(fixed)));
+  return result;
+}
+
+/// Zero, that of a vertex, or a sum of multiples of the edges from a vertex.
+Vector aligned_velocity(Random& random, const Query& query) {
+  const int base = random.integer(0, 3);
+  switch (random.integer(0, 3)) {
+    case 0:
+      return Vector::Zero();
+    case 1:
+      return query.end(base) - query.start(base);
+    default: {
+      const auto multiple = [&](int vertex) -> Vector {
+        const double factor = random.one_in(2) ? 1 : random.log_uniform(0x1p-30, 4);
+        return sign(random) * factor * (query.start(vertex) - query.start(base));
+      };
+      const Vector along = multiple((base + 1) % 4);
+      return random.one_in(2) ? along : along + multiple((base + 2) % 4);
+    }
+  }
+}
+
+Query velocity_aligned(Random& random, const Query& query) {
+  const Vector velocity = aligned_velocity(random, query);
+  const Vertices vertices = some_vertices(random, query.kind);
+  const bool backwards = random.one_in(2);
+  Query result = query;
+  for (int i = vertices.first; i <= vertices.last; ++i) {
+    if (backwards)
+      result.set_start(i, query.end(i) - velocity);
+    else
+      result.set_end(i, query.start(i) + velocity);
+  }
+  return result;
+}
+
+Query vertex_copied(Random& random, const Query& query) {
+  const int from = random.integer(0, 3);
+  const int to = (from + random.integer(1, 3)) % 4;
+  const Moments moments = some_moments(random);
+  Query result = query;
+  if (moments.start) result.set_start(to, query.start(from));
+  if (moments.end) result.set_end(to, query.end(from));
+  return result;
+}
+
+/// Start and end change places: those of all vertices, of a primitive, or of one vertex.
+Query reversed(Random& random, const Query& query) {
+  const Vertices vertices = random.one_in(2) ? Vertices{0, 3} : some_vertices(random, query.kind);
+  Query result = query;
+  for (int i = vertices.first; i <= vertices.last; ++i) {
+    result.set_start(i, query.end(i));
+    result.set_end(i, query.start(i));
+  }
+  return result;
+}
+
+// --- the whole --------------------------------------------------------------------------------------
+
+Query scaled(Random& random, const Query& query) {
+  const int exponent = random.one_in(4) ? random.integer(-1000, 1000) : random.integer(-20, 20);
+  Query result = query;
+  for (double& c : result.x) c = std::ldexp(c, exponent);
+  return result;
+}
+
+/// By any multiple of the extent, or so that a position comes to the origin.
+Query translated(Random& random, const Query& query) {
+  const Vector offset = random.one_in(4)
+                            ? Vector(-position(query, random.integer(0, 7)))
+                            : random.vector(size_of(query) * random.log_uniform(0x1p-20, 0x1p40));
+  Query result = query;
+  for (int i = 0; i < 8; ++i) set_position(result, i, position(query, i) + offset);
+  return result;
+}
+
+constexpr std::array table{
+    Mutation{"ulps", "some coordinates by a few ulps", by_ulps},
+    Mutation{"fraction", "a position, or everything, by a fraction of a distance", by_a_fraction},
+    Mutation{"exponent", "some coordinates by powers of two, or to the ends of their range", exponents},
+    Mutation{"copy-coordinate", "some coordinates become others, or their negation", coordinate_copied},
+    Mutation{"round", "a position, or everything, to few bits", rounded},
+    Mutation{"plant", "a position so that the primitives touch at a random place", planted},
+    Mutation{"restore", "a position so that the primitives touch where they nearly do", restored},
+    Mutation{"coplanar", "a position so that the vertices are in a plane at some time", coplanar_once},
+    Mutation{"planar", "the vertices are in a plane at all times", coplanar_always},
+    Mutation{"shrink-edge", "a vertex comes nearer to another, or to the same place", edge_shrunk},
+    Mutation{"velocity", "zero, another's, along an edge, or in a plane", velocity_aligned},
+    Mutation{"copy-vertex", "a vertex becomes another, at the start, the end or both", vertex_copied},
+    Mutation{"reverse", "start and end change places", reversed},
+    Mutation{"scale", "everything by a power of two", scaled},
+    Mutation{"translate", "everything by an offset", translated},
+    Mutation{"reorder", "the vertices of each primitive in another order", shuffled},
+};
+
+using Apply = Query (*)(Random& random, const Query& query);
+
+/// The changed query where it is finite.
+Query applied(Apply apply, Random& random, const Query& query) {
+  const Query result = apply(random, query);
+  return is_finite(result) ? result : query;
+}
+
+}  // namespace
+
+std::span<const Mutation> mutations() { return table; }
+
+Query mutated(Random& random, const Query& query) {
+  Query result = query;
+  do {
+    for (int count = random.integer(1, 3); count > 0; --count)
+      result = applied(random.one_in(2) ? by_a_fraction : one_of(random, table).apply, random, result);
+    if (random.one_in(2)) result = applied(restored, random, result);
+  } while (result == query);
+  return result;
+}
+
+Query crossed(Random& random, const Query& first, const Query& second) {
+  Query result{.kind = random.one_in(2) ? first.kind : second.kind};
+  const std::uint64_t choices = random.bits();
+  const int parts = random.integer(0, 3);
+  for (std::size_t i = 0; i < 24; ++i) {
+    const std::array part{i / 3 % 4, i % 3, i / 12, i};  // vertex, axis, moment, coordinate
+    const bool from_first = (choices >> part[static_cast<std::size_t>(parts)] & 1) != 0;
+    result.x[i] = (from_first ? first : second).x[i];
+  }
+  return result;
+}
+
+}  // namespace nearmiss

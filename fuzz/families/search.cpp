@@ -1,0 +1,292 @@
+#include "fuzz/families/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <nlopt.hpp>
+#include <vector>
+
+#include "fuzz/families/contacts.hpp"
+#include "oracle/oracle.hpp"
+#include "reports/family.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+constexpr double usually_smallest = 1e-5;  // of what is drawn, beside what is about 1
+
+/// What is searched over: a contact, in the frame in which `base` rests at the origin, and how far apart the
+/// primitives are put.
+struct Meeting {
+  Path q, r;
+  Vector w;      ///< velocity of the first primitive's point
+  Vector place;  ///< α, β, time
+  Vector gap;
+
+  /// All vectors; without the gap where primitives are to touch.
+  template <class Visit>
+  void visit(bool touching, const Visit& visit_vector) {
+    for (Vector* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
+    if (!touching) visit_vector(gap);
+  }
+};
+
+Contact contact_of(Kind kind, const Meeting& m) {
+  const auto clamped = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  Contact contact{{Vector::Zero(), Vector::Zero()},
+                  m.q,
+                  m.r,
+                  clamped(m.place[0]),
+                  clamped(m.place[1]),
+                  clamped(m.place[2])};
+  if (kind == Kind::vertex_triangle) contact.beta = std::min(contact.beta, 1 - contact.alpha);
+  return contact;
+}
+
+/// On a grid on which `meet` is exact: vectors within 2^3 are multiples of 2^-22, weights and times multiples
+/// of 2^-10, and so no sum of products has more than 3 + 3 + 22 + 20 = 48 bits.
+Meeting on_grid(Meeting m) {
+  const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
+  m.visit(true, [&](Vector& v) {
+    for (double& c : v) c = round_to(std::clamp(c, -8.0, 8.0), 0x1p-22);
+  });
+  for (double& c : m.place) c = round_to(c, 0x1p-10);
+  return m;
+}
+
+Query query_of(Kind kind, const Meeting& m) {
+  Query query = meet(kind, contact_of(kind, m), m.w);
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + m.gap);
+    query.set_end(i, query.end(i) + m.gap);
+  }
+  return query;
+}
+
+/// Primitives of sizes from the smallest to 1, thin ones, motion of such speeds and in their plane, or all of it
+/// near one plane, contact on borders and ends.
+Meeting draw(Random& random, double smallest) {
+  const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
+  const auto path = [&](const Vector& start, double speed) {
+    return Path{start, start + random.vector(speed)};
+  };
+  const auto speed = [&] { return random.one_in(3) ? 0 : some(smallest, 1); };
+  Meeting m;
+  m.q = path(random.vector(some(smallest, 1)), speed());
+  m.r = path(random.vector(some(smallest, 1)), speed());
+  if (random.one_in(3)) {
+    const double along = random.uniform(-1.5, 1.5);
+    const double across = some(0.1 * smallest, 1e-1);
+    m.r = {along * m.q.start + random.vector(across), along * m.q.end + random.vector(across)};
+  }
+  for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
+  m.w = random.vector(some(smallest, 1));
+  if (random.one_in(3))
+    m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
+          random.vector(some(0.1 * smallest, 1e-1));
+  if (random.one_in(4)) {
+    const double out_of_plane = random.log_uniform(1e-4 * smallest * smallest, 1e-2);
+    for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
+  }
+  m.gap.setZero();
+  return m;
+}
+
+/// log2 of what makes a contact hard, each where it is smaller.
+std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& w) {
+  const Vector q = contact.q.at(contact.time);
+  const Vector r = contact.r.at(contact.time);
+  const Vector n = q.cross(r);
+  const Vector relative = w - contact.velocity(kind);
+  const auto ratio = [](double a, double b) { return b > 0 ? std::log2(std::max(a / b, 0x1p-40)) : -40; };
+  const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
+  return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
+          ratio(n.norm(), q.norm() * r.norm()),
+          ratio(std::min({contact.alpha, contact.beta, 1 - contact.alpha, 1 - contact.beta, third}), 1),
+          ratio(std::min(q.norm(), r.norm()), std::max(q.norm(), r.norm())),
+          ratio(std::min(contact.time, 1 - contact.time), 1),
+          ratio(std::max(q.norm(), r.norm()), relative.norm())};
+}
+
+constexpr double nothing = -1e3;  ///< the objective of what is not looked for, far below all others
+
+/// Shows queries to an objective, from drawn starts on, and remembers the best.
+class Climb {
+ public:
+  using Objective = std::function<double(const Meeting&)>;  ///< more is better; infinity ends the search
+  using Draw = std::function<Meeting()>;
+
+  /// The size of a step is drawn between the finest one and half.
+  Climb(Random& random, bool touching, double finest_step, Objective objective)
+      : random_(random), touching_(touching), finest_step_(finest_step), objective_(std::move(objective)) {}
+
+  Meeting run(const Draw& draw_start) {
+    constexpr int starts = 50;
+    for (int i = 0; i < starts && !over(); ++i) show(draw_start());
+    for (bool again = false; !over(); again = true) optimise(again);
+    return best_;
+  }
+
+ private:
+  [[nodiscard]] bool over() const {
+    return shown_ >= search_evaluations || best_value_ == HUGE_VAL || error_ != nullptr;
+  }
+
+  double show(const Meeting& meeting) {
+    ++shown_;
+    const double value = objective_(meeting);
+    if (value > best_value_) {
+      best_value_ = value;
+      best_ = meeting;
+    }
+    return value;
+  }
+
+  /// From the best so far, or from beside it, with steps of a size that is drawn.
+  void optimise(bool beside) {
+    constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
+    constexpr int evaluations = 300;
+    const double step = random_.log_uniform(finest_step_, 0.5);
+    Meeting start = best_;
+    if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
+    std::vector<double> point;
+    start.visit(touching_, [&](const Vector& v) { point.insert(point.end(), v.begin(), v.end()); });
+
+    nlopt::opt optimiser(algorithms[static_cast<std::size_t>(random_.integer(0, 2))],
+                         static_cast<unsigned>(point.size()));
+    optimiser.set_max_objective(
+        [](const std::vector<double>& x, std::vector<double>& /*gradient*/, void* self) {
+          auto& climb = *static_cast<Climb*>(self);
+          double value = nothing;
+          try {
+            value = climb.show(climb.meeting_at(x));
+          } catch (...) {
+            climb.error_ = std::current_exception();  // the optimiser would take it for its own
+          }
+          if (climb.over()) climb.optimiser_->force_stop();
+          return std::min(value, 1e3);  // optimisers compute with it, so it is finite for them
+        },
+        this);
+    optimiser_ = &optimiser;
+    optimiser.set_initial_step(step);
+    optimiser.set_maxeval(evaluations);
+    optimiser.set_xtol_rel(1e-9);
+    double value = 0;
+    try {
+      optimiser.optimize(point, value);
+    } catch (const nlopt::forced_stop&) {       // it is over
+    } catch (const nlopt::roundoff_limited&) {  // steps became too small to tell values apart
+    } catch (const std::runtime_error&) {       // BOBYQA where its model breaks down
+    }
+    if (error_) std::rethrow_exception(error_);
+  }
+
+  [[nodiscard]] Meeting meeting_at(const std::vector<double>& point) const {
+    Meeting meeting;
+    meeting.gap.setZero();
+    const double* from = point.data();
+    meeting.visit(touching_, [&](Vector& v) {
+      v = Vector(from[0], from[1], from[2]);
+      from += 3;
+    });
+    return meeting;
+  }
+
+  Random& random_;
+  bool touching_;
+  double finest_step_;
+  Objective objective_;
+  nlopt::opt* optimiser_ = nullptr;
+  int shown_ = 0;
+  double best_value_ = -HUGE_VAL;
+  Meeting best_;
+  std::exception_ptr error_;  ///< of the objective
+};
+
+/// How far a subject's false positives may be: what it claims, or what wang does.
+double reach(const Subject& subject, const Query& query) {
+  const double claimed = subject.distance_bound(query);
+  return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
+}
+
+/// What counts for a subject may be much smaller than usual, where its reach is.
+double smallest_for(const Subject& subject, Random random, Kind kind) {
+  const Meeting typical = draw(random, usually_smallest);
+  return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
+}
+
+Query search_miss(const Subject& subject, Random& random, Kind kind) {
+  std::array<double, 6> mixture{};
+  for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
+  const bool exactly = random.one_in(2);
+  const auto placed = [&](const Meeting& m) { return exactly ? on_grid(m) : m; };
+  const auto objective = [&](const Meeting& anywhere) {
+    const Meeting m = placed(anywhere);
+    const Query query = query_of(kind, m);
+    if (!is_finite(query)) return nothing;
+    const bool hit = subject.decide(query).hit;
+    if (!(hit && exactly) && !collides(query)) return nothing;
+    if (!hit) return HUGE_VAL;
+    const double needed = subject.needed_tolerance(query);
+    if (!std::isnan(needed)) return std::log2(needed);
+    double sum = 0;
+    const auto hard = hardness(kind, contact_of(kind, m), m.w);
+    for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
+    return sum;
+  };
+  const double smallest = exactly ? usually_smallest : smallest_for(subject, random, kind);
+  return query_of(
+      kind, placed(Climb(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
+}
+
+Query search_far(const Subject& subject, Random& random, Kind kind) {
+  const auto objective = [&](const Meeting& m) {
+    const Query query = query_of(kind, m);
+    if (!is_finite(query)) return nothing;
+    if (!subject.decide(query).hit) {
+      const double needed = subject.needed_tolerance(query);
+      return std::isnan(needed) ? -1 : -std::log2(needed);
+    }
+    if (collides(query)) return 0.0;
+    const double bound = subject.claims_bound() ? subject.distance_bound(query) : reach(subject, query);
+    const double ratio = closest_ratio(query, bound);
+    if (!subject.claims_bound()) return ratio;
+    return ratio >= 1 && distance_exceeds(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
+  };
+  const double smallest = smallest_for(subject, random, kind);
+  return query_of(kind, Climb(random, false, smallest, objective).run([&] {
+    Meeting m = draw(random, smallest);
+    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(subject, query_of(kind, m)));
+    return m;
+  }));
+}
+
+/// Each query takes as long as some thousand others. So few at a time tell nothing of a subject's own time:
+/// the search leaves its caches cold, or those of the subject that it was for warm.
+Family search(std::string name, std::string about, std::function<Query(Random&, Kind)> make) {
+  return {.name = std::move(name),
+          .about = std::move(about),
+          .make = std::move(make),
+          .block_cases = 4,
+          .timed = false};
+}
+
+}  // namespace
+
+Family miss_search(const Subject& subject) {
+  return search(std::string(miss_search_family) + subject.name(),
+                "collisions that are nearly missed, by directed search",
+                [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); });
+}
+
+Family far_search(const Subject& subject) {
+  return search(std::string(far_search_family) + subject.name(), "far false positives, by directed search",
+                [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); });
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,113 @@
+#include "fuzz/scenes/mesh_family.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "ccd/error.hpp"
+#include "fuzz/families/contacts.hpp"
+#include "fuzz/scenes/candidates.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+using Vertices = decltype(Candidate::vertices);
+
+/// A sample of the candidates of a kind: those with the smallest random numbers, which are a function of the
+/// vertices alone, so that the order in which they come does not matter.
+class Sample {
+ public:
+  Sample(Kind kind, std::size_t most) : kind_(kind), most_(most) {}
+
+  void add(const Vertices& vertices) {
+    const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(vertices[i]); };
+    Random random(vertex(0), vertex(1), vertex(2) << 32 | vertex(3));
+    kept_.emplace_back(random.bits(), vertices);
+    std::push_heap(kept_.begin(), kept_.end());
+    if (kept_.size() <= most_) return;
+    std::pop_heap(kept_.begin(), kept_.end());
+    kept_.pop_back();
+  }
+
+  /// In an order of their own.
+  [[nodiscard]] std::vector<Query> queries(const MovingMesh& mesh) && {
+    std::sort_heap(kept_.begin(), kept_.end());
+    std::vector<Query> made;
+    for (const auto& [number, vertices] : kept_) made.push_back(make_query(mesh, {kind_, vertices}));
+    return made;
+  }
+
+ private:
+  Kind kind_;
+  std::size_t most_;
+  std::vector<std::pair<std::uint64_t, Vertices>> kept_;  ///< a heap
+};
+
+Query perturbed(Random& random, Query query, double size) {
+  for (double& c : query.x) c += random.uniform(-size, size);
+  return query;
+}
+
+/// Moves the first primitive, over the whole step alike, so that it touches the second one where the aim says.
+Query touching(Query query, const Aim& aim) {
+  const double alpha = aim.alpha;
+  const double beta = aim.beta;
+  const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(aim.time); };
+  const bool triangle = query.kind == Kind::vertex_triangle;
+  const Vector first = triangle ? at(0) : Vector((1 - alpha) * at(0) + alpha * at(1));
+  const Vector second = triangle ? Vector((1 - alpha - beta) * at(1) + alpha * at(2) + beta * at(3))
+                                 : Vector((1 - beta) * at(2) + beta * at(3));
+  const Vector shift = second - first;
+  for (int i = 0; i < split(query.kind); ++i) {
+    query.set_start(i, query.start(i) + shift);
+    query.set_end(i, query.end(i) + shift);
+  }
+  return query;
+}
+
+Query changed(Random& random, const Query& pair, double size) {
+  Query query = pair;
+  if (random.one_in(2)) query = touching(query, Numbers(random).aim(query.kind));
+  switch (random.integer(0, 3)) {
+    case 0:
+      break;
+    case 1:
+      query = nudged(random, query, random.integer(1, 4), 4);
+      break;
+    default:
+      query = perturbed(random, query, size * extent(pair));
+  }
+  return is_finite(query) ? query : pair;
+}
+
+}  // namespace
+
+Family mesh_family(const MovingMesh& mesh, std::size_t most) {
+  std::array samples{Sample(kinds[0], most), Sample(kinds[1], most)};
+  const auto number = [](Kind kind) { return static_cast<std::size_t>(kind); };
+  find_candidates(mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each.vertices); });
+
+  auto pairs = std::make_shared<std::array<std::vector<Query>, kinds.size()>>();
+  for (const Kind kind : kinds) {
+    (*pairs)[number(kind)] = std::move(samples[number(kind)]).queries(mesh);
+    if ((*pairs)[number(kind)].empty())
+      throw Error(fmt::format("found no {} pair in the mesh whose swept boxes meet, expected some",
+                              short_name(kind)));
+  }
+  const auto make = [pairs, number](Random& random, Kind kind, double x) {
+    const auto& all = (*pairs)[number(kind)];
+    const Query& pair = all[static_cast<std::size_t>(random.integer(0, static_cast<int>(all.size()) - 1))];
+    return changed(random, pair, power_of_ten(x));
+  };
+  return with_parameter("mesh",
+                        "pairs of a moving mesh (--mesh), as they are, perturbed, and moved into contact",
+                        {"perturbation / size of the pair = 10^x", -16, -1, false, make});
+}
+
+}  // namespace nearmiss

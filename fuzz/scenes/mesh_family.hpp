@@ -1,0 +1,15 @@
+// The family `mesh`: queries like those of a simulation.
+#pragma once
+
+#include "fuzz/families/families.hpp"
+#include "fuzz/meshes/mesh.hpp"
+
+namespace nearmiss {
+
+/// The family whose queries are pairs of a moving mesh whose swept boxes meet: as they are, perturbed, moved
+/// by ulps, or with one primitive moved so that they touch at a random time, as nearly as double allows. At most
+/// `most` pairs of each kind are kept: a choice that depends on nothing but the mesh. Throws Error where
+/// there is none of a kind.
+Family mesh_family(const MovingMesh& mesh, std::size_t most = 1 << 15);
+
+}  // namespace nearmiss

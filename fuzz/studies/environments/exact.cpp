@@ -1,0 +1,18 @@
+// The oracle as the subject `exact`: by way of the filter for many queries, as in a campaign.
+#include <span>
+
+#include "fuzz/studies/environments/on_trial.hpp"
+#include "oracle/subjects.hpp"
+
+namespace nearmiss::environments {
+
+bool collides(const Query& query) {
+  static const auto exact = try_make_exact("exact");
+  Verdict verdict;
+  exact->decide(std::span(&query, 1), std::span(&verdict, 1));
+  return verdict.hit;
+}
+
+double distance_bound(const Query& /*query*/) { return 0; }
+
+}  // namespace nearmiss::environments

@@ -1,0 +1,16 @@
+// The failure-proof CCD as a header-only library: without the guard of the product's subjects.
+#include "ccd/wang.hpp"
+
+#include "fuzz/studies/environments/on_trial.hpp"
+
+namespace nearmiss::environments {
+
+bool collides(const Query& query) {
+  constexpr WangOptions of_wang;
+  return query.kind == Kind::vertex_triangle ? wang<Kind::vertex_triangle, double, of_wang>(query).hit
+                                             : wang<Kind::edge_edge, double, of_wang>(query).hit;
+}
+
+double distance_bound(const Query& query) { return make_subject("wang")->distance_bound(query); }
+
+}  // namespace nearmiss::environments

@@ -1,0 +1,44 @@
+#include "fuzz/studies/power.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace nearmiss {
+
+namespace {
+
+/// The index in "family:seed:index".
+std::uint64_t index_of(const Finding& finding) {
+  const std::string& text = finding.provenance;
+  std::uint64_t index = 0;
+  std::from_chars(text.data() + text.rfind(':') + 1, text.data() + text.size(), index);
+  return index;
+}
+
+}  // namespace
+
+std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
+                                               const std::atomic<bool>& stop) {
+  std::optional<FirstFailure> first;
+  CampaignProgress before;
+  run_campaign(
+      plan, subjects,
+      [&](TrialResult&& result, const CampaignProgress& now) {
+        for (Finding& each : result.findings) {
+          if (each.what != Finding::What::false_negative && each.what != Finding::What::refuted_bound)
+            continue;
+          const std::uint64_t cases = cases_up_to(plan, each.family, index_of(each));
+          if (first && first->cases <= cases) continue;
+          const double part =
+              static_cast<double>(cases - before.cases) / static_cast<double>(now.cases - before.cases);
+          const auto time = before.elapsed + part * (now.elapsed - before.elapsed);
+          first = {std::move(each), time.count(), cases};
+        }
+        before = now;
+        return !first;
+      },
+      stop);
+  return first;
+}
+
+}  // namespace nearmiss

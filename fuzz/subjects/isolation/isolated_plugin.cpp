@@ -1,0 +1,158 @@
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "ccd/plugin.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using isolation::Failure;
+using isolation::Limits;
+using isolation::Order;
+using isolation::Shared;
+using isolation::WorkerProcess;
+
+class IsolatedPlugin final : public Subject {
+ public:
+  IsolatedPlugin(std::string path, const Limits& limits) : path_(std::move(path)), limits_(limits) {
+    idle_.push_back(std::make_unique<WorkerProcess>(path_, limits_));
+    name_ = idle_.back()->shared().name.data();
+    claims_bound_ = idle_.back()->shared().claims_bound;
+  }
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    Verdict verdict;
+    decide(std::span(&query, 1), std::span(&verdict, 1));
+    return verdict;
+  }
+
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    have_done(Order::decide, queries, [&](const Part& part) { part.answer(verdicts); });
+  }
+
+  BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    BatchTime sum;
+    have_done(Order::decide_timed, queries, [&](const Part& part) {
+      part.answer(verdicts);
+      if (part.failure) return;
+      sum.queries += part.end - part.first;
+      sum.nanoseconds += part.shared.nanoseconds;
+    });
+    return sum;
+  }
+
+  void time_each(std::span<const Query> queries,
+                 std::span<std::optional<std::uint64_t>> nanoseconds) const override {
+    have_done(Order::time_each, queries, [&](const Part& part) {
+      for (std::uint32_t i = part.first; i < part.end; ++i)
+        nanoseconds[part.start + i] = part.shared.answers[i].nanoseconds;
+      if (part.failure) nanoseconds[part.start + part.end].reset();
+    });
+  }
+
+  [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    std::unique_ptr<WorkerProcess> worker = take();
+    fill(worker->shared(), std::span(&query, 1));
+    if (worker->obey(Order::bounds)) return std::numeric_limits<double>::quiet_NaN();
+    const double bound = worker->shared().answers[0].number;
+    give_back(std::move(worker));
+    return bound;
+  }
+
+ private:
+  /// As many as are of one kind and have room.
+  static std::size_t batch_at(std::span<const Query> queries) {
+    std::size_t count = 1;
+    while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == queries[0].kind)
+      ++count;
+    return count;
+  }
+
+  void fill(Shared& shared, std::span<const Query> queries) const {
+    shared.kind = queries.front().kind;
+    shared.first = 0;
+    shared.count = static_cast<std::uint32_t>(queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (!is_finite(queries[i])) refuse_coordinates(name_);
+      shared.queries[i] = queries[i].x;
+    }
+  }
+
+  /// What one worker has done of a batch: its queries [first, end), and a failure at `end` if it ended there.
+  struct Part {
+    const Shared& shared;
+    std::size_t start;  ///< of the batch, among all queries
+    std::uint32_t first, end;
+    const std::optional<Failure>& failure;
+
+    void answer(std::span<Verdict> verdicts) const {
+      for (std::uint32_t i = first; i < end; ++i)
+        verdicts[start + i] = plugin_verdict(shared.answers[i].value, shared.answers[i].number);
+      if (failure) verdicts[start + end] = {.fault = failure->fault, .fault_code = failure->code};
+    }
+  };
+
+  /// Has all queries done, with a new worker behind each at which one ended.
+  template <class Take>
+  void have_done(Order order, std::span<const Query> queries, const Take& take_part) const {
+    std::unique_ptr<WorkerProcess> worker = take();
+    for (std::size_t start = 0; start < queries.size();) {
+      const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
+      fill(worker->shared(), batch);
+      for (std::uint32_t first = 0; first < batch.size();) {
+        worker->shared().first = first;
+        const std::optional<Failure> failure = worker->obey(order);
+        const auto end = failure ? failure->query : static_cast<std::uint32_t>(batch.size());
+        take_part(Part{worker->shared(), start, first, end, failure});
+        if (!failure) break;
+        first = end + 1;
+        worker = std::make_unique<WorkerProcess>(path_, limits_);
+        fill(worker->shared(), batch);
+      }
+      start += batch.size();
+    }
+    give_back(std::move(worker));
+  }
+
+  std::unique_ptr<WorkerProcess> take() const {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto worker = std::move(idle_.back());
+        idle_.pop_back();
+        return worker;
+      }
+    }
+    return std::make_unique<WorkerProcess>(path_, limits_);
+  }
+
+  void give_back(std::unique_ptr<WorkerProcess> worker) const {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(worker));
+  }
+
+  std::string path_;
+  Limits limits_;
+  std::string name_;
+  bool claims_bound_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const Limits& limits) {
+  return std::make_unique<IsolatedPlugin>(path, limits);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,144 @@
+// The subjects of ccd/ over any scalar. Included where a scalar is made into subjects, and nowhere else: its
+// templates are slow to compile.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "ccd/arithmetic.hpp"
+#include "ccd/basic.hpp"
+#include "ccd/tight_tolerances.hpp"
+#include "ccd/wang.hpp"
+#include "fuzz/subjects/ladder/scalars.hpp"
+
+namespace nearmiss::ladder {
+
+/// The paper's tolerances, or the smallest.
+struct EitherTolerances : AllSteps {
+  std::optional<ToleranceConstants> smallest;
+
+  template <class T>
+  [[nodiscard]] Tolerances<T> tolerances(const T& B) const {
+    return smallest ? tolerances_of(*smallest, epsilon<T>(), B) : paper_tolerances(B);
+  }
+};
+
+/// What must be so while T computes.
+template <class T>
+struct Setting {
+  explicit Setting(int /*epsilon_exponent*/) {}
+  PlainArithmetic guard;
+};
+
+/// basic, wang or wang-tight with all arithmetic in T. Coordinates of more digits than T has are rounded to T
+/// first; that query is what is decided.
+template <class T>
+class Scaled final : public Subject {
+ public:
+  Scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm, std::optional<double> given)
+      : name_(name),
+        epsilon_exponent_(epsilon_exponent),
+        algorithm_(algorithm),
+        given_(given),
+        narrow_(1 - epsilon_exponent < std::numeric_limits<double>::digits) {
+    if (algorithm == Algorithm::wang_tight) steps_.smallest = solve_tight(epsilon_exponent);
+  }
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (!is_finite(query)) refuse_coordinates(name_);
+    const Setting<T> setting(epsilon_exponent_);
+    return decide(query, steps_);
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    if (!claims_bound()) return std::numeric_limits<double>::infinity();
+    const Setting<T> setting(epsilon_exponent_);
+    // Rounded up, and with the slack of B in a scalar of few digits: B <= B* (1 + 40ε).
+    const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
+    const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
+    const double B = given_.value_or(pair_bound(rounded(query)));
+    return std::nextafter(bound * slack * B, std::numeric_limits<double>::infinity());
+  }
+
+  [[nodiscard]] bool claims_bound() const override { return algorithm_ != Algorithm::basic; }
+
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();
+    const Setting<T> setting(epsilon_exponent_);
+    return least_loosening([&](double s) {
+      const Loosened<EitherTolerances> steps{steps_, s};
+      return decide(query, steps).hit;
+    });
+  }
+
+  [[nodiscard]] bool rounds() const override { return narrow_; }
+
+  [[nodiscard]] Query rounded(const Query& query) const override {
+    const Setting<T> setting(epsilon_exponent_);
+    Seen seen = as_seen(query);
+    for (double& c : seen.query.x) c = std::ldexp(c, -seen.exponent);
+    return seen.query;
+  }
+
+ private:
+  static constexpr WangOptions options{true, VeCulling::per_root};
+
+  template <class Steps>
+  [[nodiscard]] Verdict decide(const Query& query, const Steps& steps) const {
+    const Seen seen = as_seen(query);
+    std::optional<double> given = given_;
+    if (given) given = std::ldexp(*given, seen.exponent);
+    const auto of_kind = [&]<Kind kind>(std::integral_constant<Kind, kind>) {
+      return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
+                                            : wang<kind, T, options>(seen.query, given, steps);
+    };
+    return query.kind == Kind::vertex_triangle
+               ? of_kind(std::integral_constant<Kind, Kind::vertex_triangle>())
+               : of_kind(std::integral_constant<Kind, Kind::edge_edge>());
+  }
+
+  struct Seen {
+    Query query;
+    int exponent = 0;
+  };
+
+  /// A query with coordinates that T has, times a power of two that brings it into the range of float where T
+  /// is that; the exponent. All other scalars have at least the range of double.
+  [[nodiscard]] Seen as_seen(const Query& query) const {
+    if (!narrow_) return {query, 0};
+    int exponent = 0;
+    if constexpr (std::is_same_v<T, float>) {
+      double largest = 0;
+      for (const double c : query.x) largest = std::max(largest, std::abs(c));
+      if (largest > 0) exponent = -std::ilogb(largest);
+    }
+    Query seen = query;
+    for (double& c : seen.x) c = static_cast<double>(static_cast<T>(std::ldexp(c, exponent)));
+    return {seen, exponent};
+  }
+
+  std::string name_;
+  int epsilon_exponent_;
+  Algorithm algorithm_;
+  std::optional<double> given_;
+  bool narrow_;
+  EitherTolerances steps_;
+};
+
+template <class T>
+std::unique_ptr<Subject> make_scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm,
+                                     std::optional<double> given) {
+  return std::make_unique<Scaled<T>>(name, epsilon_exponent, algorithm, given);
+}
+
+}  // namespace nearmiss::ladder

@@ -1,0 +1,296 @@
+#include "fuzz/trial/shrink.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace nearmiss {
+
+namespace {
+
+using Coordinates = std::array<double, 24>;
+
+/// The path of a vertex along axis k is two coordinates: this one at t = 0, and 12 later that at t = 1.
+constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * vertex + k; }
+constexpr std::size_t paths = 12;
+constexpr std::array<std::size_t, 2> times{0, paths};
+
+/// A set of coordinates, by the bits of their numbers.
+using Set = std::uint32_t;
+constexpr Set only(std::size_t i) { return Set{1} << i; }
+constexpr Set path_set(std::size_t i) { return only(i) | only(paths + i); }
+constexpr Set axis_set(std::size_t k) { return 0x249249U << k; }
+constexpr Set vertex_set(std::size_t vertex) { return 0x7007U << path(vertex, 0); }
+constexpr Set everything = 0xffffffU;
+
+/// The magnitudes in a set other than 0, each once, ascending.
+std::vector<double> magnitudes(const Coordinates& x, Set set = everything) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if ((set & only(i)) != 0 && x[i] != 0) all.push_back(std::abs(x[i]));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// From the first bit that is set to the last one.
+int significant_bits(double magnitude) {
+  int exponent = 0;
+  const double significand = std::ldexp(std::frexp(magnitude, &exponent), 53);
+  return 53 - std::countr_zero(static_cast<std::uint64_t>(significand));
+}
+
+/// How long the integers are, in words, of which exact arithmetic with a query's coordinates is made.
+int words(const Coordinates& x) {
+  const auto all = magnitudes(x);
+  if (all.empty()) return 1;
+  int lowest = std::ilogb(all.front());
+  for (const double m : all) lowest = std::min(lowest, std::ilogb(m) - significant_bits(m) + 1);
+  return 1 + (std::ilogb(all.back()) - lowest) / 64;
+}
+
+/// Takes one step after the other that makes a failing query simpler.
+class Shrinker {
+ public:
+  Shrinker(const Query& query, const std::function<bool(const Query&)>& fails)
+      : best_(query), complexity_(complexity(query)), fails_(fails) {}
+
+  Query run() {
+    Query before;
+    do {
+      before = best_;
+      change_numbers();
+      move_axes();
+      shear_axes();
+      join_vertices();
+      combine_vertices();
+      change_times();
+      scale();
+      copy_paths();
+      reorder();
+    } while (best_ != before && work_ > 0);
+    return best_;
+  }
+
+ private:
+  /// Takes what `change` makes of the best query so far, if it is simpler and fails. Of two that are equally
+  /// simple the one with the smaller coordinates is, so that every step leads on.
+  template <class Change>
+  bool take(const Change& change) {
+    Query candidate = best_;
+    change(candidate.x);
+    for (double& c : candidate.x) c += 0.0;  // of -0 makes 0
+    if (!is_finite(candidate)) return false;
+    const Complexity own = complexity(candidate);
+    if (complexity_ < own || (own == complexity_ && candidate.x >= best_.x) || work_ <= 0) return false;
+    work_ -= words(candidate.x);
+    if (!fails_(candidate)) return false;
+    best_ = candidate;
+    complexity_ = own;
+    return true;
+  }
+
+  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a
+  /// moving one. No contact is lost where that is exact.
+  void move_axes() {
+    for (std::size_t k = 0; k < 3; ++k) {
+      take([&](Coordinates& x) { replace(x, axis_set(k), [](double) { return 0.0; }); });
+      for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+        const std::array shifts{0.0, best_.x[path(vertex, k)], best_.x[paths + path(vertex, k)]};
+        for (const double of_start : shifts)
+          for (const double of_end : shifts)
+            take([&](Coordinates& x) {
+              for (std::size_t v = 0; v < 4; ++v) {
+                x[path(v, k)] -= of_start;
+                x[paths + path(v, k)] -= of_end;
+              }
+            });
+      }
+    }
+  }
+
+  /// A multiple of one axis is added to another, so that a coordinate becomes 0.
+  void shear_axes() {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3})
+        for (std::size_t point = 0; point < 8; ++point) {
+          const double from = best_.x[3 * point + other];
+          if (from == 0) continue;
+          const double factor = best_.x[3 * point + k] / from;
+          take([&](Coordinates& x) {
+            for (std::size_t p = 0; p < 8; ++p) x[3 * p + k] -= factor * x[3 * p + other];
+          });
+        }
+  }
+
+  /// A vertex rests or moves like another one; a point is where another one is.
+  void join_vertices() {
+    for (std::size_t to = 0; to < 8; ++to)
+      for (std::size_t from = 0; from < 8; ++from)
+        take([&](Coordinates& x) { std::copy_n(x.begin() + 3 * from, 3, x.begin() + 3 * to); });
+    for (std::size_t to = 0; to < 4; ++to)
+      for (std::size_t from = 0; from < 4; ++from)
+        take([&](Coordinates& x) {
+          for (const std::size_t time : times)
+            std::copy_n(x.begin() + time + path(from, 0), 3, x.begin() + time + path(to, 0));
+        });
+  }
+
+  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of
+  /// edges thereby stay in their plane.
+  void combine_vertices() {
+    for (std::size_t vertex = 0; vertex < 4; ++vertex)
+      for (std::size_t from = 0; from < 4; ++from)
+        for (std::size_t to = 0; to < 4; ++to)
+          for (const double factor : {1.0, 0.5, 2.0})
+            take([&](Coordinates& x) {
+              for (std::size_t k = 0; k < 3; ++k)
+                for (const std::size_t time : times)
+                  x[time + path(vertex, k)] +=
+                      factor * (best_.x[time + path(to, k)] - best_.x[time + path(from, k)]);
+            });
+  }
+
+  /// Motion starts or ends sooner or later.
+  void change_times() {
+    for (const double t : {-1.0, 0.25, 0.5, 0.75, 2.0})
+      for (const std::size_t end : times)
+        take([&](Coordinates& x) {
+          for (std::size_t i = 0; i < paths; ++i)
+            x[end + i] = best_.x[i] + t * (best_.x[paths + i] - best_.x[i]);
+        });
+  }
+
+  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or
+  /// by a small number.
+  void scale() {
+    std::vector<Set> sets{everything};
+    for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
+    for (std::size_t v = 0; v < 4; ++v) sets.push_back(vertex_set(v));
+    for (std::size_t i = 0; i < paths; ++i) sets.push_back(path_set(i));
+    for (const Set set : sets) {
+      std::vector<double> divisors{-1, 3, 5};
+      for (const double m : magnitudes(best_.x, set)) {
+        divisors.push_back(m);
+        for (int e = std::ilogb(m); e != 0; e /= 2) divisors.push_back(std::ldexp(1.0, e));
+      }
+      for (const double by : divisors)
+        take([&](Coordinates& x) { replace(x, set, [&](double c) { return c / by; }); });
+    }
+  }
+
+  /// Numbers of one magnitude become simpler: everywhere, in an axis, in a path, and alone.
+  void change_numbers() {
+    for (std::size_t i = 0; i < best_.x.size(); ++i) {
+      Set last = 0;
+      for (const Set within : {everything, axis_set(i % 3), path_set(i % paths), only(i)}) {
+        const Set set = alike(i) & within;
+        if (set != last && set % only(i) == 0) change_number(set);  // each set once, at its first member
+        last = set;
+      }
+    }
+  }
+
+  /// The coordinates that have the magnitude of coordinate i.
+  [[nodiscard]] Set alike(std::size_t i) const {
+    Set set = 0;
+    for (std::size_t j = 0; j < best_.x.size(); ++j)
+      if (std::abs(best_.x[j]) == std::abs(best_.x[i])) set |= only(j);
+    return set;
+  }
+
+  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in
+  /// rounding beside 1, or beside which 1 is; one with fewer bits.
+  void change_number(Set set) {
+    const double magnitude = std::abs(best_.x[static_cast<std::size_t>(std::countr_zero(set))]);
+    if (magnitude == 0) return;
+    const auto become = [&](double other) {
+      return take([&](Coordinates& x) { replace(x, set, [&](double c) { return c < 0 ? -other : other; }); });
+    };
+    if (become(0)) return;
+    std::vector<double> others = magnitudes(best_.x);
+    others.insert(others.begin(), {1, 2, 3, 4});
+    others.insert(others.end(), {0x1p-53, 0x1p53});
+    for (const double other : others)
+      if (become(other) || become(-other)) return;
+    const int bits = significant_bits(magnitude);
+    for (const int fewer : {1, 2, 3, 4, 6, 8, 11, 15, 20, 26, 34, 44, bits - 1}) {
+      if (fewer < 1 || fewer >= bits) continue;
+      const double unit = std::ldexp(1.0, std::ilogb(magnitude) - fewer + 1);
+      const double down = std::floor(magnitude / unit) * unit;
+      if (become(down) || become(down + unit)) return;
+    }
+  }
+
+  /// A coordinate rests at 0, or moves like another one or its negative.
+  void copy_paths() {
+    for (std::size_t to = 0; to < paths; ++to)
+      for (std::size_t from = 0; from < paths; ++from)
+        for (const double sign : {0.0, 1.0, -1.0})
+          take([&](Coordinates& x) {
+            for (const std::size_t time : times) x[time + to] = sign * x[time + from];
+          });
+  }
+
+  /// Axes, vertices and times change their places.
+  void reorder() {
+    for (std::size_t k = 0; k < 3; ++k)
+      take([&](Coordinates& x) {
+        for (std::size_t p = 0; p < 8; ++p) std::swap(x[3 * p + k], x[3 * p + (k + 1) % 3]);
+      });
+    const int first = split(best_.kind);
+    for (int v = 0; v < 4; ++v)
+      for (int w = v + 1; w < 4; ++w)
+        if ((v < first) == (w < first)) take([&](Coordinates& x) { exchange(x, v, w); });
+    if (best_.kind == Kind::edge_edge)
+      take([&](Coordinates& x) {
+        exchange(x, 0, 2);
+        exchange(x, 1, 3);
+      });
+    take([](Coordinates& x) { std::swap_ranges(x.begin(), x.begin() + paths, x.begin() + paths); });
+  }
+
+  static void exchange(Coordinates& x, int v, int w) {
+    for (double* start : {x.data(), x.data() + paths})
+      std::swap_ranges(start + 3 * v, start + 3 * v + 3, start + 3 * w);
+  }
+
+  template <class Function>
+  static void replace(Coordinates& x, Set set, const Function& function) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if ((set & only(i)) != 0) x[i] = function(x[i]);
+  }
+
+  Query best_;
+  Complexity complexity_;
+  const std::function<bool(const Query&)>& fails_;
+  long work_ = 200000;  ///< words of exact arithmetic that queries may still be asked about
+};
+
+}  // namespace
+
+Complexity complexity(const Query& query) {
+  Complexity sum;
+  for (std::size_t i = 0; i < paths; ++i) {
+    const double start = query.x[i];
+    const double end = query.x[paths + i];
+    sum.moving += start == end ? 0 : 1;
+    sum.numbers += (start == 0 ? 0 : 1) + (end == 0 || end == start ? 0 : 1);
+  }
+  for (const double m : magnitudes(query.x)) {
+    ++sum.distinct;
+    sum.bits += significant_bits(m);
+    sum.exponents += std::abs(std::ilogb(m));
+  }
+  for (const double c : query.x) sum.negative += std::signbit(c) ? 1 : 0;
+  return sum;
+}
+
+Query shrunk(const Query& query, const std::function<bool(const Query&)>& fails) {
+  return fails(query) ? Shrinker(query, fails).run() : query;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,28 @@
+#include "fuzz/trial/sieve.hpp"
+
+#include <algorithm>
+
+#include "fuzz/parallel.hpp"
+#include "fuzz/trial/failure.hpp"
+#include "reports/campaign.hpp"
+
+namespace nearmiss {
+
+const Subject* Sieve::subject_of(const Finding& finding) const {
+  const auto same = [&](const auto& subject) { return subject->name() == finding.subject; };
+  const auto subject = std::find_if(subjects_.begin(), subjects_.end(), same);
+  return subject == subjects_.end() ? nullptr : subject->get();  // the oracle's own findings have none
+}
+
+void Sieve::know(std::span<const Finding> kept) {
+  for (const Finding& finding : kept) ++kept_[signature_of(finding)];
+}
+
+void Sieve::sift(std::vector<Finding>& findings) {
+  std::erase_if(findings, [&](const Finding& f) { return ++kept_[signature_of(f)] > findings_kept; });
+  in_parallel(jobs_, findings.size(), [&](std::size_t i) {
+    if (!stop_) findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]));
+  });
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,50 @@
+// Many trials on all cores, and what is kept of them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "fuzz/trial/sieve.hpp"
+#include "fuzz/trial/trial.hpp"
+
+namespace nearmiss {
+
+/// Puts the same subjects on trial again and again. What comes out does not depend on `jobs`, but for times.
+class SiftedTrials {
+ public:
+  SiftedTrials(const Subjects& subjects, const Comparison& comparison, int jobs,
+               const std::atomic<bool>& stop)
+      : subjects_(subjects),
+        comparison_(comparison),
+        jobs_(jobs),
+        stop_(stop),
+        sieve_(subjects, jobs, stop) {}
+
+  [[nodiscard]] const Subjects& subjects() const { return subjects_; }
+  [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
+  /// How many trials to hold at once, so that no core waits for long.
+  [[nodiscard]] std::size_t at_once() const { return 4 * static_cast<std::size_t>(jobs_); }
+
+  /// Counts these findings as kept, by earlier trials.
+  void know(std::span<const Finding> kept) { sieve_.know(kept); }
+
+  /// The trial of one batch.
+  [[nodiscard]] TrialResult trial(const Batch& batch) const {
+    return hold_trial(subjects_, batch, comparison_);
+  }
+
+  /// What trial(0) to trial(count - 1) give, in this order, findings sifted (sieve.hpp). Those that have not
+  /// begun when `stop` is set are left out.
+  TrialResult hold(std::size_t count, const std::function<TrialResult(std::size_t)>& trial);
+
+ private:
+  const Subjects& subjects_;
+  Comparison comparison_;
+  int jobs_;
+  const std::atomic<bool>& stop_;
+  Sieve sieve_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,46 @@
+// Trials over queries that come one at a time, such as a corpus or the pairs of a scene.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fuzz/trial/sifted_trials.hpp"
+
+namespace nearmiss {
+
+/// Collects queries into batches by kind and family, holds the trials and passes the results on. Only a few
+/// batches are held at any time.
+class TrialStream {
+ public:
+  /// Takes the result of some batches, in order.
+  using Sink = std::function<void(TrialResult&&)>;
+
+  TrialStream(SiftedTrials& trials, Sink sink) : trials_(trials), sink_(std::move(sink)) {}
+
+  /// Takes a query; false once it is to stop. `provenance` is called, until finish(), only for what is kept.
+  /// Throws Error as hold_trial does.
+  bool add(const std::string& family, const Query& query, std::optional<bool> truth,
+           std::function<std::string()> provenance);
+
+  /// Decides what is still held. Queries that are not decided when it is to stop are left out.
+  void finish();
+
+ private:
+  struct Pending {
+    Batch batch;
+    std::vector<std::function<std::string()>> provenances;
+  };
+
+  void hold_trials();
+
+  SiftedTrials& trials_;
+  Sink sink_;
+  std::map<std::pair<std::string, Kind>, Pending> pending_;
+  std::vector<Pending> full_;
+};
+
+}  // namespace nearmiss
