@@ -7,7 +7,8 @@
 
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
-#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -30,17 +31,17 @@ Case read_one(const std::filesystem::path& path) {
   return cases.front();
 }
 
-/// How a query fails; the oracle first, by whom the subject is judged.
+/// How a query fails: first by the oracle, which judges the subject.
 Finding find_failure(const Case& each, const Subject& subject) {
-  for (const auto what : {Finding::What::oracle_disagreement, Finding::What::fault,
-                          Finding::What::false_negative, Finding::What::refuted_bound})
-    if (const auto signature = failure(what, &subject, each.query))
-      return {.what = what,
-              .subject = subject.name(),
-              .family = {},
-              .query = each.query,
-              .provenance = each.name,
-              .signature = *signature};
+  std::optional<Failure> failure = oracle_failure(each.query);
+  if (!failure) failure = Judge(subject).failure(each.query);
+  if (failure)
+    return {.what = failure->what,
+            .subject = subject.name(),
+            .family = {},
+            .query = each.query,
+            .provenance = each.name,
+            .signature = failure->signature};
   throw Error(fmt::format(
       "{}: {} does not fail, expected a missed collision, a report beyond its bound, no answer or an "
       "oracle disagreement",

@@ -6,7 +6,8 @@
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 
@@ -21,17 +22,16 @@ struct Options {
   bool rounded = false;
 };
 
-/// By which the distance of a false positive is measured: " B claimed", or " B wang" for a subject that claims none.
-std::string show_distance_bound(const Subject& subject, const Query& query) {
-  static const auto wang = make_subject("wang");
-  const bool claims = subject.claims_bound();
-  const double bound = (claims ? subject : *wang).distance_bound(query);
+/// The distance by which a false positive is measured: " B claimed", or " B wang" if the subject claims none.
+std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
+  const double bound = judge.unit(query);
   if (std::isnan(bound)) throw Error(fmt::format("{}: no distance bound", subject.name()));
-  return fmt::format(" {} {}", to_hex(bound), claims ? "claimed" : wang->name());
+  return fmt::format(" {} {}", to_hex(bound), subject.claims_bound() ? "claimed" : "wang");
 }
 
 void run(const Options& options) {
   const auto subject = make_any_subject(options.subject, parse_bound(options.bound));
+  const Judge judge(*subject);
   options.input.read([&](const Query& query) {
     const Verdict verdict = subject->decide(query);
     if (verdict.fault != Fault::none)
@@ -41,7 +41,7 @@ void run(const Options& options) {
       line = fmt::format("1 {} {}", stage_names[static_cast<std::size_t>(verdict.stage)],
                          std::isfinite(verdict.time) ? to_hex(verdict.time) : "nan");
     const Query judged = subject->rounded(query);
-    if (options.distance_bound) line += show_distance_bound(*subject, judged);
+    if (options.distance_bound) line += show_distance_bound(*subject, judge, judged);
     if (options.rounded) line += " " + to_line(judged);
     fmt::print("{}\n", line);
   });

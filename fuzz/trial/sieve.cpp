@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fuzz/parallel.hpp"
-#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
 #include "reports/campaign.hpp"
 
 namespace nearmiss {

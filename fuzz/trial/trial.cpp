@@ -1,85 +1,17 @@
 #include "fuzz/trial/trial.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "ccd/error.hpp"
-#include "fuzz/trial/failure.hpp"
-#include "oracle/agreement.hpp"
+#include "fuzz/trial/judge.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-/// What the oracle says of one query, beyond its decision asked for at most once.
-class Truth {
- public:
-  Truth(const Query& query, const Decision& decision) : query_(query), decision_(decision) {}
-
-  [[nodiscard]] const Query& query() const { return query_; }
-  [[nodiscard]] bool collision() const { return decision_.collision; }
-
-  void count(OracleCounts& counts) const {
-    ++counts.queries;
-    counts.collisions += collision() ? 1 : 0;
-    ++counts.by_stage[static_cast<std::size_t>(decision_.stage)];
-  }
-
-  /// Asks the other methods too; the signature of a disagreement, "" where there is none.
-  [[nodiscard]] std::string compare(OracleCounts& counts) const {
-    const bool by_exact_arithmetic = decision_.stage == FilterStage::undecided;
-    const Answers answers = by_exact_arithmetic ? ask_others(query_, collision()) : ask_all(query_);
-    ++counts.compared;
-    counts.compared_collisions += answers.collision() ? 1 : 0;
-    counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
-    return disagreement_signature(query_.kind, answers, decision_.by_filter());
-  }
-
-  /// The signature of its first contact.
-  const std::string& contact() {
-    if (contact_.empty()) contact_ = contact_signature(query_);
-    return contact_;
-  }
-
-  /// A false positive's distance / bound.
-  struct Distance {
-    double ratio;  ///< from above, in the right bin of a Histogram
-    bool exceeds;  ///< certainly above 1; otherwise certainly not
-  };
-  Distance distance(double bound) {
-    const auto same = [&](const auto& each) { return each.first == bound; };
-    const auto known = std::find_if(distances_.begin(), distances_.end(), same);
-    if (known != distances_.end()) return known->second;
-    distances_.emplace_back(bound, measured_distance(bound));
-    return distances_.back().second;
-  }
-
-  /// `distance`'s ratio to a part in a thousand, unless it is below all borders of a Histogram.
-  [[nodiscard]] double precise_ratio(double bound, double ratio) const {
-    if (Histogram::lower_border(ratio) == 0) return ratio;
-    return std::min(closest_ratio(query_, bound), ratio);
-  }
-
- private:
-  [[nodiscard]] Distance measured_distance(double bound) const {
-    if (bound == 0) return {std::numeric_limits<double>::max(), true};  // refuted by any distance
-    const Enclosure ratio = distance_in_units(query_, bound, Histogram::lower_border);
-    if (ratio.hi <= 1) return {ratio.hi, false};
-    if (ratio.lo > 1 || distance_exceeds(query_, bound))
-      return {std::min(ratio.hi, std::numeric_limits<double>::max()), true};
-    return {1, false};
-  }
-
-  const Query& query_;
-  Decision decision_;
-  std::string contact_;
-  std::vector<std::pair<double, Distance>> distances_;  // by the bound
-};
 
 /// The queries that a subject is judged by, where these are not the given ones.
 class Rounded {
@@ -102,7 +34,7 @@ class Rounded {
   std::vector<Decision> decisions_;
 };
 
-/// Which queries are decided near the filter's bounds.
+/// Whether each query is decided near the filter's bounds.
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
   std::vector<FilterStage> cautious(batch.queries.size());
   filter_with_caution(batch.queries, Comparison::caution, cautious);
@@ -146,81 +78,115 @@ void TrialResult::merge(TrialResult&& other) {
   std::move(other.findings.begin(), other.findings.end(), std::back_inserter(findings));
 }
 
-TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
-  TrialResult result;
-  // Reads the queries once, so that the first subject does not pay for fetching them from memory.
-  for (std::size_t i = 0; i < batch.queries.size(); ++i)
-    if (!is_finite(batch.queries[i]))
-      throw Error("found a coordinate that is not finite (" + batch.provenance(i) +
-                  "), expected finite numbers");
-  std::vector<std::vector<Verdict>> answers;
-  std::vector<Counts*> counts;
-  for (const auto& subject : subjects) {
-    counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
-    counts.back()->is_sample = is_random(batch.family);
-    answers.push_back(decide_all(*subject, batch, counts.back()->times));
+namespace {
+
+/// A trial over one batch, step by step.
+class Trial {
+ public:
+  Trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison)
+      : subjects_(subjects), batch_(batch), comparison_(comparison), decisions_(batch.queries.size()) {
+    for (const auto& subject : subjects)
+      counts_.push_back(&result_.statistics.counts[{subject->name(), batch.kind, batch.family}]);
   }
 
-  std::vector<Decision> decisions(batch.queries.size());
-  decide(batch.queries, decisions);
-  const std::vector<bool> near =
-      comparison.near_bounds ? near_bounds(batch, decisions) : std::vector<bool>(batch.queries.size());
-  std::vector<Rounded> rounded;
-  for (const auto& subject : subjects) rounded.emplace_back(*subject, batch.queries);
-  const auto wang = make_subject("wang");  // the measure for subjects that claim no bound
-  for (std::size_t i = 0; i < batch.queries.size(); ++i) {
-    Truth truth(batch.queries[i], decisions[i]);
-    const auto find = [&](Finding::What what, const std::string& subject, std::string signature,
-                          const Query& query, double ratio = 0) {
-      result.findings.push_back(
-          {what, subject, batch.family, query, batch.provenance(i), ratio, std::move(signature), query});
-      ++result.statistics.seen[signature_of(result.findings.back())];
-    };
-    OracleCounts& oracle = result.statistics.oracle[{batch.kind, batch.family}];
-    truth.count(oracle);
-    oracle.near_bounds += near[i] ? 1 : 0;
-    const bool undecided = decisions[i].stage == FilterStage::undecided;
-    const std::uint64_t one_in = undecided ? comparison.one_in_undecided() : comparison.one_in;
-    const bool asks_all = batch.compare_all || near[i] || is_sampled(batch.queries[i], one_in);
-    if (asks_all)
-      if (std::string signature = truth.compare(oracle); !signature.empty()) {
-        ++result.statistics.oracle_disagreements;
-        find(Finding::What::oracle_disagreement, "", std::move(signature), batch.queries[i]);
-      }
-    if (!batch.truths.empty() && batch.truths[i].value_or(truth.collision()) != truth.collision()) {
-      ++result.statistics.mismatches_with_recorded_truth;
-      find(Finding::What::truth_mismatch, "", truth.contact(), batch.queries[i]);
+  TrialResult run() {
+    check_coordinates();
+    for (std::size_t s = 0; s < subjects_.size(); ++s) {
+      counts_[s]->is_sample = is_random(batch_.family);
+      answers_.push_back(decide_all(*subjects_[s], batch_, counts_[s]->times));
     }
-    for (std::size_t s = 0; s < subjects.size(); ++s) {
-      std::optional<Truth> own = rounded[s].truth(i);
-      Truth& judge = own ? *own : truth;
-      const Query& query = judge.query();
-      Outcome outcome{.verdict = answers[s][i], .collision = judge.collision()};
-      if (outcome.verdict.hit && !outcome.collision) {
-        const double claimed = subjects[s]->distance_bound(query);
-        if (std::isnan(claimed)) outcome.verdict.fault = Fault::error;
-        const bool claims = subjects[s]->claims_bound();
-        const double unit = claims ? claimed : wang->distance_bound(query);
-        if (std::isfinite(unit)) {  // else beyond the largest double, and nothing can be farther
-          const auto distance = judge.distance(unit);
-          outcome.ratio = distance.ratio;
-          outcome.bound_refuted = claims && distance.exceeds;
-          if (outcome.bound_refuted || counts[s]->keeps(outcome.ratio))
-            outcome.ratio = judge.precise_ratio(unit, outcome.ratio);
-        }
+    decide(batch_.queries, decisions_);
+    if (comparison_.near_bounds) near_ = near_bounds(batch_, decisions_);
+    for (const auto& subject : subjects_) {
+      judges_.emplace_back(*subject);
+      rounded_.emplace_back(*subject, batch_.queries);
+    }
+    for (std::size_t i = 0; i < batch_.queries.size(); ++i) {
+      Truth truth(batch_.queries[i], decisions_[i]);
+      try_oracle(i, truth);
+      for (std::size_t s = 0; s < subjects_.size(); ++s) {
+        std::optional<Truth> own = rounded_[s].truth(i);
+        try_subject(i, s, own ? *own : truth);
       }
-      counts[s]->add(outcome, query, [&] { return batch.provenance(i); });
-      if (batch.observe) batch.observe(i, s, outcome);
-      if (outcome.verdict.fault != Fault::none)
-        find(Finding::What::fault, subjects[s]->name(), fault_signature(batch.kind, outcome.verdict), query);
-      else if (outcome.collision && !outcome.verdict.hit)
-        find(Finding::What::false_negative, subjects[s]->name(), judge.contact(), query);
-      if (outcome.bound_refuted)
-        find(Finding::What::refuted_bound, subjects[s]->name(),
-             report_signature(batch.kind, outcome.verdict.stage), query, outcome.ratio);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Reads all queries, so that the first subject does not pay for fetching them from memory.
+  void check_coordinates() const {
+    for (std::size_t i = 0; i < batch_.queries.size(); ++i)
+      if (!is_finite(batch_.queries[i]))
+        throw Error("found a coordinate that is not finite (" + batch_.provenance(i) +
+                    "), expected finite numbers");
+  }
+
+  /// Counts the oracle's decision, and compares it with a recorded truth and now and then with all methods.
+  void try_oracle(std::size_t i, Truth& truth) {
+    OracleCounts& counts = result_.statistics.oracle[{batch_.kind, batch_.family}];
+    ++counts.queries;
+    counts.collisions += truth.collision() ? 1 : 0;
+    ++counts.by_stage[static_cast<std::size_t>(truth.decision().stage)];
+    counts.near_bounds += is_near_bounds(i) ? 1 : 0;
+    if (asks_all_methods(i)) compare_methods(i, truth, counts);
+    if (!batch_.truths.empty() && batch_.truths[i].value_or(truth.collision()) != truth.collision()) {
+      ++result_.statistics.mismatches_with_recorded_truth;
+      keep(i, "", {Finding::What::truth_mismatch, truth.contact()}, truth.query());
     }
   }
-  return result;
+
+  [[nodiscard]] bool is_near_bounds(std::size_t i) const { return !near_.empty() && near_[i]; }
+
+  [[nodiscard]] bool asks_all_methods(std::size_t i) const {
+    const bool undecided = decisions_[i].stage == FilterStage::undecided;
+    const std::uint64_t one_in = undecided ? comparison_.one_in_undecided() : comparison_.one_in;
+    return batch_.compare_all || is_near_bounds(i) || is_sampled(batch_.queries[i], one_in);
+  }
+
+  void compare_methods(std::size_t i, const Truth& truth, OracleCounts& counts) {
+    const Answers answers = truth.ask_methods();
+    ++counts.compared;
+    counts.compared_collisions += answers.collision() ? 1 : 0;
+    counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
+    std::string signature = truth.disagreement(answers);
+    if (signature.empty()) return;
+    ++result_.statistics.oracle_disagreements;
+    keep(i, "", {Finding::What::oracle_disagreement, std::move(signature)}, truth.query());
+  }
+
+  /// Judges, counts and keeps what subject s answered to query i.
+  void try_subject(std::size_t i, std::size_t s, Truth& truth) {
+    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, counts_[s]);
+    counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
+    if (batch_.observe) batch_.observe(i, s, outcome);
+    if (auto failure = failure_of(outcome, truth))
+      keep(i, subjects_[s]->name(), std::move(*failure), truth.query(), outcome);
+  }
+
+  void keep(std::size_t i, const std::string& subject, Failure failure, const Query& query,
+            const Outcome& outcome = {}) {
+    const double ratio = outcome.bound_refuted ? outcome.ratio : 0;
+    result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
+                                std::move(failure.signature), query});
+    ++result_.statistics.seen[signature_of(result_.findings.back())];
+  }
+
+  const Subjects& subjects_;
+  const Batch& batch_;
+  const Comparison& comparison_;
+  TrialResult result_;
+  std::vector<Counts*> counts_;                // by subject, in the result
+  std::vector<std::vector<Verdict>> answers_;  // by subject and query
+  std::vector<Judge> judges_;                  // by subject
+  std::vector<Rounded> rounded_;               // by subject
+  std::vector<Decision> decisions_;            // by query
+  std::vector<bool> near_;                     // by query; empty if not asked for
+};
+
+}  // namespace
+
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
+  return Trial(subjects, batch, comparison).run();
 }
 
 }  // namespace nearmiss

@@ -10,7 +10,9 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "tests/queries.hpp"
 
@@ -148,7 +150,7 @@ TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
   EXPECT_EQ(finding.what, Finding::What::fault);
   EXPECT_EQ(finding.signature, "vt crash SEGV");
   const Query shrunk = shrunk_query(finding, subjects.front().get());
-  EXPECT_EQ(failure(finding.what, subjects.front().get(), shrunk), finding.signature);
+  EXPECT_EQ(Judge(*subjects.front()).failure(shrunk), (Failure{finding.what, finding.signature}));
 }
 
 TEST(Isolation, WhatCannotBeLoadedIsRefused) {

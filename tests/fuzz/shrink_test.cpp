@@ -9,10 +9,9 @@
 #include <iostream>
 #include <limits>
 
-#include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/trial/failure.hpp"
-#include "oracle/oracle.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -23,15 +22,17 @@ using testing::falling_vertex;
 /// The first queries of every family that basic misses, of each kind one.
 std::vector<Finding> missed_by_basic() {
   const auto basic = make_subject("basic");
+  const Judge judge(*basic);
   std::vector<Finding> missed;
   for (const Family& family : families())
     for (const Kind kind : kinds)
       for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 2000; i += 2) {
         const Query query = make_query(family, 1, i);
-        const auto signature = failure(Finding::What::false_negative, basic.get(), query);
-        if (!signature) continue;
+        const auto failure = judge.failure(query);
+        if (!failure || failure->what != Finding::What::false_negative) continue;
         missed.push_back({Finding::What::false_negative, "basic", std::string(family.name), query,
-                          std::string(family.name) + ":1:" + std::to_string(i), 0, *signature, query});
+                          std::string(family.name) + ":1:" + std::to_string(i), 0, failure->signature,
+                          query});
         break;
       }
   return missed;
@@ -52,7 +53,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
               << " distinct numbers of " << before.bits << " bits -> " << after.distinct << " of "
               << after.bits << ", " << time.count() << " ms\n";
 
-    EXPECT_EQ(failure(Finding::What::false_negative, basic.get(), shrunk), finding.signature)
+    EXPECT_EQ(Judge(*basic).failure(shrunk), (Failure{finding.what, finding.signature}))
         << finding.provenance;
     EXPECT_EQ(shrunk.kind, finding.query.kind);
     EXPECT_FALSE(before < after);
@@ -118,58 +119,6 @@ TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(third).numbers, 2);
   EXPECT_EQ(complexity(third).bits, 54);
   EXPECT_EQ(complexity(third).exponents, 2 + 1074);
-}
-
-// --- what it means to fail --------------------------------------------------------------------------------
-
-/// Reports everything; claims a bound; refuses a vertex that starts at z = 0.
-class Alarmist final : public Subject {
- public:
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    if (query.x[2] == 0) throw Error("alarmist: refused");
-    return {true, Stage::vv, 0};
-  }
-  using Subject::decide;
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0.125; }
-
- private:
-  std::string name_ = "alarmist";
-};
-
-TEST(Failure, OfABoundIsShrunkAndStaysBeyondIt) {
-  const Alarmist subject;
-  Query query = make_query(find_family("uniform"), 1, 0);
-  for (int i = 1; failure(Finding::What::refuted_bound, &subject, query) == std::nullopt; ++i)
-    query = make_query(find_family("uniform"), 1, 2 * static_cast<std::uint64_t>(i));
-  const auto signature = failure(Finding::What::refuted_bound, &subject, query);
-  EXPECT_EQ(signature, "vt vv");
-  const Query shrunk =
-      shrunk_query({Finding::What::refuted_bound, "alarmist", "", query, "", 0, *signature, query}, &subject);
-  EXPECT_TRUE(distance_exceeds(shrunk, 0.125));
-  EXPECT_NE(shrunk.x[2], 0);  // where it is refused nothing fails
-  EXPECT_LE(complexity(shrunk).numbers, 2);
-}
-
-TEST(Failure, IsOfOneSort) {
-  const auto basic = make_subject("basic");
-  const auto wang = make_subject("wang");
-  const Query hit = falling_vertex(0.25, 0.25, 1, -1);
-  for (const auto what : {Finding::What::false_negative, Finding::What::refuted_bound,
-                          Finding::What::oracle_disagreement, Finding::What::truth_mismatch}) {
-    EXPECT_EQ(failure(what, wang.get(), hit), std::nullopt);
-    EXPECT_EQ(failure(what, wang.get(), falling_vertex(0.25, 0.25, 2, 1)), std::nullopt);
-  }
-  const Finding missed = missed_by_basic().front();
-  EXPECT_EQ(failure(Finding::What::refuted_bound, basic.get(), missed.query), std::nullopt);
-  EXPECT_EQ(failure(Finding::What::false_negative, wang.get(), missed.query), std::nullopt);
-}
-
-TEST(Failure, OfTheOracleSaysWhatDoesNotFit) {
-  const Answers answers = ask_all(falling_vertex(0.25, 0.25, 1, -1));
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, true), "");
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, false),
-            "ee collision (no: filter; yes: exact, sturm, parity)");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/families/families.hpp"
-#include "fuzz/trial/failure.hpp"
+#include "fuzz/trial/judge.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -75,7 +75,7 @@ TEST(Sieve, ShrinksWhatItKeeps) {
   EXPECT_LT(findings.size(), before);
   for (const Finding& finding : findings) {
     EXPECT_NE(finding.shrunk, finding.query);
-    EXPECT_EQ(failure(finding.what, subjects.front().get(), finding.shrunk), finding.signature);
+    EXPECT_EQ(Judge(*subjects.front()).failure(finding.shrunk), (Failure{finding.what, finding.signature}));
   }
 }
 

@@ -1,0 +1,51 @@
+#include "fuzz/trial/judge.hpp"
+
+#include <cmath>
+
+#include "fuzz/trial/signatures.hpp"
+
+namespace nearmiss {
+
+Judge::Judge(const Subject& subject)
+    : subject_(subject), wang_(subject.claims_bound() ? nullptr : make_subject("wang")) {}
+
+double Judge::unit(const Query& query) const { return (wang_ ? *wang_ : subject_).distance_bound(query); }
+
+Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts* counts) const {
+  Outcome outcome{.verdict = verdict, .collision = truth.collision()};
+  if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return outcome;
+  const double unit = this->unit(truth.query());
+  if (!(unit >= 0)) outcome.verdict.fault = Fault::error;
+  if (outcome.verdict.fault != Fault::none || std::isinf(unit)) return outcome;
+  const auto [ratio, exceeds] = truth.distance(unit);
+  outcome.bound_refuted = exceeds && subject_.claims_bound();
+  const bool is_kept = counts != nullptr && (outcome.bound_refuted || counts->keeps(ratio));
+  outcome.ratio = is_kept ? truth.precise_ratio(unit, ratio) : ratio;
+  return outcome;
+}
+
+std::optional<Failure> Judge::failure(const Query& query) const {
+  const Query rounded = subject_.rounded(query);
+  Truth truth(rounded);
+  return failure_of(judge(subject_.decide(rounded), truth), truth);
+}
+
+std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
+  const Kind kind = truth.query().kind;
+  if (outcome.verdict.fault != Fault::none)
+    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict)};
+  if (outcome.collision && !outcome.verdict.hit)
+    return Failure{Finding::What::false_negative, truth.contact()};
+  if (outcome.bound_refuted)
+    return Failure{Finding::What::refuted_bound, report_signature(kind, outcome.verdict.stage)};
+  return std::nullopt;
+}
+
+std::optional<Failure> oracle_failure(const Query& query) {
+  const Truth truth(query);
+  std::string signature = truth.disagreement(truth.ask_methods());
+  if (signature.empty()) return std::nullopt;
+  return Failure{Finding::What::oracle_disagreement, std::move(signature)};
+}
+
+}  // namespace nearmiss

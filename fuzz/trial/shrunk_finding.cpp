@@ -1,0 +1,43 @@
+#include "fuzz/trial/shrunk_finding.hpp"
+
+#include "ccd/error.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/shrink.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject) {
+  constexpr int most_late = 8;  // a query over its time limit takes that long each time
+  int late = 0;
+  const Judge judge(subject);
+  const Query shrunk_query = shrunk(finding.query, [&](const Query& query) {
+    try {
+      if (late == most_late) return false;
+      const auto failure = judge.failure(query);
+      late += failure && failure->signature.ends_with(fault_names[static_cast<std::size_t>(Fault::time)]);
+      return failure == Failure{finding.what, finding.signature};
+    } catch (const Error&) {
+      return false;
+    }
+  });
+  return subject.rounded(shrunk_query);
+}
+
+}  // namespace
+
+Query shrunk_query(const Finding& finding, const Subject* subject) {
+  switch (finding.what) {
+    case Finding::What::truth_mismatch:
+      return finding.query;
+    case Finding::What::oracle_disagreement:
+      return shrunk(finding.query, [&](const Query& query) {
+        return oracle_failure(query) == Failure{finding.what, finding.signature};
+      });
+    default:
+      return shrunk_failure_of_subject(finding, *subject);
+  }
+}
+
+}  // namespace nearmiss

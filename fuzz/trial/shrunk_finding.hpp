@@ -1,0 +1,15 @@
+// Shrinking a finding: the simplest query that fails in the same way.
+#pragma once
+
+#include "ccd/query.hpp"
+#include "ccd/subject.hpp"
+#include "reports/statistics.hpp"
+
+namespace nearmiss {
+
+/// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure of the
+/// oracle. A query that the subject refuses does not fail; nor does any by a recorded truth, which is known for one query
+/// alone.
+Query shrunk_query(const Finding& finding, const Subject* subject);
+
+}  // namespace nearmiss

@@ -1,0 +1,47 @@
+#include "fuzz/trial/signatures.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include "oracle/features.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+std::string signature(Kind kind, std::string_view features) {
+  return std::string(short_name(kind)).append(" ").append(features);
+}
+
+}  // namespace
+
+std::string contact_signature(const Query& query) {
+  const auto features = contact_features(query);
+  return signature(query.kind, features ? to_text(query.kind, *features) : "no-contact");
+}
+
+std::string report_signature(Kind kind, Stage stage) {
+  return signature(kind, stage_names[static_cast<std::size_t>(stage)]);
+}
+
+std::string fault_signature(Kind kind, const Verdict& verdict) {
+  const std::string name(fault_names[static_cast<std::size_t>(verdict.fault)]);
+  switch (verdict.fault) {
+    case Fault::crash: {
+      if (verdict.fault_code <= 0) return signature(kind, "exit " + std::to_string(-verdict.fault_code));
+      const char* const abbreviation = sigabbrev_np(verdict.fault_code);
+      return signature(kind, name + " " + (abbreviation != nullptr ? abbreviation : "of an unknown signal"));
+    }
+    case Fault::error:
+      return signature(kind, name + " " + std::to_string(verdict.fault_code));
+    default:
+      return signature(kind, name);
+  }
+}
+
+std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter) {
+  const std::string parts = answers.disagreement(by_filter);
+  return parts.empty() ? parts : signature(kind, parts);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,52 @@
+// The oracle's answers about one query.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "oracle/agreement.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+/// The oracle's answers about one query; beyond its decision, each is computed at most once. The query must outlive it.
+class Truth {
+ public:
+  explicit Truth(const Query& query);
+  Truth(const Query& query, const Decision& decision) : query_(query), decision_(decision) {}
+
+  [[nodiscard]] const Query& query() const { return query_; }
+  [[nodiscard]] const Decision& decision() const { return decision_; }
+  [[nodiscard]] bool collision() const { return decision_.collision; }
+
+  /// The answers of all exact methods.
+  [[nodiscard]] Answers ask_methods() const;
+
+  /// The signature of a disagreement between these answers and the decision; "" if they agree.
+  [[nodiscard]] std::string disagreement(const Answers& answers) const;
+
+  /// The signature of the first contact.
+  const std::string& contact();
+
+  /// The distance of a false positive / a unit of length.
+  struct Distance {
+    double ratio;  ///< from above, in the right bin of a Histogram
+    bool exceeds;  ///< certainly above 1; otherwise certainly not
+  };
+  Distance distance(double unit);
+
+  /// The `ratio` of `distance` to a part in a thousand, unless it lies in the first bin of a Histogram.
+  [[nodiscard]] double precise_ratio(double unit, double ratio) const;
+
+ private:
+  [[nodiscard]] Distance measured_distance(double unit) const;
+
+  const Query& query_;
+  Decision decision_;
+  std::string contact_;
+  std::vector<std::pair<double, Distance>> distances_;  // by the unit
+};
+
+}  // namespace nearmiss

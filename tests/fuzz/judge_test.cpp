@@ -1,0 +1,161 @@
+// The judge: whether an answer is a failure, and which.
+#include "fuzz/trial/judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "ccd/error.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "fuzz/trial/shrink.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/signatures.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "oracle/oracle.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Reports everything and claims one bound; refuses a vertex that starts at z = 0.
+class Alarmist final : public Subject {
+ public:
+  explicit Alarmist(double bound) : bound_(bound) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    if (query.x[2] == 0) throw Error("alarmist: refused");
+    return {true, Stage::vv, 0};
+  }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
+
+ private:
+  std::string name_ = "alarmist";
+  double bound_;
+};
+
+const Query hit = falling_vertex(0.25, 0.25, 1, -1);
+const Query stops_above = falling_vertex(0.25, 0.25, 2, 1);  // 1 above the triangle
+
+std::optional<Failure> failure_with_bound(double bound, const Query& query) {
+  return Judge(Alarmist(bound)).failure(query);
+}
+
+TEST(Judge, AReportBeyondTheClaimedBoundFailsAndNoOther) {
+  EXPECT_EQ(failure_with_bound(0.5, stops_above), (Failure{Finding::What::refuted_bound, "vt vv"}));
+  EXPECT_EQ(failure_with_bound(0, stops_above), (Failure{Finding::What::refuted_bound, "vt vv"}));
+  EXPECT_EQ(failure_with_bound(1, stops_above), std::nullopt);
+  EXPECT_EQ(failure_with_bound(infinity, stops_above), std::nullopt);
+  EXPECT_EQ(failure_with_bound(0, hit), std::nullopt);
+}
+
+TEST(Judge, ABoundThatIsNoDistanceIsAFaultOfAFalsePositiveAlone) {
+  for (const double bound : {nan, -1.0, -infinity}) {
+    EXPECT_EQ(failure_with_bound(bound, stops_above), (Failure{Finding::What::fault, "vt error 0"})) << bound;
+    EXPECT_EQ(failure_with_bound(bound, hit), std::nullopt) << bound;
+  }
+}
+
+TEST(Judge, AMissedCollisionFailsByItsFirstContact) {
+  const auto basic = make_subject("basic");
+  const Family& family = find_family("planted-ulp");
+  std::uint64_t index = 0;
+  while (basic->decide(make_query(family, 1, index)).hit || !collides(make_query(family, 1, index))) ++index;
+  const Query missed = make_query(family, 1, index);
+  EXPECT_EQ(Judge(*basic).failure(missed),
+            (Failure{Finding::What::false_negative, contact_signature(missed)}));
+  EXPECT_EQ(Judge(*make_subject("wang")).failure(missed), std::nullopt);
+}
+
+TEST(Judge, NothingFailsWhereSubjectAndOracleAreRight) {
+  const auto wang = make_subject("wang");
+  for (const Query& query : {hit, stops_above}) {
+    EXPECT_EQ(Judge(*wang).failure(query), std::nullopt);
+    EXPECT_EQ(oracle_failure(query), std::nullopt);
+  }
+}
+
+TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
+  EXPECT_EQ(Judge(Alarmist(0.5)).unit(stops_above), 0.5);
+  const auto plugin = make_isolated_plugin(NEARMISS_PLUGINS "/always.so");
+  EXPECT_EQ(Judge(*plugin).unit(stops_above), make_subject("wang")->distance_bound(stops_above));
+  EXPECT_EQ(Judge(*plugin).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
+}
+
+TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {
+  // A vertex that stops above the triangle by less than half a float's last digit.
+  const Query query = falling_vertex(0.25, 0.25, 1, 0x1p-160);
+  ASSERT_FALSE(collides(query));
+  Query rounded = query;
+  rounded.x[14] = 0;
+  EXPECT_TRUE(collides(rounded));
+
+  class Rounding final : public Subject {
+   public:
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {}; }
+    using Subject::decide;
+    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+    [[nodiscard]] bool rounds() const override { return true; }
+    [[nodiscard]] Query rounded(const Query& query) const override {
+      Query result = query;
+      for (double& x : result.x) x = static_cast<float>(x);
+      return result;
+    }
+
+   private:
+    std::string name_ = "rounding";
+  };
+  EXPECT_EQ(Judge(Rounding()).failure(query),
+            (Failure{Finding::What::false_negative, contact_signature(rounded)}));
+}
+
+TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
+  const Alarmist subject(0.125);
+  const Finding finding{
+      Finding::What::refuted_bound, "alarmist", "", stops_above, "", 0, "vt vv", stops_above};
+  const Query shrunk = shrunk_query(finding, &subject);
+  EXPECT_TRUE(distance_exceeds(shrunk, 0.125));
+  EXPECT_NE(shrunk.x[2], 0);  // a query that is refused does not fail
+  EXPECT_LE(complexity(shrunk).numbers, 2);
+}
+
+/// What a trial counts as a failure is one when it is judged again: it shrinks, and fails in the same way.
+class BadBound : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
+  Subjects subjects;
+  subjects.push_back(make_isolated_plugin(std::string(NEARMISS_PLUGINS "/") + GetParam() + ".so"));
+  Batch batch{.family = "uniform"};
+  for (std::uint64_t i = 0; i < 200; i += 2)
+    batch.queries.push_back(make_query(find_family("uniform"), 1, i));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  const TrialResult result = hold_trial(subjects, batch);
+  const Counts& counts = result.statistics.counts.begin()->second;
+  EXPECT_GT(counts.faults_total(), 50);
+  EXPECT_EQ(counts.faults_total(), counts.queries - counts.collisions);
+  ASSERT_EQ(result.findings.size(), counts.faults_total());
+  const Finding& finding = result.findings.front();
+  EXPECT_EQ(finding.signature, "vt error 0");
+  const Query shrunk = shrunk_query(finding, subjects.front().get());
+  EXPECT_LE(complexity(shrunk).numbers, 2);
+  EXPECT_EQ(Judge(*subjects.front()).failure(shrunk), (Failure{finding.what, finding.signature}));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadBound, ::testing::Values("bound_nan", "bound_negative"));
+
+TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {
+  const Answers answers = ask_all(hit);
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, true), "");
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, false),
+            "ee collision (no: filter; yes: exact, sturm, parity)");
+}
+
+}  // namespace
+}  // namespace nearmiss
