@@ -10,17 +10,17 @@
 
 namespace nearmiss {
 
-/// A query with its story.
+/// A query, with its origin and the reason to keep it.
 struct Case {
-  std::string name;  ///< where it comes from: a file's path, with the line where there are several
+  std::string name;  ///< the file that it comes from, with the line if the file has several cases
   Query query;
-  std::optional<bool> truth;  ///< whether it is a collision, where that is recorded
+  std::optional<bool> truth;  ///< whether it is a collision, if that is recorded
   std::string why;            ///< why it is kept; may have several lines
-  std::string provenance;     ///< what made it, such as "planted:1:42" (family, seed, index)
+  std::string provenance;     ///< its origin, such as "planted:1:42" (family, seed, index)
 };
 
-/// The format of *.case files. Lines of `why` come first, as comments; each point is one line of three hex
-/// floats; all labels are required but `truth` and `provenance`:
+/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three hex floats;
+/// all labels except `truth` and `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee
@@ -29,10 +29,10 @@ struct Case {
 ///     x0 0x0p+0 0x1p+0 0x0p+0   (x0 .. x3 at t = 0, then y0 .. y3 at t = 1)
 std::string to_text(const Case& each);
 
-/// Reads what to_text wrote. Throws Error with file and line.
+/// Parses the format of to_text. Throws Error with file and line.
 Case parse_case(std::istream& in, const std::string& file);
 
-/// Writes to_text to a file, replacing it whole or not at all. Throws Error.
+/// Writes the format of to_text to a file, whole or not at all. Throws Error.
 void write_case(const Case& each, const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// Replaces the file by this text: a reader, or a full disk, never leaves half of it behind. What is no plain
-/// file (/dev/stdout, a link) is written through. Throws Error.
+/// Replaces the file by this text: no reader ever sees half of it, and a full disk leaves the old file. A link or a
+/// device (/dev/stdout) is written through. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace nearmiss

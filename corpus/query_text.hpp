@@ -13,7 +13,7 @@ namespace nearmiss {
 /// is taken from the locale. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
 
-/// Numbers separated by blanks or commas, as many as `numbers` has room for: no more, no fewer.
+/// Parses exactly numbers.size() numbers, separated by blanks or commas.
 /// Throws Error that starts with `where`.
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where);
 

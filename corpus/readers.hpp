@@ -1,4 +1,4 @@
-// Reading of files and folders of cases, in every format there is.
+// Readers of files and folders of cases, in all formats.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,19 @@
 
 namespace nearmiss {
 
-/// Takes one case at a time, so that a file of any length can be read.
+/// Receives one case at a time, so that a file may be of any length.
 using CaseSink = std::function<void(Case&&)>;
 
-/// Reads a file, or a folder with all below it in the order of their paths, by the file's name:
+/// Reads a file, or all files below a folder in the order of their paths. The name of a file gives its format:
 ///  - *.case: one case (case.hpp);
-///  - *.csv: sample queries, eight rows of a query: x y z as rational numbers (numerator, denominator),
-///  truth; the
-///    kind is in the name of the folder, edge-edge or vertex-face. A coordinate must be a double exactly;
+///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the truth.
+///    The folder, edge-edge or vertex-face, gives the kind. A coordinate must be a double exactly;
 ///  - *.vt, *.ee: one query a line, 24 numbers; '#' starts a comment.
-/// In a folder other files are passed over. Throws Error with file and line; also for a file that is empty,
-/// is of none of these formats or cannot be read, and for a folder without a case.
+/// Other files in a folder are ignored. Throws Error with file and line, also for a file that is empty, unreadable or
+/// of another format, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
-/// Reads a stream of one query a line. `name` stands for the file in messages. Throws Error.
+/// Reads a stream with one query a line. Messages name the file `name`. Throws Error.
 void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink);
 
 }  // namespace nearmiss

@@ -18,7 +18,7 @@ Kind kind_of_folder(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).parent_path().filename();
   if (folder == "vertex-face") return Kind::vertex_triangle;
   if (folder == "edge-edge") return Kind::edge_edge;
-  throw Error(fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which tells the kind",
+  throw Error(fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which says the kind",
                           path.string(), folder.string()));
 }
 
@@ -33,7 +33,7 @@ std::vector<std::string> split_commas(const std::string& line) {
   return words;
 }
 
-/// The double that numerator / denominator is, exactly.
+/// numerator / denominator, which must be a double exactly.
 double exact_quotient(const std::string& numerator, const std::string& denominator,
                       const std::string& where) {
   mpz_class n, d;

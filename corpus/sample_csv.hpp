@@ -8,7 +8,7 @@
 
 namespace nearmiss {
 
-/// See read_cases. `path` gives the kind, by its folder, and is named in errors.
+/// See read_cases. The folder in `path` gives the kind; errors name `path`.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// The one source of random numbers: a counter and a key, no state that outlives a query.
+// The only source of random numbers: a counter and a key, without state that outlives a query.
 #pragma once
 
 #include <Random123/philox.h>
@@ -29,15 +29,15 @@ class Random {
   /// In [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Log-uniform in [lo, hi), both positive. Its last bit is that of the C library's exp and log, which is
-  /// another one on processors without fused multiply-add.
+  /// Log-uniform in [lo, hi), both positive. The last bit depends on the C library's exp and log, which differ on
+  /// processors without fused multiply-add.
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
   /// An integer in [lo, hi]; the bias is below 2^-32 for ranges below 2^32.
   int integer(int lo, int hi) {
     const auto range = static_cast<std::uint64_t>(hi - lo) + 1;
     return lo + static_cast<int>(((bits() >> 32) * range) >> 32);
   }
-  /// True in one of n.
+  /// True with probability 1 / n.
   bool one_in(int n) { return integer(1, n) == 1; }
 
   /// Components uniform in [-size, size).

@@ -52,6 +52,16 @@ struct Connection {
   SQLite::Database db;
 };
 
+/// Whether a file is a database without tables, which a kill during the creation of a store leaves.
+bool is_empty_database(const fs::path& file) {
+  try {
+    SQLite::Database db(file.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
+    return db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
+  } catch (const SQLite::Exception&) {
+    return false;
+  }
+}
+
 void refuse_existing(const fs::path& file) {
   if (fs::exists(file)) throw Error(fmt::format("{}: exists already, expected a new file", file.string()));
 }
@@ -71,9 +81,11 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
+bool Store::exists(const fs::path& file) { return fs::exists(file) && !is_empty_database(file); }
+
 Store::Store(const fs::path& file, const RunInfo& info, const Part& part)
     : database_(std::make_unique<Database>(file)) {
-  refuse_existing(file);
+  if (exists(file)) refuse_existing(file);
   try {
     database_->connection = std::make_unique<Connection>(file, SQLite::OPEN_CREATE);
     auto& db = database_->connection->db;

@@ -16,6 +16,9 @@ class Store {
  public:
   /// Makes a new file. Throws Error where there is one already or it cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Part& part);
+  /// Whether there is a store to go on with. A kill during the creation of a store leaves none, but perhaps a database
+  /// without tables, which a new store replaces.
+  static bool exists(const std::filesystem::path& file);
   /// Goes on with a file. Throws Error where it is no store of one part of one run, or another process writes
   /// it.
   explicit Store(const std::filesystem::path& file);

@@ -30,14 +30,16 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
 
 void add_jobs_option(CLI::App& command, int& jobs) {
   jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--jobs", jobs, "Threads")
+  command.add_option("--jobs", jobs, "Number of threads")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str()
       ->type_name("J");
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "Queries are a pure function of family, seed and number")
+  command
+      .add_option("--seed", seed,
+                  "Seed of the random queries; a query depends on nothing but its family, seed and number")
       ->capture_default_str()
       ->type_name("S");
 }
@@ -47,20 +49,22 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
       .add_option(
           "--compare", comparison.one_in,
           fmt::format(
-              "Compare the answers of all exact methods of the oracle on one query in N, and on {} times "
-              "as many of those that its filter leaves undecided; 1: on all. (Families near overflow and "
-              "underflow have all of their queries compared.)",
+              "Compare the oracle's exact methods on one query in N, and on {} times as large a part of the "
+              "queries that its filter leaves undecided; 1 compares all. Families near overflow and "
+              "underflow "
+              "are always compared.",
               Comparison::more_of_undecided))
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
       ->capture_default_str()
       ->type_name("N");
-  command.add_flag("--compare-near-bounds", comparison.near_bounds,
-                   fmt::format("And where the filter would not decide with error bounds {} times as large",
-                               Comparison::caution));
+  command.add_flag(
+      "--compare-near-bounds", comparison.near_bounds,
+      fmt::format("Also compare where the filter would not decide with error bounds {} times as large",
+                  Comparison::caution));
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {
-  command.add_option("--bound", bound, "Use this B for every pair, in place of each pair's own")
+  command.add_option("--bound", bound, "Use this bound B for every pair, instead of the pair's own")
       ->type_name("B");
 }
 
@@ -69,7 +73,9 @@ void QueryInput::add_to(CLI::App& command) {
       .add_option("--kind", kind, "vt: vertex x0 against triangle x1 x2 x3; ee: edge x0x1 against edge x2x3")
       ->required()
       ->check(CLI::IsMember({"vt", "ee"}));
-  command.add_option("FILE", file, "One query a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1")
+  command
+      .add_option("FILE", file,
+                  "Queries, one a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1; - is standard input")
       ->capture_default_str();
 }
 
@@ -84,11 +90,11 @@ void QueryInput::read(const std::function<void(const Query&)>& sink) const {
 
 void PluginLimits::add_to(CLI::App& command) {
   command
-      .add_option("--query-time", time,
-                  "As long as this may a plug-in compute for a query; it has a process of its own")
+      .add_option("--query-time", time, "Time limit per query for a plug-in, which runs in its own process")
       ->capture_default_str()
       ->type_name("T");
-  command.add_option("--query-memory", bytes, "As much memory may a plug-in take, 0 for any: 512M, 1G")
+  command
+      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 is no limit")
       ->transform(CLI::AsSizeValue(false))
       ->default_str("1G")
       ->type_name("BYTES");

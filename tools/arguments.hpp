@@ -1,4 +1,4 @@
-// Options that several subcommands share, and how their values are read.
+// Options that several subcommands share, and the parsing of their values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,10 +20,10 @@ namespace nearmiss::tools {
 /// --subject A,B,./plugin.so
 void add_subject_option(CLI::App& command, std::vector<std::string>& names);
 
-/// --jobs J, all cores where it is not given.
+/// --jobs J; all cores by default.
 void add_jobs_option(CLI::App& command, int& jobs);
 
-/// --seed S: which of the random queries.
+/// --seed S: the seed of the random queries.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);
 
 /// --compare N and --compare-near-bounds
@@ -32,7 +32,7 @@ void add_comparison_options(CLI::App& command, Comparison& comparison);
 /// --bound B: one bound for every pair.
 void add_bound_option(CLI::App& command, std::string& bound);
 
-/// --query-time T and --query-memory BYTES: what a plug-in may use.
+/// --query-time T and --query-memory BYTES: the limits of a plug-in.
 struct PluginLimits {
   std::string time = "1s";
   std::uint64_t bytes = isolation::Limits().bytes;
@@ -49,25 +49,24 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// The subjects by these names, plug-ins in processes of their own. Throws Error, also where two have the
-/// same name.
+/// Makes the named subjects; each plug-in runs in its own process. Throws Error, also if two have the same name.
 Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
                        std::optional<double> given_bound = std::nullopt);
 
-/// The families by these names, NAME or NAME@VALUE; all that are known for "all". Throws Error.
+/// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known);
 
-/// The families NAME@VALUE of the sweeps by these names. Throws Error.
+/// Makes the families NAME@VALUE of the named sweeps. Throws Error.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known);
 
-/// "500ms", "30s", "2m", "8h". Throws Error.
+/// Parses "500ms", "30s", "2m", "8h". Throws Error.
 std::chrono::duration<double> parse_duration(std::string_view text);
 
-/// "0/4" .. "3/4": this shard, and how many there are. Throws Error.
+/// Parses "0/4" .. "3/4" into the shard and the number of shards. Throws Error.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
 
-/// A positive finite number; nothing for "". Throws Error.
+/// Parses a positive finite number; "" gives nothing. Throws Error.
 std::optional<double> parse_bound(std::string_view text);
 
 }  // namespace nearmiss::tools

@@ -11,7 +11,7 @@ inline constexpr int exit_found = 1;      ///< a false negative, a refuted bound
 inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input
 inline constexpr int exit_interrupted = 130;
 
-// Each adds its subcommand to the command line; when it is called, it stores its exit code.
+// Each function adds its subcommand to the command line. A subcommand that runs stores its exit code.
 void add_oracle(CLI::App& app, int& exit_code);
 void add_verdict(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);

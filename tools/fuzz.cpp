@@ -31,7 +31,7 @@ struct Options {
   RecordOptions record;
 };
 
-/// The part of the campaign that is done: of its cases, or of its time where that is over first.
+/// The fraction of the campaign that is done: of its cases, or of its time if that ends sooner.
 std::optional<double> part_done(const CampaignProgress& now, const CampaignPlan& plan) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
@@ -54,7 +54,7 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
   return line + ", " + show_duration(left) + " left";
 }
 
-/// What --family, --sweep, --mesh and --search ask for.
+/// The families that --family, --sweep, --mesh and --search ask for.
 std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
@@ -79,8 +79,8 @@ std::string list_of_families() {
   return lines;
 }
 
-/// What the campaign's results depend on. Its time does not change what a round gives, only how many there
-/// are.
+/// Everything that the campaign's results depend on. Its time limit is left out: it changes the number of rounds, not
+/// what a round gives.
 RunInfo info_of(const Options& options, const CampaignPlan& plan) {
   RunInfo info = options.trial.run_info("fuzz");
   std::string& again = info["again"];
@@ -144,32 +144,33 @@ int run(const Options& options) {
   return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
 }
 
-/// How long, which part of it, and where the results go.
+/// The options for the campaign's length, its shard, and where the results go.
 void add_common(CLI::App& command, Options& options) {
-  auto* limit = command.add_option_group("limit", "How long");
-  limit->add_option("--cases", options.cases, "As many queries in all, shared out among the families")
+  auto* limit = command.add_option_group("limit", "Length");
+  limit->add_option("--cases", options.cases, "Total number of queries, divided among the families")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
       ->type_name("N");
   limit
       ->add_option(
           "--time", options.time,
-          "As many as there is time for: 30s, 2m, 8h; what goes on with a campaign has what is left of it, "
-          "and with --cases all of it anew")
+          "Time limit, such as 30s, 2m or 8h; a resumed campaign has the rest of it, or all of it again with "
+          "--cases")
       ->type_name("T");
   limit->require_option(1, 2);
   add_seed_option(command, options.seed);
-  command.add_option("--shard", options.shard, "Do part I of N of the campaign, 0 <= I < N")
+  command.add_option("--shard", options.shard, "Run shard I of N of the campaign, 0 <= I < N")
       ->capture_default_str()
       ->type_name("I/N");
   options.record.add_to(command);
   command
-      .add_flag("--resume", options.record.resume,
-                "Go on with the campaign in the store, of the same options, where that was stopped; begin it "
-                "where there is no such file")
+      .add_flag(
+          "--resume", options.record.resume,
+          "Continue the campaign in the store from where it stopped, with the same options; start it if "
+          "there is no such file")
       ->needs("--db");
 }
 
-/// The scalars with a name of their own, and every eighth number of bits from float's precision to 128.
+/// The named scalars, and those of 24, 32, ... 128 bits.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
   for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);
@@ -196,24 +197,26 @@ void add_fuzz(CLI::App& app, int& exit_code) {
       command
           ->add_option(
               "--sweep", options->sweeps,
-              "Instead: drive the parameters of these families from their lowest to their highest value")
+              "Families whose parameter runs from its lowest to its highest value, instead of --family")
           ->delimiter(',')
           ->excludes(family)
           ->type_name("A,B,...");
-  command->add_option("--steps", options->steps, "Values of each parameter in a sweep")
+  command->add_option("--steps", options->steps, "Number of values of each parameter in a sweep")
       ->needs(sweep)
       ->check(CLI::Range(2, 10000))
       ->capture_default_str()
       ->type_name("N");
   command
-      ->add_option("--mesh", options->mesh,
-                   "Add the family mesh: pairs of this mesh, at t = 0 and at t = 1, as they are, moved into "
-                   "contact, and perturbed by 10^x of their size, x from -16 to -1")
+      ->add_option(
+          "--mesh", options->mesh,
+          "Add the family mesh: pairs of this moving mesh, unchanged, moved into contact, and perturbed "
+          "by 10^x of their size, x from -16 to -1")
       ->expected(2)
       ->type_name("START.obj END.obj");
-  command->add_flag("--search", options->search,
-                    "Add directed search: for each subject, collisions that it nearly misses and far false "
-                    "positives");
+  command->add_flag(
+      "--search", options->search,
+      "Add directed search for collisions that each subject nearly misses, and for its farthest "
+      "false positives");
   add_common(*command, *options);
   command->footer(
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +
@@ -228,10 +231,11 @@ void add_ladder(CLI::App& app, int& exit_code) {
   options->families = {"uniform", "sliver", "parallel"};
   options->search = true;
   auto* command = app.add_subcommand(
-      "ladder", "Measure false positives over a ladder of precisions, with directed search for the farthest");
+      "ladder", "Measure false positives at many precisions, with directed search for the farthest");
   command
-      ->add_option("--scalar", *names,
-                   "Scalars, separated by commas, with the paper's and the smallest tolerances")
+      ->add_option(
+          "--scalar", *names,
+          "Scalars, separated by commas; each is tried with the paper's and with the smallest tolerances")
       ->delimiter(',')
       ->type_name("A,B,...");
   command->add_option("--family", options->families, "Families of queries, separated by commas, or all")

@@ -18,7 +18,7 @@ constexpr const char* about =
 
 constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 a false negative, a refuted bound or an oracle disagreement was found;\n"
-    "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far saved.";
+    "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far is saved.";
 
 int run(int argc, char** argv) {
   using namespace nearmiss::tools;
@@ -48,10 +48,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty())
-    std::fprintf(stderr,
-                 "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals: set so\n",
-                 odd.c_str());
-  // Before any thread begins: each takes its arithmetic from the one that made it.
+    std::fprintf(
+        stderr,
+        "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals; changed to that\n",
+        odd.c_str());
+  // Set before any thread starts, because a thread inherits the arithmetic of the one that starts it.
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);

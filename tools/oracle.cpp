@@ -1,4 +1,4 @@
-// nearmiss oracle: the truth about queries.
+// nearmiss oracle: exact answers to queries.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-// Choices of --method beside the methods' names.
+// Choices of --method in addition to the methods' names.
 constexpr const char* filtered = "filtered";
 constexpr const char* all = "all";
 
@@ -44,7 +44,7 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// The answer that trials go by; that of one method; or of all of them, Disagreement where they do not agree.
+/// The answer that trials use, that of one method, or that of all. Throws Disagreement if all are asked and differ.
 bool collides_by(const std::string& method, const Query& query) {
   if (method == filtered) return collides(query);
   if (method == all) {
@@ -66,12 +66,13 @@ std::vector<std::string> choices() {
 
 std::string help_on_methods() {
   std::string help =
-      fmt::format("{}: the answer that trials go by, of the filter, or of {} where that is unsure; ",
+      fmt::format("{}: the answer that trials use: the filter's, or that of {} if the filter is unsure; ",
                   filtered, methods().front().name);
   for (const Method& method : methods())
     help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
-  return help + fmt::format(
-                    "{}: all of these compared. A parity method takes an even number of roots for none", all);
+  return help +
+         fmt::format("{}: all of these, compared. A parity method takes an even number of roots for none",
+                     all);
 }
 
 std::string answer(const Query& query, const Options& options) {
@@ -90,21 +91,24 @@ std::string answer(const Query& query, const Options& options) {
 
 void add_oracle(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "oracle", "Decide queries in exact arithmetic: a line each, 1 for a collision, 0 for none");
+  auto* command =
+      app.add_subcommand("oracle", "Decide queries exactly: one line each, 1 for a collision, 0 for none");
   options->input.add_to(*command);
   command->add_option("--method", options->method, help_on_methods())
       ->check(CLI::IsMember(choices()))
       ->capture_default_str();
   command->add_flag("--toi", options->toi,
-                    "Add 'lo hi' around the earliest time of contact (inf inf where there is none)");
-  command->add_option("--width", options->width, "Width of these, as narrow as doubles can be where 0")
+                    "Add 'lo hi', which enclose the earliest time of contact; inf inf if there is none");
+  command
+      ->add_option("--width", options->width,
+                   "Largest width of this enclosure; 0: as narrow as doubles allow")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->type_name("W");
   command->add_flag("--rational", options->rational,
-                    "Add --toi and the time as a fraction, or 'irrational' ('-' where there is none)");
-  command->add_flag("--distance", options->distance, "Add 'lo hi' around the smallest distance over [0, 1]");
+                    "Add --toi, and the time as a fraction, 'irrational', or '-' if there is none");
+  command->add_flag("--distance", options->distance,
+                    "Add 'lo hi', which enclose the smallest distance over [0, 1]");
   command->footer(
       "\nNumbers are decimal or C hex floats, separated by blanks or commas; '#' starts a comment.\n"
       "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "

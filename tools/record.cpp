@@ -31,7 +31,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// Where a run's times come from.
+/// The compiler and processor behind a run's times.
 RunInfo environment() {
   return {{"compiler", NEARMISS_COMPILER}, {"flags", NEARMISS_FLAGS}, {"cpu", cpu_model()}};
 }
@@ -41,9 +41,9 @@ RunInfo environment() {
 void RecordOptions::add_to(CLI::App& command) {
   command.add_option("--json", json, "Write the statistics as JSON")->type_name("FILE");
   command
-      .add_option("--db", db, "Keep statistics and findings in this new store, for nearmiss report and merge")
+      .add_option("--db", db, "Save statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
-  command.add_flag("-q,--quiet", quiet, "Say nothing of the progress");
+  command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
 RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }
@@ -55,7 +55,7 @@ Record::Record(RecordOptions options, RunInfo info, const Part& part)
     throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
   part_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   part_.environment.merge(environment());
-  if (options_.resume && std::filesystem::exists(options_.db))
+  if (options_.resume && Store::exists(options_.db))
     go_on();
   else if (!options_.db.empty())
     store_.emplace(options_.db, info_, part_);
@@ -68,7 +68,7 @@ Record::~Record() {
   std::filesystem::remove(options_.db, ignored);
 }
 
-/// Takes what the store holds for what was done so far. Throws Error where that is something else.
+/// Loads the run in the store as the beginning of this one. Throws Error if it is another run.
 void Record::go_on() {
   store_.emplace(options_.db);
   saved_ = true;
@@ -81,7 +81,7 @@ void Record::go_on() {
   };
   for (const RunInfo* each : {&info_, &run.info})
     for (const auto& [name, value] : *each)
-      if (name != "again") expect(name, run.info[name], info_[name]);  // that says the same once more
+      if (name != "again") expect(name, run.info[name], info_[name]);  // repeats the others
   const auto shard = [](const Part& part) { return fmt::format("{}/{}", part.shard, part.shards); };
   expect("shard", shard(run.parts.at(0)), shard(part_));
   part_ = run.parts.at(0);

@@ -1,4 +1,4 @@
-// What the commands that hold trials (fuzz, replay, scene) do with what they find.
+// Saving and reporting what the commands that hold trials (fuzz, replay, scene) find.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,37 +17,37 @@ namespace nearmiss::tools {
 /// --json FILE, --db FILE and --quiet
 struct RecordOptions {
   std::filesystem::path json, db;
-  bool quiet = false;   ///< says nothing of progress
-  bool summary = true;  ///< prints how the subjects did
-  bool resume = false;  ///< goes on with what `db` holds of the same run and part, where there is such a file
+  bool quiet = false;   ///< shows no progress
+  bool summary = true;  ///< prints the table of subjects
+  bool resume = false;  ///< continues the run in `db`, if the file exists
 
   void add_to(CLI::App& command);
 };
 
-/// What every run's results depend on beside what its command adds: this version, and the command.
+/// The part of a run's description that all commands share: this version, and the command.
 RunInfo run_info(const std::string& command);
 
-/// Keeps what a command finds, in the store where one is asked for, and reports it at the end.
+/// Keeps what a command finds, saves it in a store if there is one, and reports it at the end.
 class Record {
  public:
-  /// Throws Error, before any work is done, where a file cannot be made, or not be gone on with.
+  /// Throws Error, before any work is done, if a file cannot be made, or holds another run than the one to continue.
   Record(RecordOptions options, RunInfo info, const Part& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
-  /// Removes the store where nothing was ever saved in it.
+  /// Removes the store if nothing was ever saved in it.
   ~Record();
 
-  /// What was done before.
+  /// The part of the run that earlier processes did.
   [[nodiscard]] const Part& part() const { return part_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result to what is held; saved now and then. A campaign says how many of its rounds are done.
+  /// Adds a result; saves at intervals. `rounds`: the rounds of a campaign that are done.
   void add(TrialResult&& result, std::uint64_t rounds = 0);
-  /// Keeps a picture, where there is a store.
+  /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Saves, writes the JSON file, prints the summary and the first findings, and gives the exit code.
+  /// Saves, writes the JSON file, prints the summary and the first findings, and returns the exit code.
   int finish(bool interrupted, bool complete);
 
  private:

@@ -1,4 +1,4 @@
-// nearmiss replay: cases that are kept.
+// nearmiss replay: subjects decide recorded cases.
 #include <fmt/format.h>
 
 #include "corpus/readers.hpp"
@@ -24,8 +24,7 @@ struct Options {
   RecordOptions record;
 };
 
-/// What a case is counted under: the folder that it is in, "NAME/"; above the folders of the two kinds, where
-/// it is in one of them.
+/// The name under which a case is counted: its folder, "NAME/", or the folder above edge-edge or vertex-face.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
@@ -35,7 +34,7 @@ std::string family_of(const std::string& name) {
 int run(const Options& options) {
   const auto& stop = interrupted();
   const Subjects subjects = options.trial.make_subjects(parse_bound(options.bound));
-  for (const fs::path& path : options.paths)  // all is read once before anything is written
+  for (const fs::path& path : options.paths)  // checks all files before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
@@ -69,7 +68,7 @@ int run(const Options& options) {
 void add_replay(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command =
-      app.add_subcommand("replay", "Decide the cases of files and folders by subjects and the oracle");
+      app.add_subcommand("replay", "Let subjects and the oracle decide the cases in files and folders");
   command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
       ->required();
   options->trial.add_to(*command);

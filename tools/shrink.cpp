@@ -31,7 +31,7 @@ Case read_one(const std::filesystem::path& path) {
   return cases.front();
 }
 
-/// How a query fails: first by the oracle, which judges the subject.
+/// How a query fails. The oracle comes first, because it judges the subject.
 Finding find_failure(const Case& each, const Subject& subject) {
   std::optional<Failure> failure = oracle_failure(each.query);
   if (!failure) failure = Judge(subject).failure(each.query);
@@ -82,12 +82,12 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
   options->limits.add_to(*command);
-  command->add_option("-o,--output", options->out, "Write the case to this file, not to stdout")
+  command->add_option("-o,--output", options->out, "Write the case to this file instead of stdout")
       ->type_name("FILE");
   command->footer(
-      "\nThe same way: the same kind of failure, by the same stage where a subject reports too much, with "
-      "the same\n"
-      "features of the first contact where it misses a collision.\n"
+      "\nTwo failures are the same if their kind is, and the features of the first contact (of a missed "
+      "collision),\n"
+      "the stage that accepted (of a report beyond the bound), or the fault (of no answer).\n"
       "Example: nearmiss shrink corpus/cases/rounding/vt-planted.case --subject basic");
   command->callback([options] { run(*options); });
 }

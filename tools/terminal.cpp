@@ -15,7 +15,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-// What a signal handler may touch is lock-free.
+// A signal handler may touch only what is lock-free.
 std::atomic<bool> stop{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
@@ -30,7 +30,7 @@ extern "C" void on_signal(int /*signal*/) {
 constexpr auto terminal_interval = std::chrono::milliseconds(200);
 constexpr auto log_interval = std::chrono::minutes(1);
 
-/// "[#####...............]  25 % ", or nothing where the part is not known.
+/// "[#####...............]  25 % "; "" if the fraction is not known.
 std::string bar(std::optional<double> done) {
   constexpr int width = 20;
   if (!done) return "";
@@ -39,7 +39,7 @@ std::string bar(std::optional<double> done) {
   return fmt::format("[{:.<{}}] {:3.0f} % ", std::string(filled, '#'), width, 100 * part);
 }
 
-/// As much of a line as the terminal is wide, so that it can be written over.
+/// Cuts a line to the width of the terminal, so that it can be overwritten.
 std::string cut(std::string line) {
   winsize size{};
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)

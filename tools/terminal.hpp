@@ -1,4 +1,4 @@
-// The terminal and the signals: progress on stderr, and the wish to stop.
+// The terminal and the signals: progress on stderr, and the request to stop.
 #pragma once
 
 #include <atomic>
@@ -8,12 +8,11 @@
 
 namespace nearmiss::tools {
 
-/// Set by SIGINT and SIGTERM from the first call on. Another signal two seconds later ends the program at
+/// Set by SIGINT and SIGTERM from the first call on. A second signal, two seconds later or more, ends the program at
 /// once.
 const std::atomic<bool>& interrupted();
 
-/// How far a long work is, on stderr: a line that is written over again and again; where stderr is no
-/// terminal, a line of its own once a minute.
+/// Shows progress on stderr: one line that is overwritten; a new line every minute if stderr is not a terminal.
 class Progress {
  public:
   explicit Progress(bool quiet = false);
@@ -21,9 +20,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Whether a new line is due, so that it need not be made for nothing.
+  /// Whether a new line is due; a line need not be made before that.
   [[nodiscard]] bool due() const;
-  /// `done` is the part that is done, where that is known: a terminal shows it as a bar.
+  /// `done`: the fraction that is done, if it is known; a terminal shows it as a bar.
   void show(const std::string& line, std::optional<double> done = std::nullopt);
 
  private:

@@ -1,4 +1,4 @@
-// What the commands that hold trials (fuzz, replay, scene) have in common.
+// Options of the commands that hold trials: fuzz, replay, scene.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,14 +20,14 @@ struct TrialOptions {
 
   void add_to(CLI::App& command);
 
-  /// Throws Error for names that are not known.
+  /// Throws Error for an unknown name.
   Subjects make_subjects(std::optional<double> given_bound = std::nullopt) const;
 
-  /// What a run's results depend on; `what` is the subcommand with its own arguments. `again` is a command
-  /// that runs it again.
+  /// Everything that a run's results depend on; `what` is the subcommand with its own arguments. The entry `again` is
+  /// the command that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what) const;
 
-  /// Where each plug-in is found on this machine, as "plug-in NAME".
+  /// The path of each plug-in on this machine, under "plug-in NAME".
   [[nodiscard]] RunInfo plugin_paths(const Subjects& made) const;
 };
 

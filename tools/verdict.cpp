@@ -1,4 +1,4 @@
-// nearmiss verdict: one subject's answers.
+// nearmiss verdict: one subject's answers to queries.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -59,10 +59,10 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
   add_bound_option(*command, options->bound);
   command->add_flag(
       "--distance-bound", options->distance_bound,
-      "Add the largest distance that a false positive may have, and 'claimed'; for a subject that "
-      "claims none that of wang, and 'wang'");
+      "Add the largest distance that a false positive may have, and 'claimed', or 'wang' if it is wang's "
+      "because the subject claims none");
   command->add_flag("--rounded", options->rounded,
-                    "Add the query as the subject rounds it, by which it is judged: 24 numbers");
+                    "Add the query as the subject rounds it, which is what it is judged by: 24 numbers");
   command->footer(
       "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss verdict --kind vt --subject wang");

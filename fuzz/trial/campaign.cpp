@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How many cases of the plan family number f has: in proportion to its blocks.
+/// The number of the plan's cases for family f, in proportion to its blocks.
 std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   std::uint64_t before = 0;
   std::uint64_t all = 0;
@@ -28,13 +28,13 @@ std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   return dealt(before + plan.families[f].block_cases) - dealt(before);
 }
 
-/// How many cases there are in this shard; 0 where there is no end.
+/// The number of cases in this shard; 0 if only time ends the campaign.
 std::uint64_t cases_of_shard(const CampaignPlan& plan) {
   std::uint64_t sum = 0;
   for (std::size_t f = 0; f < plan.families.size(); ++f) {
     const std::uint64_t share = share_of(plan, f);
     const std::uint64_t block_cases = plan.families[f].block_cases;
-    const std::uint64_t whole = share / block_cases;  // blocks 0 .. whole - 1, and then what is left
+    const std::uint64_t whole = share / block_cases;  // blocks 0 .. whole - 1, then the rest
     const std::uint64_t own = whole / plan.shards + (plan.shard < whole % plan.shards ? 1 : 0);
     sum += own * block_cases + (whole % plan.shards == plan.shard ? share % block_cases : 0);
   }
@@ -50,7 +50,7 @@ struct Block {
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
-/// The block of family number f in a round; empty behind the family's last case.
+/// The block of family f in a round; empty after the family's last case.
 Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   const std::uint64_t first = round * plan.families[f].block_cases;
   std::uint64_t last = first + plan.families[f].block_cases;
@@ -86,7 +86,7 @@ std::vector<Block> blocks_of(const CampaignPlan& plan, std::uint64_t round) {
   return blocks;
 }
 
-/// The rounds of a shard, one after the other.
+/// The rounds of a shard, in order.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) : plan_(plan) {
@@ -96,7 +96,7 @@ class Rounds {
   [[nodiscard]] std::uint64_t done() const { return done_; }
   [[nodiscard]] std::uint64_t cases_before() const { return cases_before_; }
 
-  /// The blocks of the next rounds, enough for all cores. Empty when everything is done.
+  /// The blocks of the next rounds, enough to occupy all cores; empty when everything is done.
   std::vector<Block> next_wave() {
     const std::uint64_t rounds = 1 + 16 * static_cast<std::uint64_t>(plan_.jobs) / plan_.families.size();
     std::vector<Block> wave;
@@ -157,7 +157,7 @@ CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects
     if (progress.complete) break;
     TrialResult sum =
         trials.hold(wave.size(), [&](std::size_t i) { return try_block(plan, wave[i], trials); });
-    if (stop) break;  // a wave counts as a whole or not at all
+    if (stop) break;  // a wave counts completely or not at all
     progress.cases += Rounds::cases(wave);
     progress.rounds = rounds.done();
     progress.elapsed = Clock::now() - start;

@@ -14,41 +14,41 @@
 
 namespace nearmiss {
 
-/// What a campaign does. The queries of a plan with `cases` are the same whatever `jobs` is and however often
-/// it was stopped and gone on with, and so is what is found; the shards together give what the whole does.
+/// The plan of a campaign. With `cases`, the queries and findings do not depend on `jobs`, nor on how often the campaign
+/// was stopped and resumed; the shards together give the result of the whole.
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< in all, shared out in proportion to `block_cases`; 0: until the time is over
+  std::uint64_t cases = 0;  ///< in total, divided in proportion to `block_cases`; 0: until the time is over
   std::optional<std::chrono::duration<double>> time;
   Comparison comparison;
   int jobs = 1;
-  std::uint64_t shard = 0;  ///< this one of `shards`
+  std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;
-  std::uint64_t rounds_before = 0;       ///< of this shard, done before
-  std::vector<Finding> findings_before;  ///< that are kept of these
+  std::uint64_t rounds_before = 0;       ///< rounds of this shard that were done before
+  std::vector<Finding> findings_before;  ///< the findings that these kept
 };
 
-/// How far a campaign is.
+/// The progress of a campaign.
 struct CampaignProgress {
   std::uint64_t cases = 0;         ///< done in this shard
-  std::uint64_t cases_before = 0;  ///< of these, before the campaign went on
-  std::uint64_t of = 0;            ///< to be done in this shard; 0 where time decides
+  std::uint64_t cases_before = 0;  ///< those done before the campaign was resumed
+  std::uint64_t of = 0;            ///< all cases of this shard; 0 if the time decides
   std::uint64_t rounds = 0;        ///< done in this shard
   bool complete = false;           ///< nothing is left to be done in this shard
   std::chrono::duration<double> elapsed{};
 };
 
-/// Takes what some more blocks gave, in order, findings sifted (sieve.hpp); called every second or so. False
-/// ends the campaign.
+/// Receives the results of some more blocks, in order, with findings sifted (sieve.hpp), about every second. Returns
+/// false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// How many cases a campaign that is no shard has decided with case `index` of a family, one after the other: round
-/// by round, family by family.
+/// The number of cases that an undivided campaign has decided after case `index` of a family, if it decides them in
+/// order: round by round, family by family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
-/// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set; says how far it came.
-/// Round k of a campaign is the k-th block of every family; shard i of n does the rounds k with k mod n = i.
+/// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set; returns the progress.
+/// Round k of a campaign is the k-th block of every family; shard i of n runs the rounds k with k mod n = i.
 CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                               const std::atomic<bool>& stop);
 

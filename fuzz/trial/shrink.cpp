@@ -18,7 +18,7 @@ constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * verte
 constexpr std::size_t paths = 12;
 constexpr std::array<std::size_t, 2> times{0, paths};
 
-/// A set of coordinates, by the bits of their numbers.
+/// A set of coordinates: bit i stands for coordinate i.
 using Set = std::uint32_t;
 constexpr Set only(std::size_t i) { return Set{1} << i; }
 constexpr Set path_set(std::size_t i) { return only(i) | only(paths + i); }
@@ -26,7 +26,7 @@ constexpr Set axis_set(std::size_t k) { return 0x249249U << k; }
 constexpr Set vertex_set(std::size_t vertex) { return 0x7007U << path(vertex, 0); }
 constexpr Set everything = 0xffffffU;
 
-/// The magnitudes in a set other than 0, each once, ascending.
+/// The magnitudes in a set other than 0, sorted, without repetition.
 std::vector<double> magnitudes(const Coordinates& x, Set set = everything) {
   std::vector<double> all;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -36,14 +36,14 @@ std::vector<double> magnitudes(const Coordinates& x, Set set = everything) {
   return all;
 }
 
-/// From the first bit that is set to the last one.
+/// The number of bits from the first to the last one that is set.
 int significant_bits(double magnitude) {
   int exponent = 0;
   const double significand = std::ldexp(std::frexp(magnitude, &exponent), 53);
   return 53 - std::countr_zero(static_cast<std::uint64_t>(significand));
 }
 
-/// How long the integers are, in words, of which exact arithmetic with a query's coordinates is made.
+/// The length, in words, of the integers in exact arithmetic with a query's coordinates.
 int words(const Coordinates& x) {
   const auto all = magnitudes(x);
   if (all.empty()) return 1;
@@ -52,7 +52,7 @@ int words(const Coordinates& x) {
   return 1 + (std::ilogb(all.back()) - lowest) / 64;
 }
 
-/// Takes one step after the other that makes a failing query simpler.
+/// Simplifies a failing query step by step.
 class Shrinker {
  public:
   Shrinker(const Query& query, const std::function<bool(const Query&)>& fails)
@@ -76,13 +76,13 @@ class Shrinker {
   }
 
  private:
-  /// Takes what `change` makes of the best query so far, if it is simpler and fails. Of two that are equally
-  /// simple the one with the smaller coordinates is, so that every step leads on.
+  /// Changes the best query so far, if the changed one is simpler and fails. Of two queries of equal complexity, the one
+  /// with smaller coordinates counts as simpler, so that no step undoes another.
   template <class Change>
   bool take(const Change& change) {
     Query candidate = best_;
     change(candidate.x);
-    for (double& c : candidate.x) c += 0.0;  // of -0 makes 0
+    for (double& c : candidate.x) c += 0.0;  // makes -0 into 0
     if (!is_finite(candidate)) return false;
     const Complexity own = complexity(candidate);
     if (complexity_ < own || (own == complexity_ && candidate.x >= best_.x) || work_ <= 0) return false;
@@ -93,8 +93,8 @@ class Shrinker {
     return true;
   }
 
-  /// All of an axis becomes 0, or is seen from one of its points, at t = 0, at t = 1 or both, or from a
-  /// moving one. No contact is lost where that is exact.
+  /// Sets all coordinates of an axis to 0, or subtracts those of one point, at t = 0, at t = 1 or both, or of a moving
+  /// point. If that is exact, no contact is lost.
   void move_axes() {
     for (std::size_t k = 0; k < 3; ++k) {
       take([&](Coordinates& x) { replace(x, axis_set(k), [](double) { return 0.0; }); });
@@ -112,7 +112,7 @@ class Shrinker {
     }
   }
 
-  /// A multiple of one axis is added to another, so that a coordinate becomes 0.
+  /// Subtracts a multiple of one axis from another, so that a coordinate becomes 0.
   void shear_axes() {
     for (std::size_t k = 0; k < 3; ++k)
       for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3})
@@ -126,7 +126,7 @@ class Shrinker {
         }
   }
 
-  /// A vertex rests or moves like another one; a point is where another one is.
+  /// Copies the motion of one vertex to another, or one point to another.
   void join_vertices() {
     for (std::size_t to = 0; to < 8; ++to)
       for (std::size_t from = 0; from < 8; ++from)
@@ -139,8 +139,8 @@ class Shrinker {
         });
   }
 
-  /// A vertex moves by the way, or half or twice the way, between two others: those of a triangle and of
-  /// edges thereby stay in their plane.
+  /// Moves a vertex by the vector between two others, or by half or twice that vector. Vertices of a triangle or of two
+  /// edges in one plane stay in it.
   void combine_vertices() {
     for (std::size_t vertex = 0; vertex < 4; ++vertex)
       for (std::size_t from = 0; from < 4; ++from)
@@ -154,7 +154,7 @@ class Shrinker {
             });
   }
 
-  /// Motion starts or ends sooner or later.
+  /// Lets the motion start or end sooner or later.
   void change_times() {
     for (const double t : {-1.0, 0.25, 0.5, 0.75, 2.0})
       for (const std::size_t end : times)
@@ -164,8 +164,8 @@ class Shrinker {
         });
   }
 
-  /// Everything, an axis, a vertex or a path is divided by one of its numbers, by a power of two near it, or
-  /// by a small number.
+  /// Divides all coordinates, or those of an axis, a vertex or a path, by one of them, by a power of two near one, or by
+  /// a small number.
   void scale() {
     std::vector<Set> sets{everything};
     for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -182,7 +182,7 @@ class Shrinker {
     }
   }
 
-  /// Numbers of one magnitude become simpler: everywhere, in an axis, in a path, and alone.
+  /// Simplifies numbers of one magnitude: everywhere, in an axis, in a path, and one alone.
   void change_numbers() {
     for (std::size_t i = 0; i < best_.x.size(); ++i) {
       Set last = 0;
@@ -194,7 +194,7 @@ class Shrinker {
     }
   }
 
-  /// The coordinates that have the magnitude of coordinate i.
+  /// The coordinates of the same magnitude as coordinate i.
   [[nodiscard]] Set alike(std::size_t i) const {
     Set set = 0;
     for (std::size_t j = 0; j < best_.x.size(); ++j)
@@ -202,8 +202,8 @@ class Shrinker {
     return set;
   }
 
-  /// Takes the first that it can: 0; another number of the query; a small one, or one that is lost in
-  /// rounding beside 1, or beside which 1 is; one with fewer bits.
+  /// Tries in turn, up to the first that still fails: 0; a small number; another number of the query; one so small or so
+  /// large that rounding loses it, or 1, in their sum; one with fewer bits.
   void change_number(Set set) {
     const double magnitude = std::abs(best_.x[static_cast<std::size_t>(std::countr_zero(set))]);
     if (magnitude == 0) return;
@@ -225,7 +225,7 @@ class Shrinker {
     }
   }
 
-  /// A coordinate rests at 0, or moves like another one or its negative.
+  /// Sets a coordinate to 0, or copies another one or its negative.
   void copy_paths() {
     for (std::size_t to = 0; to < paths; ++to)
       for (std::size_t from = 0; from < paths; ++from)
@@ -235,7 +235,7 @@ class Shrinker {
           });
   }
 
-  /// Axes, vertices and times change their places.
+  /// Exchanges axes, vertices, and start and end.
   void reorder() {
     for (std::size_t k = 0; k < 3; ++k)
       take([&](Coordinates& x) {
@@ -267,7 +267,7 @@ class Shrinker {
   Query best_;
   Complexity complexity_;
   const std::function<bool(const Query&)>& fails_;
-  long work_ = 200000;  ///< words of exact arithmetic that queries may still be asked about
+  long work_ = 200000;  ///< the remaining budget, in words of exact arithmetic
 };
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace nearmiss {
 
-/// How much there is to say of a query. What stands first counts for more than all that stands behind it.
+/// The complexity of a query. Two queries are compared by the members in this order.
 struct Complexity {
-  int numbers = 0;    ///< coordinates that are not 0; one that rests from t = 0 to t = 1 is one number
-  int moving = 0;     ///< coordinates that do not rest
+  int numbers = 0;    ///< coordinates that are not 0; one that is at rest counts once
+  int moving = 0;     ///< coordinates that are not at rest
   int distinct = 0;   ///< magnitudes other than 0
-  int bits = 0;       ///< significant bits of these, all together
-  int exponents = 0;  ///< magnitudes of their exponents, all together
+  int bits = 0;       ///< their significant bits, added up
+  int exponents = 0;  ///< the magnitudes of their exponents, added up
   int negative = 0;   ///< coordinates with a sign
 
   bool operator==(const Complexity&) const = default;
@@ -28,11 +28,10 @@ struct Complexity {
 
 Complexity complexity(const Query& query);
 
-/// The simplest query that a failing one leads to by steps that each make it simpler, where `fails` tells of
-/// a query of the same kind whether it still fails: numbers become 0, small, short, or like others; vertices
-/// rest or coincide; all is moved, sheared and scaled. Greedy, until no step is left: what has been shrunk
-/// stays as it is. A pure function of both, and no more work than for some seconds. What does not fail stays
-/// as it is.
+/// Simplifies a failing query step by step, as long as it still `fails`: numbers become 0, small, short or equal to
+/// others; vertices come to rest or coincide; the query is moved, sheared and scaled. Greedy, until no step makes it
+/// simpler: shrinking the result again changes nothing. A pure function of both arguments that takes at most some seconds.
+/// A query that does not fail is returned unchanged. One more step: a method of Shrinker (shrink.cpp), called in run().
 Query shrunk(const Query& query, const std::function<bool(const Query&)>& fails);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// What is kept of the findings of many trials: of each way to fail a few, shrunk.
+// The sieve: keeps up to three findings of each signature, and shrinks them.
 #pragma once
 
 #include <atomic>
@@ -10,18 +10,18 @@
 
 namespace nearmiss {
 
-/// Keeps the first findings of every signature and shrinks them, on all cores; others are counted in
-/// Statistics::seen and nowhere else. What is kept depends on the findings and their order alone.
+/// Keeps the first findings of each signature and shrinks them, on all cores; all findings are counted in
+/// Statistics::seen. The result depends only on the findings and their order.
 class Sieve {
  public:
-  /// Shrinks no more once `stop` is set.
+  /// Stops shrinking once `stop` is set.
   Sieve(const Subjects& subjects, int jobs, const std::atomic<bool>& stop)
       : subjects_(subjects), jobs_(jobs), stop_(stop) {}
 
-  /// Counts these as kept, by an earlier one.
+  /// Counts findings that an earlier sieve kept.
   void know(std::span<const Finding> kept);
 
-  /// Takes the findings of the next trials and leaves those that are kept.
+  /// Removes from the findings of the next trials those that are not kept.
   void sift(std::vector<Finding>& findings);
 
  private:

@@ -1,4 +1,4 @@
-// Many trials on all cores, and what is kept of them.
+// Many trials on all cores, with their findings sifted.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// Puts the same subjects on trial again and again. What comes out does not depend on `jobs`, but for times.
+/// Holds many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
 class SiftedTrials {
  public:
   SiftedTrials(const Subjects& subjects, const Comparison& comparison, int jobs,
@@ -24,10 +24,10 @@ class SiftedTrials {
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
-  /// How many trials to hold at once, so that no core waits for long.
+  /// The number of trials to hold at once, so that no core waits long.
   [[nodiscard]] std::size_t at_once() const { return 4 * static_cast<std::size_t>(jobs_); }
 
-  /// Counts these findings as kept, by earlier trials.
+  /// Counts findings that earlier trials kept.
   void know(std::span<const Finding> kept) { sieve_.know(kept); }
 
   /// The trial of one batch.
@@ -35,7 +35,7 @@ class SiftedTrials {
     return hold_trial(subjects_, batch, comparison_);
   }
 
-  /// What trial(0) to trial(count - 1) give, in this order, findings sifted (sieve.hpp). Those that have not
+  /// The results of trial(0) to trial(count - 1), in this order, with findings sifted (sieve.hpp). Trials that have not
   /// begun when `stop` is set are left out.
   TrialResult hold(std::size_t count, const std::function<TrialResult(std::size_t)>& trial);
 

@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The queries that a subject is judged by, where these are not the given ones.
+/// The queries by which a subject that rounds coordinates is judged.
 class Rounded {
  public:
   Rounded(const Subject& subject, const std::vector<Query>& queries) {
@@ -23,7 +23,7 @@ class Rounded {
     decide(queries_, decisions_);
   }
 
-  /// Nothing where it is the given query's.
+  /// Nothing if the subject does not round.
   [[nodiscard]] std::optional<Truth> truth(std::size_t i) const {
     if (queries_.empty()) return std::nullopt;
     return Truth(queries_[i], decisions_[i]);
@@ -46,7 +46,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Decides a batch. If its time counts, the subject is timed over the whole batch; and in one batch of 16, over each
+/// Decides a batch. If its time counts, the subject is timed over the whole batch, and in one batch of 16 also over each
 /// query that it answered.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Times& times) {
   std::vector<Verdict> verdicts(batch.queries.size());

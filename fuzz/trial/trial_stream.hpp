@@ -12,21 +12,21 @@
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind and family, holds the trials and passes the results on. Only a few
-/// batches are held at any time.
+/// Collects queries into batches by kind and family, holds the trials and passes the results on. Holds only a few
+/// batches at any time.
 class TrialStream {
  public:
-  /// Takes the result of some batches, in order.
+  /// Receives the result of some batches, in order.
   using Sink = std::function<void(TrialResult&&)>;
 
   TrialStream(SiftedTrials& trials, Sink sink) : trials_(trials), sink_(std::move(sink)) {}
 
-  /// Takes a query; false once it is to stop. `provenance` is called, until finish(), only for what is kept.
-  /// Throws Error as hold_trial does.
+  /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are kept, up to
+  /// finish(). Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Decides what is still held. Queries that are not decided when it is to stop are left out.
+  /// Decides the queries that are still held. After a request to stop, they are left out.
   void finish();
 
  private:

@@ -1,4 +1,4 @@
-/* A subject that takes as long as STEPS multiply-adds. */
+/* A subject that takes the time of STEPS multiply-adds. */
 #include "tests/benchmarks/known_time.h"
 
 #include <stddef.h>

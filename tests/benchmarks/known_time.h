@@ -1,4 +1,4 @@
-/* Arithmetic of a known length: STEPS dependent multiply-adds, each of two rounded operations. */
+/* Arithmetic of known length: STEPS dependent multiply-adds, of two rounded operations each. */
 #ifndef NEARMISS_KNOWN_TIME_H
 #define NEARMISS_KNOWN_TIME_H
 

@@ -1,5 +1,5 @@
-// What a trial measures of subjects whose time is known: ns a query of the same arithmetic in a plain loop, as a
-// built-in, and as a plug-in in its own process.
+// The times that a trial measures of subjects whose time is known: ns per query of the same arithmetic in a plain loop, in
+// a built-in, and in a plug-in, which runs in its own process.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

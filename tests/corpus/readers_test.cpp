@@ -1,4 +1,4 @@
-// Formats: exact round trips, and one clear line for what is wrong.
+// Formats: exact round trips, and one clear line about each error.
 #include "corpus/readers.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, gone at its end.
+/// Each test has its own folder, which is removed at its end.
 class Files : public ::testing::Test {
  protected:
   Files() { fs::create_directories(folder_); }
@@ -58,7 +58,7 @@ TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_number(".5", ""), 0.5);
 }
 
-TEST(Numbers, ThatAreNoneAreRefused) {
+TEST(Numbers, OtherThanFiniteOnesAreRefused) {
   for (const char* text :
        {"nan", "inf", "-inf", "1e400", "0x1p1024", "1.0x", "", "-", "0x", "--1", "1,5", "abc", "1e"})
     EXPECT_THROW((void)parse_number(text, "here"), Error) << text;
@@ -102,14 +102,14 @@ TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
   }
 }
 
-TEST_F(Files, AWrittenCaseIsRead) {
+TEST_F(Files, ReadsTheCaseThatWasWritten) {
   Case each;
   each.query = testing::falling_edge(1, -1);
   write_case(each, folder() + "/a.case");
   EXPECT_EQ(read_all(folder()).at(0).query, each.query);
 }
 
-TEST_F(Files, ABadCaseIsNamedWithItsLine) {
+TEST_F(Files, NamesTheLineOfABadCase) {
   const std::string points = "x0 0 0 0\nx1 0 0 0\nx2 0 0 0\nx3 0 0 0\ny0 0 0 0\ny1 0 0 0\ny2 0 0 0\n";
   expect_error(write("a.case", "kind vt\n" + points), "a.case:8: found no y3");
   expect_error(write("b.case", points + "y3 0 0 0\n"), "b.case:8: found no kind");
@@ -139,7 +139,7 @@ TEST_F(Files, SampleQueriesAreRationalNumbers) {
   EXPECT_EQ(cases[0].query.end(3), Vector3<double>(0.875, -0.75, 5));
 }
 
-TEST_F(Files, BadSampleQueriesAreNamedWithTheirLine) {
+TEST_F(Files, NamesTheLineOfABadSampleQuery) {
   const std::string row = "1,2,1,2,1,2,0\n";
   std::string seven;
   for (int i = 0; i < 7; ++i) seven += row;
@@ -152,7 +152,7 @@ TEST_F(Files, BadSampleQueriesAreNamedWithTheirLine) {
   expect_error(write("elsewhere/f.csv", seven + row), "expected vertex-face or edge-edge");
 }
 
-TEST_F(Files, WhatCannotBeReadIsAnError) {
+TEST_F(Files, RefusesUnreadableFilesAndFolders) {
   expect_error(write("empty.vt", ""), "empty file");
   expect_error(write("comments.vt", "# nothing\n"), "found no query");
   expect_error(write("mesh.obj", "v 0 0 0\n"), "unknown kind of file");
@@ -161,7 +161,7 @@ TEST_F(Files, WhatCannotBeReadIsAnError) {
   expect_error(folder() + "/sub", "found no case");
 }
 
-TEST_F(Files, AFolderIsReadInOrderAndOtherFilesArePassedOver) {
+TEST_F(Files, ReadsAFolderInOrderAndIgnoresOtherFiles) {
   const std::string line = to_line(Query{}) + "\n";
   write("b/second.ee", line);
   write("a/first.vt", line);

@@ -1,4 +1,4 @@
-// A campaign is the same whoever runs it and however it is cut.
+// A campaign gives the same result with any number of threads, shards and interruptions.
 #include "fuzz/trial/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs) {
   return plan;
 }
 
-/// With wang, and basic, which misses, where it matters what is found.
+/// With wang; and with basic, which misses, if the test needs findings.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const std::atomic<bool>& stop = false,
         int most_saves = 0) {
   Subjects subjects;
@@ -44,8 +44,9 @@ Ran run(const CampaignPlan& plan, bool with_basic = false, const std::atomic<boo
       },
       stop);
   run.rounds = reached.rounds;
-  EXPECT_EQ(reached.complete, plan.cases != 0 && most_saves == 0);      // what was announced is what was done
-  for (auto& [key, counts] : run.statistics.counts) counts.times = {};  // what varies
+  EXPECT_EQ(reached.complete,
+            plan.cases != 0 && most_saves == 0);  // complete if and only if all cases are done
+  for (auto& [key, counts] : run.statistics.counts) counts.times = {};  // run times vary
   return run;
 }
 
@@ -58,7 +59,7 @@ std::uint64_t queries(const Statistics& statistics, const std::string& subject, 
   return sum;
 }
 
-TEST(Campaign, SharesTheCasesOutAmongTheFamilies) {
+TEST(Campaign, DividesTheCasesAmongTheFamilies) {
   const Ran all = run(plan_of(4000, 2));
   std::uint64_t in_a_round = 0;
   for (const Family& family : families()) in_a_round += family.block_cases;
@@ -72,7 +73,7 @@ TEST(Campaign, SharesTheCasesOutAmongTheFamilies) {
   EXPECT_EQ(sum, 4000);
 }
 
-TEST(Campaign, ComparesAllAnswersWhereAFamilyAsksForIt) {
+TEST(Campaign, ComparesAllMethodsIfAFamilyAsksForIt) {
   CampaignPlan plan = plan_of(40, 1);
   plan.families = {find_family("uniform"), find_family("near-underflow"),
                    find_family("near-underflow@-1074")};
@@ -129,7 +130,7 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
   EXPECT_EQ(sum, whole.statistics);
 }
 
-TEST(Campaign, GoesOnAsIfItHadNeverStopped) {
+TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
   CampaignPlan plan = plan_of(9000, 2);
   plan.families = {find_family("planted"), find_family("degenerate"), find_family("aspect@8")};
   const Ran whole = run(plan, true);
@@ -181,7 +182,7 @@ TEST(Campaign, StopsWhenTheTimeIsOver) {
   EXPECT_GE(timed.saves, 1);
 }
 
-TEST(Campaign, StopsWhenItIsToldTo) {
+TEST(Campaign, StopsOnRequest) {
   CampaignPlan plan = plan_of(0, 2);
   const std::atomic<bool> stop{true};
   EXPECT_TRUE(run(plan, true, stop).statistics.counts.empty());

@@ -1,4 +1,4 @@
-// Of each way to fail a few are kept.
+// The sieve keeps a few findings of each signature.
 #include "fuzz/trial/sieve.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Subjects basic() {
   return subjects;
 }
 
-/// A finding that cannot be shrunk: no subject of the sieve, and a recorded truth.
+/// A finding that cannot be shrunk: a mismatch with a recorded truth.
 Finding mismatch(const std::string& signature, int number) {
   const Query query = falling_vertex(0.25, 0.25, number, -1);
   return {Finding::What::truth_mismatch, "", "f", query, std::to_string(number), 0, signature, query};
@@ -42,7 +42,7 @@ TEST(Sieve, KeepsTheFirstOfEverySignature) {
   EXPECT_EQ(provenances(some), (std::vector<std::string>{"4", "5", "7"}));
 }
 
-TEST(Sieve, KnowsWhatWasKeptBefore) {
+TEST(Sieve, CountsWhatWasKeptBefore) {
   const Subjects subjects = basic();
   const std::atomic<bool> stop{false};
   Sieve sieve(subjects, 2, stop);
@@ -53,7 +53,7 @@ TEST(Sieve, KnowsWhatWasKeptBefore) {
   EXPECT_EQ(provenances(some), (std::vector<std::string>{"3", "5"}));
 }
 
-/// What basic misses of a family.
+/// The collisions of a family that basic misses.
 std::vector<Finding> missed(const Subjects& subjects) {
   Batch batch{
       .kind = Kind::edge_edge, .family = "planted-ulp", .queries = {}, .truths = {}, .provenance = {}};
@@ -79,7 +79,7 @@ TEST(Sieve, ShrinksWhatItKeeps) {
   }
 }
 
-TEST(Sieve, ShrinksNothingOnceItIsToStop) {
+TEST(Sieve, ShrinksNothingAfterARequestToStop) {
   const Subjects subjects = basic();
   const std::atomic<bool> stop{true};
   Sieve sieve(subjects, 2, stop);

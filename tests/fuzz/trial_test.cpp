@@ -1,4 +1,4 @@
-// Subjects beside the oracle.
+// Trials: subjects judged by the oracle.
 #include "fuzz/trial/trial.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::falling_vertex;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Says what it is told to, and claims what it is told to.
+/// Answers and claims what the test sets.
 class Told final : public Subject {
  public:
   Told(std::string name, bool hit, double bound) : name_(std::move(name)), hit_(hit), bound_(bound) {}
@@ -69,7 +69,7 @@ Batch batch() {
 
 Counts counts_of(const TrialResult& result) { return result.statistics.counts.begin()->second; }
 
-TEST(Trial, TimesCountWhereTheBatchSaysSo) {
+TEST(Trial, RunTimesCountOnlyIfTheBatchSaysSo) {
   Batch untimed = batch();
   untimed.timed = false;
   const Subjects wang = one(make_subject("wang"));
@@ -94,7 +94,7 @@ TEST(Trial, AFalsePositiveIsMeasuredByTheClaimedBound) {
   EXPECT_EQ(counts_of(result).refuted_bounds, 0);
 }
 
-TEST(Trial, AClaimedBoundIsRefutedByWhatIsFartherAway) {
+TEST(Trial, AFalsePositiveFartherAwayRefutesTheClaimedBound) {
   const auto above = hold_trial(one(std::make_unique<Told>("always", true, 0.999)), batch());
   EXPECT_EQ(counts_of(above).refuted_bounds, 1);
   ASSERT_EQ(above.findings.size(), 1);
@@ -103,13 +103,13 @@ TEST(Trial, AClaimedBoundIsRefutedByWhatIsFartherAway) {
   EXPECT_EQ(counts_of(at).refuted_bounds, 0);
 }
 
-TEST(Trial, WhoClaimsNothingIsMeasuredByTheFailureProofBoundAndNotRefuted) {
+TEST(Trial, ASubjectWithoutABoundIsMeasuredByThatOfWangAndNotRefuted) {
   const auto result = hold_trial(one(std::make_unique<Told>("always", true, infinity)), batch());
   EXPECT_EQ(counts_of(result).refuted_bounds, 0);
   EXPECT_NEAR(counts_of(result).max_ratio(), 1 / make_subject("wang")->distance_bound(batch().queries[1]), 1);
 }
 
-TEST(Trial, ARecordedTruthThatIsWrongIsAFinding) {
+TEST(Trial, AWrongRecordedTruthIsAFinding) {
   Batch wrong = batch();
   wrong.truths = {true, true};
   const auto result = hold_trial({}, wrong);
@@ -134,7 +134,7 @@ TEST(Trial, EveryFindingHasASignatureThatIsCounted) {
   for (const Finding& finding : result.findings) EXPECT_TRUE(expected.contains(signature_of(finding)));
 }
 
-TEST(Trial, NoAnswerIsAFaultAndNoMiss) {
+TEST(Trial, AMissingAnswerIsAFaultAndNoMiss) {
   Batch third = batch();
   third.queries.push_back(falling_vertex(0.25, 0.25, 4, 3));
   const auto result = hold_trial(one(std::make_unique<Choosy>()), third);
@@ -146,7 +146,7 @@ TEST(Trial, NoAnswerIsAFaultAndNoMiss) {
   EXPECT_EQ(result.findings[1].provenance, "query 2");
 }
 
-TEST(Trial, ComparesTheAnswersOfTheOracleAsAsked) {
+TEST(Trial, ComparesTheMethodsOfTheOracleAsAsked) {
   const auto counts = [](const Batch& batch, const Comparison& comparison) {
     return hold_trial({}, batch, comparison).statistics.oracle_total();
   };
@@ -177,7 +177,7 @@ TEST(Trial, ComparesTheAnswersOfTheOracleAsAsked) {
   EXPECT_EQ(counts(some_of("planted-ulp"), {}).near_bounds, 0);  // not asked for
 }
 
-TEST(Trial, ComparesAllAnswersWhereTheBatchAsksForIt) {
+TEST(Trial, ComparesAllMethodsIfTheBatchAsksForIt) {
   Batch all = batch();
   EXPECT_EQ(hold_trial({}, all, {.one_in = std::uint64_t{1} << 62}).statistics.oracle_total().compared, 0);
   all.compare_all = true;
@@ -202,7 +202,7 @@ TEST(TrialStream, DecidesEverythingInOrder) {
   EXPECT_EQ(sum.findings[0].provenance, "0");
 }
 
-TEST(TrialStream, DecidesNothingOnceItIsToStop) {
+TEST(TrialStream, DecidesNothingAfterARequestToStop) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   const std::atomic<bool> stop{true};
   TrialResult sum;

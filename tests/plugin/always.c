@@ -1,5 +1,5 @@
-/* A complete plug-in: answers every query with the fixed return value that it was compiled with, and claims
- * the fixed distance bound, if any. */
+/* A complete plug-in: answers every query with the return value, and claims the distance bound, with which it was
+ * compiled. */
 #include <stddef.h>
 
 #include "ccd/nearmiss_subject.h"

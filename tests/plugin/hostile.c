@@ -1,5 +1,5 @@
-/* A plug-in, and with LD_PRELOAD a library, that rounds upward and flushes subnormals to zero from when it is
- * loaded, and again in every call. It reports a collision where it finds arithmetic so when it is called. */
+/* A plug-in (with LD_PRELOAD also a library) that sets the arithmetic to round upward and to flush subnormals to zero, when
+ * it is loaded and in every call. It reports a collision if it is called with such arithmetic. */
 #include <fenv.h>
 #include <pmmintrin.h>
 

@@ -1,4 +1,4 @@
-/* A subject that waits for a tenth of a millisecond, as for a device, and reports nothing. */
+/* A subject that waits a tenth of a millisecond, as if for a device, and reports nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include <stddef.h>
 #include <time.h>

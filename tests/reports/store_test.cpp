@@ -20,6 +20,32 @@ using ::testing::ThrowsMessage;
 
 class StoreTest : public testing::TemporaryFolder {};
 
+TEST_F(StoreTest, AKillDuringItsCreationLeavesNoStore) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file("a.db").c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+  EXPECT_GT(std::filesystem::file_size(file("a.db")), 0);
+  EXPECT_FALSE(Store::exists(file("a.db")));
+  { const Store store(file("a.db"), {{"command", "fuzz"}}, {}); }
+  EXPECT_TRUE(Store::exists(file("a.db")));
+  EXPECT_THAT(
+      [&] {
+        Store(file("a.db"), {{"command", "fuzz"}}, {});
+      },
+      ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
+}
+
+TEST_F(StoreTest, AFileOfAnotherKindIsNotReplaced) {
+  write("a.db", "precious");
+  EXPECT_THAT(
+      [&] {
+        Store(file("a.db"), {{"command", "fuzz"}}, {});
+      },
+      ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
+  EXPECT_EQ(read("a.db"), "precious");
+}
+
 const Query query = testing::falling_edge(0.1, -1.0 / 3);
 
 Statistics some_statistics(const std::string& subject) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What .clusterfuzzlite/build.sh makes, run as OSS-Fuzz runs it but for the container, runs where nothing of ours is.
-# Arguments name the targets; one of each kind where there is none. The build folder is kept: the first time takes
-# minutes.
+# Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, except for the container, and checks that the targets it builds run without
+# any of our files.
+# Arguments name the targets; by default, one of each kind. The build folder is kept, because the first build takes minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 (($#)) || set -- read_csv false_negative
@@ -9,8 +9,8 @@ cd "$(dirname "$0")/../.."
 fail() { echo "$1" >&2; exit 1; }
 command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
 
-# As the Dockerfile and base-builder set them, with libFuzzer and the address sanitizer. One process at a time: other
-# tests run beside this one.
+# The settings of the Dockerfile and base-builder, with libFuzzer and the address sanitizer. One process at a time, because
+# other tests run at the same time.
 root=$PWD/build/clusterfuzzlite
 flags="-O1 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
 flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"

@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "tests/temporary_folder.hpp"
+#include "tests/tools/background.hpp"
 
 namespace nearmiss::testing {
 
 class CommandLine : public testing::TemporaryFolder {
  protected:
-  struct Answer {
+  struct Output {
     int code = -1;
     std::string out, error;
   };
@@ -33,7 +34,7 @@ class CommandLine : public testing::TemporaryFolder {
 
   /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder; `before` is put in front, such as "ulimit -f
   /// 8;".
-  [[nodiscard]] Answer run(const std::string& arguments, const std::string& before = "") const {
+  [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = "cd " + file("").string() + " && " + before + " " + NEARMISS_EXECUTABLE +
                                 " " + arguments + " >out.txt 2>error.txt";
     const int status = std::system(command.c_str());
@@ -42,14 +43,24 @@ class CommandLine : public testing::TemporaryFolder {
 
   /// One line on stderr with all of these words, exit code 2, and no file that was not there before.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Answer answer = run(arguments);
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1)
-        << arguments << ": " << answer.error;
-    EXPECT_THAT(answer.error, ::testing::StartsWith("nearmiss: ")) << arguments;
-    for (const std::string& word : words) EXPECT_THAT(answer.error, ::testing::HasSubstr(word)) << arguments;
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << arguments;
+    EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1)
+        << arguments << ": " << output.error;
+    EXPECT_THAT(output.error, ::testing::StartsWith("nearmiss: ")) << arguments;
+    for (const std::string& word : words) EXPECT_THAT(output.error, ::testing::HasSubstr(word)) << arguments;
     for (const char* name : {"new.db", "new.db-wal", "new.json", "new.json.part", "new"})
       EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
+  }
+
+  /// Waits until a campaign with the store a.db has saved some of its rounds; false if it ends before.
+  [[nodiscard]] bool wait_for_a_save(Background& campaign) const {
+    const auto has_queries = [&] {
+      return run("report a.db -o saved").code == 0 && !read_json("saved/report.json")["subjects"].empty();
+    };
+    while (campaign.wait_for_a_change(file("a.db-wal")))
+      if (has_queries()) return true;
+    return false;
   }
 
   [[nodiscard]] nlohmann::json read_json(const std::string& name) const {

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-TEST_F(CommandLine, OraclePrintsALineAQuery) {
+TEST_F(CommandLine, OraclePrintsOneLinePerQuery) {
   write("q.vt", "# two queries\n" + hit + "\n" + miss);
   EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n0\n");
   EXPECT_EQ(run("oracle --kind vt --method exact - < q.vt").out, "1\n0\n");
@@ -18,7 +18,7 @@ TEST_F(CommandLine, OraclePrintsALineAQuery) {
 
 TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
-  // Through the triangle and back: two roots, which parity cannot see.
+  // Through the triangle and back: two roots, which parity takes for none.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
   for (const char* method : {"filtered", "exact", "sturm", "parity", "all"})
     EXPECT_EQ(run(std::string("oracle --kind vt q.vt --method ") + method).out, "1\n0\n") << method;
@@ -52,8 +52,8 @@ TEST_F(CommandLine, TheBoundCanBeGiven) {
 
 TEST_F(CommandLine, ReplayComparesAndCounts) {
   write("q.vt", hit + miss);
-  const Answer answer = run("replay q.vt --subject basic,wang --json new.json");
-  EXPECT_EQ(answer.code, 0) << answer.error;
+  const Output output = run("replay q.vt --subject basic,wang --json new.json");
+  EXPECT_EQ(output.code, 0) << output.error;
   const json counts = read_json("new.json")["subjects"]["wang"]["vt"];
   EXPECT_EQ(counts["queries"], 2);
   EXPECT_EQ(counts["collisions"], 1);
@@ -61,20 +61,20 @@ TEST_F(CommandLine, ReplayComparesAndCounts) {
   EXPECT_EQ(counts["false_negatives"], 0);
 }
 
-TEST_F(CommandLine, AMissExitsWithOne) {
+TEST_F(CommandLine, AMissGivesExitCodeOne) {
   write("q.vt", hit);
-  const Answer answer = run("replay q.vt --subject " + plugin("never"));
-  EXPECT_EQ(answer.code, 1);
-  EXPECT_THAT(answer.out, HasSubstr("MISSED 1 of 1 collision"));
-  EXPECT_THAT(answer.out, HasSubstr("q.vt:1"));
+  const Output output = run("replay q.vt --subject " + plugin("never"));
+  EXPECT_EQ(output.code, 1);
+  EXPECT_THAT(output.out, HasSubstr("MISSED 1 of 1 collision"));
+  EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
 }
 
-TEST_F(CommandLine, APluginThatCrashesAndHangsIsCountedAndTheCampaignGoesOn) {
+TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
   for (const std::string way : {"crash", "hang"}) {
-    const Answer answer = run("fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " +
+    const Output output = run("fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " +
                               way + ".db --subject " + plugin(way));
-    EXPECT_EQ(answer.code, 1) << answer.error;
-    EXPECT_THAT(answer.out, HasSubstr("NO ANSWER to "));
+    EXPECT_EQ(output.code, 1) << output.error;
+    EXPECT_THAT(output.out, HasSubstr("NO ANSWER to "));
     const json counts = read_json("new.json")["subjects"]["misbehaving"]["ee"];
     EXPECT_EQ(counts["queries"], 500);
     const int faults = counts["faults"][way == "hang" ? "time" : way];
@@ -84,7 +84,7 @@ TEST_F(CommandLine, APluginThatCrashesAndHangsIsCountedAndTheCampaignGoesOn) {
     EXPECT_EQ(read_json("report/report.json")["findings"][0]["what"], "fault");
   }
   std::filesystem::remove(file("new.json"));
-  // A stored query fails again, by the command in the report, which works in the report's folder.
+  // The command in the report, run in the report's folder, makes a stored query fail again.
   const std::string again = read_json("report/report.json")["findings"][0]["again"];
   EXPECT_THAT(again, ::testing::MatchesRegex("nearmiss replay cases/fault-misbehaving-001.case --subject "
                                              "/.*hang.so --query-time 20ms --query-memory [0-9]+"));
@@ -95,12 +95,12 @@ TEST_F(CommandLine, APluginThatCrashesAndHangsIsCountedAndTheCampaignGoesOn) {
       0);
 }
 
-TEST_F(CommandLine, AWrongRecordedTruthExitsWithOne) {
+TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {
   write("a.case",
         "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
         "y0 0.25 0.25 -1\ny1 0 0 0\ny2 1 0 0\ny3 0 1 0\n");
-  const Answer answer = run("replay a.case --json new.json");
-  EXPECT_EQ(answer.code, 1);
+  const Output output = run("replay a.case --json new.json");
+  EXPECT_EQ(output.code, 1);
   EXPECT_EQ(read_json("new.json")["oracle"]["mismatches_with_recorded_truth"], 1);
 }
 
@@ -119,11 +119,11 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
 }
 
 TEST_F(CommandLine, FuzzSweepsParameters) {
-  const Answer answer = run(
+  const Output output = run(
       "fuzz --sweep needle,end-contact --steps 3 --cases 600 --subject wang,exact --db a.db --json new.json");
-  EXPECT_EQ(answer.code, 0) << answer.error;
+  EXPECT_EQ(output.code, 0) << output.error;
   for (const char* title : {"wang along needle@x", "exact along needle@x", "wang along end-contact@x"})
-    EXPECT_THAT(answer.out, HasSubstr(title));
+    EXPECT_THAT(output.out, HasSubstr(title));
   const json steps = read_json("new.json")["sweeps"]["needle"]["wang"];
   ASSERT_EQ(steps.size(), 3);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -155,10 +155,10 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 1 1\nf 1 2 3\nf 4 5 6\n");
   write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 1 -1\nf 1 2 3\nf 4 5 6\n");
   const std::string scene = "scene start.obj end.obj --json scene.json ";
-  const Answer answer = run(scene + "--leave-out boxes --bound pair,scene,100 --export pairs");
-  EXPECT_EQ(answer.code, 0) << answer.error;
+  const Output output = run(scene + "--leave-out boxes --bound pair,scene,100 --export pairs");
+  EXPECT_EQ(output.code, 0) << output.error;
   const json subjects = read_json("scene.json")["subjects"];
-  EXPECT_EQ(subjects.size(), 4);  // basic knows no bound
+  EXPECT_EQ(subjects.size(), 4);  // basic has no bound
   for (const char* name : {"basic", "wang", "wang@100"})
     EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
   EXPECT_TRUE(std::filesystem::exists(file("pairs.vt")));
@@ -168,8 +168,8 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   for (const char* kind : {"vt", "ee"})
     for (const char* count : {"queries", "collisions", "positives", "false_positives"})
       EXPECT_EQ(read_json("replay.json")["subjects"]["wang"][kind][count], subjects["wang"][kind][count]);
-  // Both triangles only translate, so that the plan needs no subject.
-  const Answer planned = run(scene + "--verify-plan");
+  // Both triangles are only translated, so that the plan needs no subject.
+  const Output planned = run(scene + "--verify-plan");
   EXPECT_EQ(planned.code, 0) << planned.error;
   EXPECT_THAT(planned.out, HasSubstr("plan verified: "));
   const json funnel = read_json("scene.json")["scenes"]["scene:start"]["vt"];
@@ -178,12 +178,12 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
 }
 
 TEST_F(CommandLine, ScenesAreBuiltInToo) {
-  const Answer list = run("scene --list");
+  const Output list = run("scene --list");
   EXPECT_EQ(list.code, 0) << list.error;
   EXPECT_THAT(list.out, HasSubstr("\nknot "));
-  const Answer answer = run("scene flying@300 --subject wang --json new.json");
-  EXPECT_EQ(answer.code, 0) << answer.error;
-  EXPECT_THAT(answer.out, HasSubstr("flying@300: 21 frames, "));
+  const Output output = run("scene flying@300 --subject wang --json new.json");
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out, HasSubstr("flying@300: 21 frames, "));
   const json scenes = read_json("new.json")["scenes"];
   EXPECT_EQ(scenes.size(), 20);
   EXPECT_TRUE(scenes.contains("scene:flying@300#19"));
@@ -191,7 +191,7 @@ TEST_F(CommandLine, ScenesAreBuiltInToo) {
   expect_refused("scene flying@9", {"flying@9: found size 9, expected 100 to 4000000"});
   expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
   expect_refused("scene", {"SCENE is required"});
-  // A folder of that name is another one.
+  // A folder of that name is not the built-in scene.
   write("flying/1.obj", falling_triangle);
   write("flying/2.obj", fallen_triangle);
   EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));
@@ -208,11 +208,11 @@ TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
   EXPECT_GT(misses, 0);
 }
 
-TEST_F(CommandLine, PowerGoesOnWhereItStopped) {
+TEST_F(CommandLine, PowerResumesWhereItStopped) {
   const std::string command = "power --time 1ms --way families,search --json new.json --subject ";
-  const Answer answer = run(command + "defect:vertex-edge");
-  EXPECT_EQ(answer.code, 0) << answer.error;
-  EXPECT_THAT(answer.out, HasSubstr("found, of 1"));
+  const Output output = run(command + "defect:vertex-edge");
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out, HasSubstr("found, of 1"));
   EXPECT_EQ(run(command + "defect:vertex-edge,defect:mu*1").code, 0);
   const json results = read_json("new.json");
   ASSERT_EQ(results.size(), 4);
@@ -224,9 +224,9 @@ TEST_F(CommandLine, PowerGoesOnWhereItStopped) {
 
 TEST_F(CommandLine, TightnessGoesIntoTheReport) {
   expect_refused("tightness --tolerance nu", {"'nu'"});
-  const Answer answer = run("tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");
-  EXPECT_EQ(answer.code, 0) << answer.error;
-  EXPECT_THAT(answer.out, HasSubstr("D2"));
+  const Output output = run("tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out, HasSubstr("D2"));
   EXPECT_LT(read_json("new.json")["tightness"]["D2"]["value"], 1);
   EXPECT_EQ(run("report new.db -o report").code, 0);
   EXPECT_GT(read_json("report/report.json")["tightness"]["vertex-edge"]["queries"], 0);
@@ -235,23 +235,38 @@ TEST_F(CommandLine, TightnessGoesIntoTheReport) {
 TEST_F(CommandLine, ShrinkWritesACaseThatFailsInTheSameWay) {
   write("q.vt", "0.3 0.37 1.1  0.1 0 0  1.7 0 0.2  0 1.3 0   0.31 0.2 -1.9  0 0.01 0  1.1 0 0.3  0 1.2 0\n");
   const std::string never = " --subject " + plugin("never");
-  const Answer answer = run("shrink q.vt" + never);
-  EXPECT_EQ(answer.code, 0) << answer.error;
-  EXPECT_THAT(answer.out, StartsWith("# false-negative of always: vt simple-root inside in-face\n"
+  const Output output = run("shrink q.vt" + never);
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out, StartsWith("# false-negative of always: vt simple-root inside in-face\n"
                                      "# distinct numbers: 11 -> "));
-  EXPECT_THAT(answer.out, HasSubstr("kind vt\ntruth 1\nprovenance shrunk from q.vt:1\nx0 "));
-  const Answer silent = run("shrink q.vt -o shrunk.case" + never);
+  EXPECT_THAT(output.out, HasSubstr("kind vt\ntruth 1\nprovenance shrunk from q.vt:1\nx0 "));
+  const Output silent = run("shrink q.vt -o shrunk.case" + never);
   EXPECT_THAT(silent.out,
               MatchesRegex("distinct numbers: 11 -> [12]; their significant bits: 578 -> [1-4]\n"));
-  EXPECT_EQ(read("shrunk.case"), answer.out);
+  EXPECT_EQ(read("shrunk.case"), output.out);
   EXPECT_EQ(run("replay shrunk.case" + never).code, 1);
   EXPECT_EQ(run("shrink shrunk.case" + never).code, 0);
 }
 
+TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
+  const std::string subject = " --subject " + plugin("bound_nan");
+  EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 1);
+  EXPECT_GT(read_json("new.json")["subjects"]["always"]["vt"]["faults"]["error"], 50);
+  EXPECT_EQ(run("report a.db -o report").code, 0);
+  const json finding = read_json("report/report.json")["findings"][0];
+  EXPECT_EQ(finding["what"], "fault");
+  const std::string found = "report/" + finding["file"].get<std::string>();
+  const Output shrunk = run("shrink " + found + " -o shrunk.case" + subject);
+  EXPECT_EQ(shrunk.code, 0) << shrunk.error;
+  EXPECT_THAT(read("shrunk.case"), StartsWith("# fault of always: "));
+  EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 1);
+  EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "fault");
+}
+
 TEST_F(CommandLine, ShrinkKeepsAReportBeyondItsBound) {
   write("q.ee", "0 0 1  1 0 1.1  0.5 -1 0  0.5 1 0.2   0 0 3  1 0 3.3  0.5 -1 0.1  0.5 1 0\n");
-  const Answer answer = run("shrink q.ee -o shrunk.case --subject " + plugin("bounded"));
-  EXPECT_EQ(answer.code, 0) << answer.error;
+  const Output output = run("shrink q.ee -o shrunk.case --subject " + plugin("bounded"));
+  EXPECT_EQ(output.code, 0) << output.error;
   EXPECT_THAT(read("shrunk.case"), StartsWith("# refuted-bound of always: ee unspecified\n"));
   EXPECT_EQ(run("replay shrunk.case --json new.json --subject " + plugin("bounded")).code, 1);
   EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "refuted-bound");
@@ -259,8 +274,8 @@ TEST_F(CommandLine, ShrinkKeepsAReportBeyondItsBound) {
 
 TEST_F(CommandLine, BenchWritesItsResults) {
   write("own.vt", hit);
-  const Answer answer = run("bench own.vt --queries 50 --runs 3 --json new.json");
-  EXPECT_EQ(answer.code, 0) << answer.error;
+  const Output output = run("bench own.vt --queries 50 --runs 3 --json new.json");
+  EXPECT_EQ(output.code, 0) << output.error;
   const json results = read_json("new.json")["results"];
   EXPECT_EQ(results.size(), 2 * 1 + 2 * 2 * 3);  // two subjects: one kind of own.vt, two of each random input
   for (const json& each : results) {
@@ -271,18 +286,26 @@ TEST_F(CommandLine, BenchWritesItsResults) {
 }
 
 TEST_F(CommandLine, SubjectsAreListed) {
-  const Answer answer = run("subjects");
+  const Output output = run("subjects");
   for (const char* name :
        {"basic ", "basic-plain ", "wang ", "wang-eps ", "wang-plain ", "exact ", "defect:vv "})
-    EXPECT_THAT(answer.out, HasSubstr(name));
+    EXPECT_THAT(output.out, HasSubstr(name));
 }
 
 TEST_F(CommandLine, EverySubcommandHasHelp) {
-  for (const char* name : {"oracle", "verdict", "replay", "fuzz", "shrink", "scene", "merge", "report",
-                           "power", "tightness", "bench", "family", "subjects"}) {
-    const Answer answer = run(std::string(name) + " --help");
-    EXPECT_EQ(answer.code, 0) << name;
-    EXPECT_THAT(answer.out, HasSubstr("Usage: nearmiss ")) << name;
+  std::istringstream help(run("--help").out);
+  std::vector<std::string> names;
+  bool is_listed = false;
+  for (std::string line; std::getline(help, line);) {
+    if (is_listed && line.empty()) break;
+    if (is_listed) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    if (line == "Subcommands:") is_listed = true;
+  }
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"fuzz", "audit", "ladder", "subjects"}));
+  for (const std::string& name : names) {
+    const Output output = run(name + " --help");
+    EXPECT_EQ(output.code, 0) << name;
+    EXPECT_THAT(output.out, HasSubstr("Usage: nearmiss " + name)) << name;
   }
 }
 
@@ -294,12 +317,12 @@ TEST_F(CommandLine, TheLadderIsACampaign) {
   EXPECT_THAT(run("ladder --scalar p15 --cases 1").error, HasSubstr("p16 to p256"));
 }
 
-TEST_F(CommandLine, TheAuditNamesWhatIsTooSmall) {
-  const Answer answer = run("audit --queries 2 --steps 4 --json audit.json");
-  EXPECT_EQ(answer.code, 0);
-  EXPECT_THAT(answer.out, HasSubstr("TOO SMALL"));
-  EXPECT_THAT(answer.out, HasSubstr("not proven by Theorem 4.1: with the rounding of relative vectors"));
-  EXPECT_THAT(answer.out, HasSubstr("33492"));
+TEST_F(CommandLine, TheAuditNamesConstantsThatAreTooSmall) {
+  const Output output = run("audit --queries 2 --steps 4 --json audit.json");
+  EXPECT_EQ(output.code, 0);
+  EXPECT_THAT(output.out, HasSubstr("TOO SMALL"));
+  EXPECT_THAT(output.out, HasSubstr("not proven by Theorem 4.1: with the rounding of relative vectors"));
+  EXPECT_THAT(output.out, HasSubstr("33492"));
   EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
   EXPECT_EQ(run("report a.db -o report --audit audit.json").code, 0);
   write("other.json", "{\"constants\": []}");

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tools/environments on two of them, what it writes, and that nothing else is compiled in such an environment.
+# Runs tools/environments on two environments, and checks its output, and that nothing else is compiled there.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 fail() { echo "$1"; exit 1; }

@@ -1,4 +1,4 @@
-// The commands that print queries, and what subjects are judged by, from outside.
+// From outside: the commands that print queries and the bounds by which subjects are judged.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -12,7 +12,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims none and is measured by wang's.
+  // basic claims no bound and is measured by wang's.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -32,9 +32,9 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   // Numbers 2 to 6 of the family: three are even, two odd.
   const auto lines = [&](const std::string& options) {
-    const Answer answer = run("family parallel --seed 5 " + options);
-    EXPECT_EQ(answer.code, 0) << answer.error;
-    return answer.out;
+    const Output output = run("family parallel --seed 5 " + options);
+    EXPECT_EQ(output.code, 0) << output.error;
+    return output.out;
   };
   const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
   EXPECT_EQ(count(lines("--kind vt --first 2 --count 5")), 3);
@@ -42,7 +42,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   EXPECT_EQ(lines("--kind ee --count 8"),
             lines("--kind ee --count 4") + lines("--kind ee --first 4 --count 4"));
   EXPECT_EQ(lines("--kind ee --count 1"), "");
-  // They are those of a campaign, and give its counts.
+  // They are the queries of a campaign, and give its counts.
   EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
   write("q.ee", lines("--kind ee --count 1000"));
   EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);
@@ -54,7 +54,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   EXPECT_EQ(replay["farthest"][0]["query"], campaign["farthest"][0]["query"]);
 }
 
-TEST_F(CommandLine, FamilyRefusesWhatItDoesNotKnow) {
+TEST_F(CommandLine, FamilyRefusesUnknownNames) {
   expect_refused("family uniforms --kind vt --count 1", {"unknown family 'uniforms'", "uniform-end"});
   expect_refused("family all --kind vt --count 1", {"unknown family 'all'"});
   expect_refused("family needle@5 --kind vt --count 1", {"'needle@5'", "from -16 to 0"});

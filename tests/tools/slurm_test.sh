@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A campaign on a Slurm cluster gives the report of one machine, also where a task comes to its time limit, one is
-# killed and one never runs. The cluster, of one node, is the test's own, with all that it needs in a temporary folder.
-# Usage: slurm_test.sh NEARMISS. Exit code 77 where there is no Slurm, or it cannot start.
+# A campaign on a Slurm cluster gives the report of one machine, even if one task reaches its time limit, one is killed and
+# one never runs. The test starts its own cluster of one node, with all files in a temporary folder.
+# Usage: slurm_test.sh NEARMISS. Exit code 77: there is no Slurm, or it cannot start.
 set -euo pipefail
 nearmiss=$(realpath "$1")
 tools=$(cd "$(dirname "$0")/../../tools/slurm" && pwd)

@@ -1,12 +1,14 @@
-// The command line in trouble: what it says to bad input, and what goes wrong while it works.
-#include "tests/tools/command_line.hpp"
-
+// The command line in trouble: bad input, and failures during the work.
 #include <algorithm>
+
+#include "tests/tools/background.hpp"
+#include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
 namespace {
 
 using nlohmann::json;
+using testing::Background;
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
@@ -127,18 +129,18 @@ TEST_F(CommandLine, BadStores) {
   EXPECT_EQ(read("taken.db"), "precious");
 }
 
-// --- what goes wrong while it works -----------------------------------------------------------------------
+// --- failures during the work -----------------------------------------------------------------------------
 
-TEST_F(CommandLine, HostileArithmeticIsSetRightAndSaid) {
+TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   write("q.vt", hit + "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 0x1p-1074  0 0 0  1 0 0  0 1 0\n");
   const std::string before = "LD_PRELOAD=" + plugin("hostile");
   const std::string says =
       "nearmiss: found arithmetic that rounds upward, flushes subnormals to zero, takes subnormals for zero, "
-      "expected rounding to nearest with subnormals: set so\n";
-  const Answer answer = run("oracle --kind vt --distance q.vt", before);
-  EXPECT_EQ(answer.error, says);
-  EXPECT_EQ(answer.out, run("oracle --kind vt --distance q.vt").out);
-  // The threads of a campaign, and the processes of its plug-ins, are as the command is.
+      "expected rounding to nearest with subnormals; changed to that\n";
+  const Output output = run("oracle --kind vt --distance q.vt", before);
+  EXPECT_EQ(output.error, says);
+  EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
+  // The threads of a campaign and the processes of its plug-ins have the command's arithmetic.
   const auto positives = [&](const std::string& preload, const std::string& error) {
     EXPECT_EQ(run("fuzz --family scale@-1070,planted --cases 2000 --quiet --json new.json --subject wang," +
                       plugin("hostile"),
@@ -152,41 +154,45 @@ TEST_F(CommandLine, HostileArithmeticIsSetRightAndSaid) {
   EXPECT_EQ(positives(before, says), positives("", ""));
 }
 
+constexpr const char* endless_campaign = "fuzz --family uniform --time 24h --db a.db";
+
 TEST_F(CommandLine, AnInterruptSavesEverything) {
-  const Answer answer =
-      run("fuzz --family uniform --time 60s --db a.db", "timeout --preserve-status -s INT 5");
-  EXPECT_EQ(answer.code, 130) << answer.error;
-  EXPECT_THAT(answer.out, HasSubstr("no miss in"));
+  Background campaign(file(""), endless_campaign);
+  ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
+  campaign.stop(SIGINT);
+  EXPECT_EQ(campaign.code(), 130) << read("error.txt");
+  EXPECT_THAT(read("out.txt"), HasSubstr("no miss in"));
   EXPECT_EQ(run("report a.db -o report").code, 0);
   EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
 }
 
 TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
-  const Answer answer = run("fuzz --family uniform --time 60s --db a.db", "timeout -s KILL 8");
-  EXPECT_EQ(answer.code, 137);
+  Background campaign(file(""), endless_campaign);
+  ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
+  campaign.stop(SIGKILL);
   EXPECT_EQ(run("report a.db -o report").code, 0);
   EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
 }
 
-TEST_F(CommandLine, AFullDiskIsSaidAndLosesNothingThatWasSaved) {
-  // A limit on the size of files stands for the full disk.
-  const Answer answer =
-      run("fuzz --time 60s --subject basic --family planted --db a.db", "ulimit -f 300; trap '' XFSZ;");
-  EXPECT_EQ(answer.code, 2);
-  EXPECT_EQ(std::count(answer.error.begin(), answer.error.end(), '\n'), 1) << answer.error;
-  EXPECT_THAT(answer.error, HasSubstr("a.db: "));
+TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
+  // A limit on the size of files simulates the full disk.
+  const Output output =
+      run("fuzz --time 24h --subject basic --family planted --db a.db", "ulimit -f 300; trap '' XFSZ;");
+  EXPECT_EQ(output.code, 2);
+  EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
+  EXPECT_THAT(output.error, HasSubstr("a.db: "));
   EXPECT_EQ(run("merge b.db a.db").code, 0);
   write("q.vt", hit);
-  const Answer no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
+  const Output no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
   EXPECT_EQ(no_room.code, 2);
   EXPECT_FALSE(std::filesystem::exists(file("new.json")));
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
 }
 
-TEST_F(CommandLine, ADeviceIsWrittenToAndNotReplaced) {
+TEST_F(CommandLine, ADeviceIsWrittenNotReplaced) {
   write("q.vt", hit);
-  const Answer answer = run("replay q.vt --json /dev/stdout | cat");
-  EXPECT_THAT(answer.out, HasSubstr("\"false_negatives\": 0"));
+  const Output output = run("replay q.vt --json /dev/stdout | cat");
+  EXPECT_THAT(output.out, HasSubstr("\"false_negatives\": 0"));
   EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
 }
 

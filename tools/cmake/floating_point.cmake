@@ -1,6 +1,5 @@
-# Theorem 4.1 of the paper assumes that every operation is rounded on its own to IEEE double.
-# A compiler that contracts is told not to; one that reorders or widens is refused here, not found out by a campaign, and
-# once more wherever a header of ccd/ is included.
+# Theorem 4.1 of the paper assumes that every single operation is rounded to IEEE double. Contraction is switched off; a
+# compiler that reorders or widens is refused here, and again wherever a header of ccd/ is included.
 include(CheckCXXSourceCompiles)
 
 add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)

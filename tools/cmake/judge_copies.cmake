@@ -1,5 +1,5 @@
-# Included by project() in the copies of tests/judge/copy.mjs: what the oracle's sources include from elsewhere is compiled once, not for every
-# defect. The files for wider instructions have flags of their own, which no other's headers fit.
+# Included by project() in the copies of tests/judge/copy.mjs: compiles the libraries' headers once, not for every defect.
+# The files for wider instructions have other flags, with which precompiled headers cannot be shared.
 function(nearmiss_precompile)
   set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
     <CGAL/Exact_predicates_inexact_constructions_kernel.h> <boost/multiprecision/gmp.hpp> <Eigen/Core> <Eigen/Geometry>)

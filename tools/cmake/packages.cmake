@@ -1,10 +1,10 @@
-# The libraries that nearmiss builds on, all from Debian 12 (tools/packages.txt says what for).
+# The libraries that nearmiss builds on, all from Debian 12; tools/packages.txt gives the reasons.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(CGAL REQUIRED QUIET)
 find_package(Boost 1.74 REQUIRED)
 find_package(fmt 9 REQUIRED)
 if(NEARMISS_LIBFUZZER OR NEARMISS_ENVIRONMENT)
-  return()  # their targets need no more
+  return()  # their targets need nothing else
 endif()
 find_package(CLI11 2.1 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)

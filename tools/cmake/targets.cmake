@@ -1,4 +1,4 @@
-# What all of our own targets share: warnings as errors, sanitizers, clang-tidy, ccache.
+# Settings of all our targets: warnings as errors, sanitizers, clang-tidy, ccache.
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
@@ -16,18 +16,18 @@ if(NEARMISS_SANITIZE)
 endif()
 
 if(NEARMISS_LIBFUZZER)
-  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage in all of our code
-  add_link_options(-fsanitize=undefined)  # a runtime for it where libFuzzer is none
+  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage of all our code
+  add_link_options(-fsanitize=undefined)  # a coverage runtime for executables without libFuzzer
 endif()
 
-# nearmiss_options(TARGET): our own code compiles without a warning; includes are from the top, "folder/file.hpp".
+# nearmiss_options(TARGET): our code compiles without warnings; includes are relative to the top folder, "folder/file.hpp".
 function(nearmiss_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)  # bools are joined by | where a branch would cost more
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)  # bools are joined by | to save a branch
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
-# nearmiss_library(FOLDER LIB...): the library of one folder, from all of its .cpp files.
+# nearmiss_library(FOLDER LIB...): the library of one folder, from all its .cpp files.
 function(nearmiss_library folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
   if(NOT sources)
@@ -38,7 +38,7 @@ function(nearmiss_library folder)
   target_link_libraries(nearmiss_${folder} PUBLIC ${ARGN})
 endfunction()
 
-# nearmiss_tests(FOLDER LIB...): one GoogleTest executable from tests/FOLDER/*.cpp, each test known to CTest.
+# nearmiss_tests(FOLDER LIB...): one GoogleTest executable from tests/FOLDER/*.cpp; CTest knows each test.
 function(nearmiss_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
@@ -47,14 +47,14 @@ function(nearmiss_tests folder)
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
-# A target that includes CGAL's number types.
+# For targets that include CGAL's number types.
 function(nearmiss_uses_cgal target)
   target_link_libraries(${target} PRIVATE CGAL::CGAL)
-  # Interval arithmetic changes the rounding mode; the compiler must know.
+  # Interval arithmetic changes the rounding mode, which the compiler must know.
   target_compile_options(${target} PRIVATE -frounding-math)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT NEARMISS_CLANG_TIDY)  # clang-tidy does not know the options
-    # g++ 12 sees a use after free, which is none, where CGAL's reference-counted handles are inlined, and a
-    # mismatched delete in CGAL's Mpzf, which sets its pointer back to where new[] had put it.
+    # g++ 12 warns wrongly of a use after free where CGAL's reference-counted handles are inlined, and of a mismatched
+    # delete in CGAL's Mpzf, which sets its pointer back to where new[] had put it.
     target_compile_options(${target} PRIVATE -Wno-use-after-free -Wno-mismatched-new-delete)
   endif()
 endfunction()

@@ -1,0 +1,74 @@
+// The command nearmiss in the background: to signal it, or to see what others may do meanwhile.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace nearmiss::testing {
+
+/// "nearmiss ARGUMENTS" in a folder; killed at the end of the scope if it still runs.
+class Background {
+ public:
+  Background(const std::filesystem::path& folder, const std::string& arguments) {
+    const std::string command = "cd " + folder.string() + " && exec " + NEARMISS_EXECUTABLE + " " +
+                                arguments + " >out.txt 2>error.txt";
+    process_ = fork();
+    if (process_ == 0) {
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+  }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+  ~Background() {
+    if (!has_ended()) stop(SIGKILL);
+  }
+
+  [[nodiscard]] bool has_ended() {
+    int status = 0;
+    if (!code_ && waitpid(process_, &status, WNOHANG) == process_) code_ = code_of(status);
+    return code_.has_value();
+  }
+
+  /// Waits until `is_true`, or for the end of the process; false if it has ended.
+  template <class Condition>
+  bool wait_until(const Condition& is_true) {
+    while (!has_ended() && !is_true()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return !has_ended();
+  }
+
+  /// Waits for a change of a file that exists or will.
+  bool wait_for_a_change(const std::filesystem::path& file) {
+    const auto time = [&] {
+      std::error_code none;
+      return std::filesystem::last_write_time(file, none);
+    };
+    return wait_until([&, before = time()] { return time() != before; });
+  }
+
+  /// Sends a signal and waits for the end.
+  void stop(int signal) {
+    kill(process_, signal);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    code_ = code_of(status);
+  }
+
+  /// The exit code, once it has ended; -1 if a signal ended it.
+  [[nodiscard]] int code() const { return code_.value(); }
+
+ private:
+  static int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : -1; }
+
+  pid_t process_;
+  std::optional<int> code_;
+};
+
+}  // namespace nearmiss::testing
