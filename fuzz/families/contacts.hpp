@@ -45,11 +45,11 @@ struct Contact {
 /// two and few bits long, every operation here is exact in double, and the query touches exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
-/// Numbers of one size from which primitives are made: for one half of the objects sixteenths, so that sums and
-/// products of a few stay exact in double, for the other half any numbers.
-class Numbers {
+/// ContactSampler of one size from which primitives are made: for one half of the objects sixteenths, so that sums and
+/// products of a few stay exact in double, for the other half any sampler.
+class ContactSampler {
  public:
-  explicit Numbers(Random& random) : random_(random), exact_(random.one_in(2)) {}
+  explicit ContactSampler(Random& random) : random_(random), exact_(random.one_in(2)) {}
 
   /// Components in [-1, 1].
   Vector3<double> vector();

@@ -19,44 +19,44 @@ using Vector = Vector3<double>;
 /// The first primitive is as fast as that; now and then so is the second, or what changes the primitives' shapes.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
-  Numbers numbers(random);
-  const double slow = std::min(speed, numbers.speed());
-  Contact contact = numbers.contact(kind, random.one_in(4) ? speed : slow);
+  ContactSampler sampler(random);
+  const double slow = std::min(speed, sampler.speed());
+  Contact contact = sampler.contact(kind, random.one_in(4) ? speed : slow);
   const double base_speed = random.one_in(4) ? speed : slow;
-  move_to_origin(kind, contact, base_speed * numbers.vector());
-  return finished(random, meet(kind, contact, speed * numbers.direction()));
+  move_to_origin(kind, contact, base_speed * sampler.vector());
+  return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
 /// Of the sides q and r one is shorter. The contact is anywhere, or as near to the corner x1 of a triangle,
 /// or to an end of the long edge, as the short one is long.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
   const bool short_q = random.one_in(2);
   Path& side = short_q ? contact.q : contact.r;
   side = scaled(side, size);
   if (random.one_in(2)) (short_q ? contact.beta : contact.alpha) *= size;
-  const double speed = random.one_in(2) ? size : numbers.fraction(52);
-  move_to_origin(kind, contact, random.one_in(2) ? Vector(Vector::Zero()) : speed * numbers.vector());
-  return finished(random, meet(kind, contact, speed * numbers.direction()));
+  const double speed = random.one_in(2) ? size : sampler.fraction(52);
+  move_to_origin(kind, contact, random.one_in(2) ? Vector(Vector::Zero()) : speed * sampler.vector());
+  return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
 Query offset(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = meet(kind, contact, numbers.velocity());
-  const Vector far = power_of_ten(x) * numbers.direction();
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = meet(kind, contact, sampler.velocity());
+  const Vector far = power_of_ten(x) * sampler.direction();
   for (std::size_t i = 0; i < 24; ++i) query.x[i] += far[static_cast<int>(i % 3)];
   return finished(random, query);
 }
 
 Query scale(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = finished(random, meet(kind, contact, numbers.velocity()));
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = finished(random, meet(kind, contact, sampler.velocity()));
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   if (largest == 0) return query;
@@ -89,10 +89,10 @@ Query overflow(Random& random, Kind kind) {
 /// Each vertex and each axis has an exponent of its own. The primitives touch at the origin, and go on touching
 /// there whatever a vertex or an axis is multiplied by.
 Query mixed_scale(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = meet(kind, contact, numbers.velocity());
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = meet(kind, contact, sampler.velocity());
   const int most = static_cast<int>(x) / 4;
   std::array<int, 3> axis{};
   for (int& exponent : axis) exponent = random.integer(-most, most);
@@ -108,14 +108,14 @@ Query mixed_scale(Random& random, Kind kind, double x) {
 /// One primitive rests, every bit of it; the other moves as fast as that.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
-  Numbers numbers(random);
-  const double slow = std::min(speed, numbers.speed());
-  Contact contact = numbers.contact(kind, slow);
+  ContactSampler sampler(random);
+  const double slow = std::min(speed, sampler.speed());
+  Contact contact = sampler.contact(kind, slow);
   const auto rest = [](Path& path, double time) { path = passing(path.at(time), Vector::Zero(), time); };
   const bool first_moves = random.one_in(2);
   if ((kind == Kind::edge_edge) != first_moves) rest(contact.q, contact.time);
   if (first_moves) rest(contact.r, contact.time);
-  const Vector fast = speed * numbers.direction();
+  const Vector fast = speed * sampler.direction();
   const Vector none = Vector::Zero();
   move_to_origin(kind, contact, first_moves ? none : fast);
   return finished(random, meet(kind, contact, first_moves ? fast : none));
@@ -126,18 +126,18 @@ Query static_pair(Random& random, Kind kind, double x) {
 /// The other edge, or the motion of the vertex, is nearly a multiple of the side q.
 Query near_parallel(Random& random, Kind kind, double x) {
   const double angle = power_of_ten(x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
-  if (random.one_in(2)) contact.q = passing(numbers.direction(), Vector::Zero(), 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
+  if (random.one_in(2)) contact.q = passing(sampler.direction(), Vector::Zero(), 0);
   const double sign = random.one_in(2) ? 1 : -1;
   const double along = std::ldexp(sign, random.integer(-2, 1));
-  const Vector nearly = along * contact.q.start + angle * numbers.vector();
-  Vector w = numbers.velocity();
+  const Vector nearly = along * contact.q.start + angle * sampler.vector();
+  Vector w = sampler.velocity();
   if (kind == Kind::edge_edge)
     contact.r = {nearly, nearly};
   else
     w = nearly;
-  move_to_origin(kind, contact, numbers.velocity());
+  move_to_origin(kind, contact, sampler.velocity());
   return finished(random, meet(kind, contact, contact.velocity(kind) + w));
 }
 
@@ -151,14 +151,14 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
 /// Everything is thin but along one axis, or all but the motion is; turned out of the axes now and then.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
-  Numbers numbers(random);
+  ContactSampler sampler(random);
   Vector factors = Vector::Constant(thin);
   factors[random.integer(0, 2)] = 1;
   const auto squeezed = [&](const Vector& v) -> Vector { return v.cwiseProduct(factors); };
-  Contact contact = numbers.contact(kind, numbers.speed());
+  Contact contact = sampler.contact(kind, sampler.speed());
   for (Path* const side : {&contact.q, &contact.r}) *side = {squeezed(side->start), squeezed(side->end)};
-  move_to_origin(kind, contact, squeezed(numbers.velocity()));
-  const Vector w = numbers.velocity();
+  move_to_origin(kind, contact, squeezed(sampler.velocity()));
+  const Vector w = sampler.velocity();
   Query query = meet(kind, contact, random.one_in(2) ? squeezed(w) : w);
   if (random.one_in(3)) {
     const Eigen::Matrix3d turn = rotation(random.vector(1), 2);
@@ -175,15 +175,15 @@ Query needle(Random& random, Kind kind, double x) {
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
   contact.q = turned(contact.q.start);
   contact.r = turned(contact.r.start);
   const double away = std::ldexp(1.0, random.integer(0, 6));  // from the axis
-  contact.base = turned(away * numbers.vector());
-  if (random.one_in(2)) contact.base.end += numbers.vector();
-  const double speed = numbers.fraction(52);
-  const Vector apart = speed * numbers.direction();
+  contact.base = turned(away * sampler.vector());
+  if (random.one_in(2)) contact.base.end += sampler.vector();
+  const double speed = sampler.fraction(52);
+  const Vector apart = speed * sampler.direction();
   return finished(random, meet(kind, contact, contact.velocity(kind) + apart));
 }
 

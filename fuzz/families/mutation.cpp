@@ -29,15 +29,15 @@ double size_of(const Query& query) {
   return size == 0 ? 1 : size;
 }
 
-/// Vertices start, first + 1 .. last of a random choice: one, or all of a primitive.
-struct Vertices {
+/// VertexRange start, first + 1 .. last of a random choice: one, or all of a primitive.
+struct VertexRange {
   int first, last;
 };
 
-Vertices some_vertices(Random& random, Kind kind) {
+VertexRange some_vertices(Random& random, Kind kind) {
   const int one = random.integer(0, 3);
   if (random.one_in(2)) return {one, one};
-  return one < split(kind) ? Vertices{0, split(kind) - 1} : Vertices{split(kind), 3};
+  return one < split(kind) ? VertexRange{0, split(kind) - 1} : VertexRange{split(kind), 3};
 }
 
 Vector position(const Query& query, int point) {
@@ -203,7 +203,7 @@ Vector aligned_velocity(Random& random, const Query& query) {
 
 Query velocity_aligned(Random& random, const Query& query) {
   const Vector velocity = aligned_velocity(random, query);
-  const Vertices vertices = some_vertices(random, query.kind);
+  const VertexRange vertices = some_vertices(random, query.kind);
   const bool backwards = random.one_in(2);
   Query result = query;
   for (int i = vertices.first; i <= vertices.last; ++i) {
@@ -227,7 +227,7 @@ Query vertex_copied(Random& random, const Query& query) {
 
 /// Start and end change places: those of all vertices, of a primitive, or of one vertex.
 Query reversed(Random& random, const Query& query) {
-  const Vertices vertices = random.one_in(2) ? Vertices{0, 3} : some_vertices(random, query.kind);
+  const VertexRange vertices = random.one_in(2) ? VertexRange{0, 3} : some_vertices(random, query.kind);
   Query result = query;
   for (int i = vertices.first; i <= vertices.last; ++i) {
     result.set_start(i, query.end(i));

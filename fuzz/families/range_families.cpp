@@ -97,10 +97,10 @@ Query cube(Random& random, Kind kind) {
 
 /// Contact at the origin, or a near miss: a weight or the time is outside [0, 1] by a power of two down to ε.
 Draft aimed(Random& random, Kind kind) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  return {meet(kind, contact, numbers.velocity()), true};
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  return {meet(kind, contact, sampler.velocity()), true};
 }
 
 Draft any_contact(Random& random, Kind kind) {

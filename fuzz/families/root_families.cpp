@@ -32,22 +32,22 @@ Query end_contact(Random& random, Kind kind, double x) {
 /// normal, so that the smallest move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
-  Numbers numbers(random);
+  ContactSampler sampler(random);
   const bool flat = random.one_in(2);
   const Vector axis = Vector::Unit(random.integer(0, 2));
   const auto across = [&](const Vector& v) -> Vector { return flat ? v.cwiseProduct(axis) : v; };
   const auto within = [&](const Vector& v) -> Vector { return flat ? v - v.cwiseProduct(axis) : v; };
 
-  Contact contact = numbers.contact(kind, 0);
+  Contact contact = sampler.contact(kind, 0);
   contact.time = std::clamp(contact.time, h, 1 - h);
   const bool q_turns = !flat || kind == Kind::vertex_triangle;
-  const Vector q_velocity = across(numbers.vector());
+  const Vector q_velocity = across(sampler.vector());
   contact.q = passing(within(contact.q.start), q_turns ? q_velocity : Vector(Vector::Zero()), contact.time);
-  contact.r = passing(within(contact.r.start), across(numbers.vector()), contact.time);
+  contact.r = passing(within(contact.r.start), across(sampler.vector()), contact.time);
   const Vector stay = flat ? contact.velocity(kind) : Vector(Vector::Zero());
-  move_to_origin(kind, contact, within(numbers.vector()) - stay);
+  move_to_origin(kind, contact, within(sampler.vector()) - stay);
 
-  const Vector rates = numbers.vector();  // of the weights
+  const Vector rates = sampler.vector();  // of the weights
   const double alpha_rate = sign(kind) * rates[0];
   const double beta_rate = rates[1];
   const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
@@ -67,8 +67,8 @@ Query even_roots(Random& random, Kind kind, double x) {
 /// use for the first. Then q and r are moved a little, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
   Eigen::Matrix3d G;
   Eigen::Matrix3d C;
   for (int i = 0; i < 3; ++i) {
@@ -81,9 +81,9 @@ Query triple_root(Random& random, Kind kind, double x) {
   J(1, 2) = random.one_in(4) ? 0 : 1;
   const Eigen::Matrix3d M0 = G * J * C;
   const Eigen::Matrix3d M1 = G * C;
-  contact.q = passing(M0.col(1) + off * numbers.vector(), M1.col(1), contact.time);
-  contact.r = passing(M0.col(2) + off * numbers.vector(), M1.col(2), contact.time);
-  move_to_origin(kind, contact, numbers.velocity());
+  contact.q = passing(M0.col(1) + off * sampler.vector(), M1.col(1), contact.time);
+  contact.r = passing(M0.col(2) + off * sampler.vector(), M1.col(2), contact.time);
+  move_to_origin(kind, contact, sampler.velocity());
   Vector w = contact.base.velocity() + M1.col(0);
   if (kind == Kind::edge_edge) w += contact.alpha * M1.col(1);
   return finished(random, meet(kind, contact, w));

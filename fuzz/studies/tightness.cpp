@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using std::chrono::steady_clock;
 
 /// wang without the tests that accept from farther away than these.
 struct Tests {
@@ -108,9 +108,9 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
   for (const std::string& name : plan.names) gauges.push_back(gauge_of(name));
   for (const Gauge& gauge : gauges) {
     Extreme sum = gauge.nothing;
-    const auto start = Clock::now();
+    const auto start = steady_clock::now();
     const std::size_t wave = 8 * static_cast<std::size_t>(plan.jobs);
-    for (std::uint64_t round = 0; !stop && Clock::now() - start < plan.time; ++round) {
+    for (std::uint64_t round = 0; !stop && steady_clock::now() - start < plan.time; ++round) {
       std::vector<Extreme> parts(wave, gauge.nothing);
       in_parallel(plan.jobs, wave, [&](std::size_t i) {
         const std::uint64_t number = round * (wave / 2) + i / 2;  // of the blocks of its sort

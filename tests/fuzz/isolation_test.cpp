@@ -22,7 +22,7 @@ using ::testing::ThrowsMessage;
 
 std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-const isolation::Limits small{.time = std::chrono::milliseconds(50), .bytes = std::uint64_t{64} << 20};
+const isolation::PluginLimits small{.time = std::chrono::milliseconds(50), .bytes = std::uint64_t{64} << 20};
 
 std::vector<Query> some_queries(std::uint64_t count) {
   std::vector<Query> queries;

@@ -17,37 +17,37 @@ struct Reading {
 using Readings = std::vector<Reading>;
 
 /// §4.2: m, n, the time, F² at the computed time against F² at the exact one, and the comparison.
-Readings vertex_vertex_time(const Sample& s);
+Readings vertex_vertex_time(const AuditSample& s);
 /// The comparison alone.
-Readings far_vertices(const Sample& s);
+Readings far_vertices(const AuditSample& s);
 
 /// §4.3: squared length, weight, its comparison, F_0ij.
-Readings near_edge(const Sample& s);
+Readings near_edge(const AuditSample& s);
 /// The residual of the roots of case 4 in the exact quadratics.
-Readings quadratic_residual(const Sample& s);
+Readings quadratic_residual(const AuditSample& s);
 /// How much lower F_0ij is somewhere than at the best of all candidates, in B²ε^½, twice: for G and for F.
-Readings missed_minimum(const Sample& s);
+Readings missed_minimum(const AuditSample& s);
 
 /// §4.4: a and d, b and c.
-Readings coefficients(const Sample& s);
-Readings cubic_value(const Sample& s);
+Readings coefficients(const AuditSample& s);
+Readings cubic_value(const AuditSample& s);
 /// What a solver without a threshold leaves of F at its roots.
-Readings cubic_residual(const Sample& s);
+Readings cubic_residual(const AuditSample& s);
 
 /// §4.4, §4.5: area, height, weight and its comparison with N·N.
 template <Kind kind>
-Readings exact_configuration(const Sample& s);
+Readings exact_configuration(const AuditSample& s);
 /// Weight and comparison alone.
-Readings far_configuration(const Sample& s);
+Readings far_configuration(const AuditSample& s);
 /// The four of a query's own vectors, with their rounding; the last twice.
 template <Kind kind>
-Readings rounded_configuration(const Sample& s);
+Readings rounded_configuration(const AuditSample& s);
 /// F(t), its clearance from 0, B, likewise.
 template <Kind kind>
-Readings rounded_cubic(const Sample& s);
+Readings rounded_cubic(const AuditSample& s);
 
 /// §5: how far a weight moves when p moves by B h in each component: it is linear in p, so that is the weight
 /// of a configuration with p = B h. ‖N‖ ‖edge‖ √3 B h, ‖N‖ <= ‖q‖ ‖r‖ <= 3B², ‖edge‖ <= √3 B.
-Readings weight_spread(const Sample& s);
+Readings weight_spread(const AuditSample& s);
 
 }  // namespace nearmiss::audit_parts

@@ -12,6 +12,7 @@ namespace nearmiss {
 /// The plug-in at a path, in worker processes: as many as threads ask at the same time. What goes wrong in
 /// one is the verdict's fault, and the next query has a new process; what the plug-in prints is lost. Throws
 /// Error where it cannot be loaded.
-std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const isolation::Limits& limits = {});
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& path,
+                                              const isolation::PluginLimits& limits = {});
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// nearmiss-worker PLUGIN BYTES: a process in which a plug-in may do what it likes. It answers orders until
+// nearmiss-worker PLUGIN BYTES: a process in which a plug-in may do what it likes. It answers requests until
 // nobody asks any more, with at most so much memory on top of what loading it took; 0 for any.
 #include <fcntl.h>
 #include <poll.h>
@@ -121,7 +121,7 @@ void begin(std::uint32_t i) {
 
 void ask(const Plugin& plugin, std::uint32_t i) {
   begin(i);
-  Answer& answer = shared->answers[i];
+  PluginAnswer& answer = shared->answers[i];
   answer.number = std::numeric_limits<double>::quiet_NaN();
   answer.value = plugin.ask(query_at(i), answer.number);
 }
@@ -130,15 +130,15 @@ void ask(const Plugin& plugin, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first; i < last; ++i) ask(plugin, i);
 }
 
-void answer(const Plugin& plugin, Order order) {
+void answer(const Plugin& plugin, Request request) {
   const Plugin& empty = Plugin::empty_plugin();
   const std::uint32_t first = shared->first;
   const std::uint32_t last = shared->count;
-  switch (order) {
-    case Order::decide:
+  switch (request) {
+    case Request::decide:
       ask(plugin, first, last);
       break;
-    case Order::decide_timed: {
+    case Request::decide_timed: {
       const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
       ask(empty, first, few);
       ask(plugin, first, few);
@@ -147,12 +147,12 @@ void answer(const Plugin& plugin, Order order) {
           CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, first, last); }, [&] { ask(empty, first, last); });
       break;
     }
-    case Order::time_each:
+    case Request::time_each:
       for (std::uint32_t i = first; i < last; ++i)
         shared->answers[i].nanoseconds = best_time_beyond(
             CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, i); }, [&] { ask(empty, i); });
       break;
-    case Order::bounds:
+    case Request::bounds:
       for (std::uint32_t i = first; i < last; ++i) {
         begin(i);
         shared->answers[i].number = plugin.distance_bound(query_at(i));
@@ -189,8 +189,8 @@ int work(const char* path, const char* bytes) {
   }
   limit_memory(std::strtoull(bytes, nullptr, 10));
   say_done();
-  for (char order = 0; read(socket_descriptor, &order, 1) == 1;) {
-    answer(*plugin, static_cast<Order>(order));
+  for (char request = 0; read(socket_descriptor, &request, 1) == 1;) {
+    answer(*plugin, static_cast<Request>(request));
     say_done();
   }
   return 0;

@@ -25,7 +25,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using std::chrono::steady_clock;
 
 /// Beside this program, or else where it was built.
 std::string worker_executable() {
@@ -53,7 +53,7 @@ WorkerProcess::Child::~Child() {
   waitpid(id, nullptr, 0);
 }
 
-WorkerProcess::WorkerProcess(const std::string& path, const Limits& limits) : limits_(limits) {
+WorkerProcess::WorkerProcess(const std::string& path, const PluginLimits& limits) : limits_(limits) {
   const Descriptor memory{memfd_create("nearmiss-worker", MFD_CLOEXEC)};
   check(memory.number >= 0 && ftruncate(memory.number, sizeof(Shared)) == 0, "memory");
   void* const mapped = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, memory.number, 0);
@@ -105,7 +105,7 @@ WorkerProcess::How WorkerProcess::wait() const {
   constexpr int patience = 10;
   constexpr int look_again_ms = 10;
   std::uint32_t calls = shared_->calls;
-  auto since = Clock::now();
+  auto since = steady_clock::now();
   auto computed_since = computed();
   while (true) {
     pollfd socket{socket_.number, POLLIN, 0};
@@ -116,26 +116,26 @@ WorkerProcess::How WorkerProcess::wait() const {
     }
     if (const std::uint32_t now = shared_->calls; now != calls) {
       calls = now;
-      since = Clock::now();
+      since = steady_clock::now();
       computed_since = computed();
     } else if (computed() - computed_since >= limits_.time ||
-               Clock::now() - since >= patience * limits_.time) {
+               steady_clock::now() - since >= patience * limits_.time) {
       return How::late;
     }
   }
 }
 
-std::optional<Failure> WorkerProcess::obey(Order order) const {
+std::optional<WorkerFailure> WorkerProcess::perform(Request request) const {
   // What is in shared memory a plug-in may write over: nothing there is trusted afterwards.
   const std::uint32_t first = shared_->first;
   const std::uint32_t last = shared_->count - 1;
   shared_->current = first;
-  const char byte = static_cast<char>(order);
+  const char byte = static_cast<char>(request);
   static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // where it is dead, that is seen below
   const How end = wait();
   if (end == How::done) return std::nullopt;
   const std::uint32_t query = std::clamp<std::uint32_t>(shared_->current, first, last);
-  Failure failure{query, Fault::time, 0};
+  WorkerFailure failure{query, Fault::time, 0};
   if (end == How::dead) {
     siginfo_t how{};
     waitid(P_PID, static_cast<id_t>(process_.id), &how, WEXITED | WNOWAIT);

@@ -15,24 +15,24 @@
 namespace nearmiss::isolation {
 
 /// What a plug-in may use.
-struct Limits {
+struct PluginLimits {
   /// A query is over it when its process has computed for so long, or ten times as long has gone by.
   std::chrono::duration<double> time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< more than loading it took; 0: any
 };
 
 /// What became of a query that was not answered.
-struct Failure {
+struct WorkerFailure {
   std::uint32_t query;  ///< its place in the batch
   Fault fault;
   std::int32_t code;  ///< of a crash: the signal, or the exit code negated
 };
 
-/// A running worker. It is of no use any more once an order failed.
+/// A running worker. It is of no use any more once a request failed.
 class WorkerProcess {
  public:
   /// Throws Error where the plug-in cannot be used.
-  WorkerProcess(const std::string& path, const Limits& limits);
+  WorkerProcess(const std::string& path, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess() = default;
@@ -40,7 +40,7 @@ class WorkerProcess {
   [[nodiscard]] Shared& shared() const { return *shared_; }
 
   /// Has everything that stands in shared() done; nothing where that is so.
-  std::optional<Failure> obey(Order order) const;
+  std::optional<WorkerFailure> perform(Request request) const;
 
  private:
   struct Descriptor {
@@ -61,7 +61,7 @@ class WorkerProcess {
   [[nodiscard]] How wait() const;
   [[nodiscard]] std::chrono::duration<double> computed() const;
 
-  Limits limits_;
+  PluginLimits limits_;
   std::unique_ptr<Shared, Unmap> shared_;
   Descriptor socket_;
   Child process_;

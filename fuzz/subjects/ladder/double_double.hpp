@@ -3,9 +3,10 @@
 
 #include <qd/dd_real.h>
 
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
+
+#include "fuzz/subjects/ladder/scalar_traits.hpp"
 
 namespace nearmiss {
 
@@ -70,23 +71,12 @@ class DoubleDouble {
 }  // namespace nearmiss
 
 template <>
-struct std::numeric_limits<nearmiss::DoubleDouble> : std::numeric_limits<double> {
+struct std::numeric_limits<nearmiss::DoubleDouble>
+    : nearmiss::ladder::LimitsOfDouble<nearmiss::DoubleDouble> {
   static constexpr int digits = 103;
   static nearmiss::DoubleDouble epsilon() { return 0x1p-102; }
-  static nearmiss::DoubleDouble min() { return std::numeric_limits<double>::min(); }
-  static nearmiss::DoubleDouble max() { return std::numeric_limits<double>::max(); }
-  static nearmiss::DoubleDouble infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
 template <>
-struct Eigen::NumTraits<nearmiss::DoubleDouble> : Eigen::GenericNumTraits<nearmiss::DoubleDouble> {
-  enum {
-    IsInteger = 0,
-    IsSigned = 1,
-    IsComplex = 0,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 20,
-    MulCost = 25
-  };
-};
+struct Eigen::NumTraits<nearmiss::DoubleDouble>
+    : nearmiss::ladder::RealTraits<nearmiss::DoubleDouble, 2, 20, 25> {};

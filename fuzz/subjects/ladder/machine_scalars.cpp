@@ -1,4 +1,4 @@
-// Scalars of the machine, and two doubles. IEEE 754's operations and root, to nearest (`Setting`), are the
+// Scalars of the machine, and two doubles. IEEE 754's operations and root, to nearest (`MachineArithmetic`), are the
 // exact ones times 1 + d, |d| <= u = ε/2, as long as nothing over- or underflows: `in_range` (ccd/motion.hpp)
 // sees to that. So do x87's with 64 bits, which long double has; double-double has an ε of its own.
 #include "fuzz/subjects/ladder/double_double.hpp"
