@@ -17,6 +17,7 @@ namespace {
 
 using testing::count_of_400;
 using ::testing::HasSubstr;
+using testing::largest_coordinate;
 
 /// The sum of the magnitudes of F's products of three differences from x0; or of products of two, in the
 /// component of the weights that leaves out an axis. An x87 long double has room for all of them.
@@ -63,12 +64,6 @@ TEST(Range, ProductsAreAsLargeAsTheParameterSays) {
                              [&](const Query& q) { return products_are_about(q, x); }),
                 380)
           << name << ' ' << x;
-}
-
-double largest_coordinate(const Query& query) {
-  double largest = 0;
-  for (const double c : query.x) largest = std::max(largest, std::abs(c));
-  return largest;
 }
 
 TEST(Range, CoordinatesAreOfEverySizeThatProductsOverflowAt) {
