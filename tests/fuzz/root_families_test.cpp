@@ -69,7 +69,7 @@ TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
   for (const Kind kind : kinds)
     for (const char* family : {"even-roots@-16", "even-roots@-8", "even-roots@-2"})
       EXPECT_GT(
-          count_of_200(family, kind, [](const Query& query) { return count_roots(query).distinct == 2; }), 20)
+          count_of_200(family, kind, [](const Query& query) { return count_roots(query).distinct == 2; }), 15)
           << family << ' ' << short_name(kind);
 }
 
