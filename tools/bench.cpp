@@ -1,4 +1,4 @@
-// nearmiss bench: what subjects cost.
+// nearmiss bench: the time that subjects take.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Input {
   Queries queries;  ///< those that pass the box test
 };
 
-/// RunTimes of one subject on one input, ns a query, one for each run.
+/// Times of one subject on one input in ns per query, one for each run.
 using RunTimes = std::vector<double>;
 
 double median(RunTimes times) {
@@ -42,7 +42,7 @@ double median(RunTimes times) {
   return times[times.size() / 2];
 }
 
-/// The first queries of a family whose boxes meet, as many of each kind as asked for.
+/// The first `count` queries of each kind in a family whose boxes meet.
 Input family_input(std::string_view name, std::uint64_t count) {
   const Family family = find_family(name);
   Input input{std::string(name), {}};
@@ -68,7 +68,7 @@ Input file_input(const std::filesystem::path& path) {
   return input;
 }
 
-/// ns a query, as in a trial: one pass over the queries, repeated until it lasts long enough to be measured.
+/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be timed.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
   constexpr auto least = std::chrono::microseconds(500);
@@ -92,7 +92,7 @@ std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query
   return times;
 }
 
-/// The median over the runs of a subject's time by the first subject's in the same run.
+/// The median over the runs of a subject's time divided by the first subject's in the same run.
 double median_ratio(const RunTimes& times, const RunTimes& first) {
   RunTimes ratios;
   for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
@@ -177,15 +177,19 @@ void run(const Options& options) {
 void add_bench(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("bench", "Time subjects side by side, after the box test");
-  command->add_option("PATH", options->paths, "Files and folders of cases to time besides the random inputs");
+  command->add_option("PATH", options->paths,
+                      "Files and folders of cases to time in addition to the random inputs");
   add_subject_option(*command, options->subjects);
-  command->add_option("--queries", options->queries, "Random queries of each kind")
+  command->add_option("--queries", options->queries, "Number of random queries of each kind")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--runs", options->runs, "Runs")->check(CLI::Range(1, 1000000))->capture_default_str();
+  command->add_option("--runs", options->runs, "Number of runs")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
-  command->footer("\nRatios are by the first subject, so name the baseline first: --subject basic,wang");
+  command->footer(
+      "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");
   command->callback([options] { run(*options); });
 }
 

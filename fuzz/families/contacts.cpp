@@ -113,8 +113,8 @@ void move_to_origin(Kind kind, Contact& contact, const Vector& velocity) {
   contact.base = passing(-contact.place(kind), velocity, contact.time);
 }
 
-// Sums of at most three products of a number below 2^20 with two multiples of 1/16 have at most 20 + 8 + 3
-// bits, far below 53.
+// A sum of at most three products of a number below 2^20 and two multiples of 1/16 has at most 20 + 8 + 3 bits, far
+// below 53.
 Contact integer_contact(Random& random, Kind kind) {
   const auto path = [&](int bits, int velocity_bits) {
     const Vector start = random.integer_vector((1 << bits) - 1);

@@ -1,5 +1,5 @@
-// Sizes, speeds, angles and places at the ends of what double can hold. Factors are powers of two, so that
-// contacts which are exact stay exact.
+// Sizes, speeds, angles and places at the limits of double. Factors are powers of two, so that exact contacts stay
+// exact.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first primitive is as fast as that; now and then so is the second, or what changes the primitives' shapes.
+/// The first primitive has the speed 10^x. In some queries so does the second, or the change of the shapes.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -27,8 +27,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// Of the sides q and r one is shorter. The contact is anywhere, or as near to the corner x1 of a triangle,
-/// or to an end of the long edge, as the short one is long.
+/// One of the sides q and r is shorter. The contact is anywhere; or its distance from the corner x1 of a triangle, or
+/// from an end of the long edge, is the length of the short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -65,12 +65,12 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as
-/// often as not. Most primitives start in a plane across that axis, and half of the coordinates are at rest.
+/// Small integers, times 2^1022 along one axis or some: about half of the differences of coordinates overflow there.
+/// Most primitives start in a plane normal to that axis, and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
-  const int only = random.integer(0, 5);  // an axis, or no matter
+  const int only = random.integer(0, 5);  // an axis; from 3 on each axis is drawn
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -86,8 +86,8 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has an exponent of its own. The primitives touch at the origin, and go on touching
-/// there whatever a vertex or an axis is multiplied by.
+/// Each vertex and each axis has its own exponent. The primitives touch at the origin, and still do when a vertex or
+/// an axis is multiplied.
 Query mixed_scale(Random& random, Kind kind, double x) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -105,7 +105,7 @@ Query mixed_scale(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// One primitive rests, every bit of it; the other moves as fast as that.
+/// One primitive rests exactly; the other has the speed 10^x.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -141,14 +141,14 @@ Query near_parallel(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, contact.velocity(kind) + w));
 }
 
-/// Rotates by the angle 2 atan(size / 2), which is `size` where it is small.
+/// Rotates by the angle 2 atan(size / 2), which is about `size` if that is small.
 Eigen::Matrix3d rotation(const Vector& axis, double size) {
   const double length = axis.norm();
   const Vector part = (length == 0 ? 0 : size / 2 / length) * axis;
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// Everything is thin but along one axis, or all but the motion is; turned out of the axes now and then.
+/// Everything, or everything except the motion, is long along one axis alone. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);
@@ -170,8 +170,8 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Linear interpolation between two placements of a rigid body is affine: what touches in one goes on
-/// touching, and the relative motion is all that parts it.
+/// Linear interpolation between two placements of a rigid body is affine: primitives that touch in one placement stay
+/// in contact, and only their relative motion separates them.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };
@@ -202,7 +202,7 @@ std::vector<Family> extreme_families() {
       {.name = "overflow",
        .about = "differences of coordinates overflow, along some axes",
        .make = overflow,
-       .block_cases = 10},  // exact arithmetic takes its time
+       .block_cases = 10},  // exact arithmetic is slow
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",

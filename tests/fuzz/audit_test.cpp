@@ -180,7 +180,7 @@ TEST(Audit, DerivesPsiFromRho) {
                  1e-12);
 }
 
-// Too small in the paper: what takes relative positions of edges for bounded by B, but for δ.
+// The paper takes relative positions of edges for bounded by B. Constants that rest on it are too small, except δ.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   std::vector<std::string> findings;
   for (const AuditRow& row : rows())
@@ -191,8 +191,8 @@ TEST(Audit, FindsWhatThePaperHasTooSmall) {
                                      "EE: distance of a false positive, far p"));
 }
 
-// With the rounding of relative vectors the theorem's bound is above the paper's constants, by less than 10
-// %; what Gappa proves is below.
+// With the rounding of relative vectors the theorem's bound is above the paper's constants, by less than 10 %; the bound
+// that Gappa proves is below.
 TEST(Audit, KnowsWhatHoldsThoughTheTheoremDoesNotShowIt) {
   std::vector<std::string> names;
   for (const AuditRow& row : rows())

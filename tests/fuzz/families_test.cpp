@@ -58,7 +58,7 @@ std::uint64_t fingerprint(const Family& family) {
   return hash;
 }
 
-// What was found years ago can still be made from its provenance, by every compiler. (Families that draw
+// A provenance gives the same query for ever, with every compiler. (Families that draw
 // log-uniform numbers make others on processors without fused multiply-add.)
 TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
   const std::map<std::string, std::uint64_t> recorded{
@@ -110,7 +110,7 @@ TEST_P(EveryFamily, IsFiniteAndOfBothKinds) {
     for (const Family& step : sweep(GetParam(), 3)) expect_finite_and_of_both_kinds(step);
 }
 
-// A family that hardly ever collides, or always, hunts for nothing (but for planted collisions).
+// A family hunts for nothing if its queries hardly ever collide, or always do, unless they are planted collisions.
 TEST_P(EveryFamily, HasCollisionsAndMisses) {
   constexpr int count = 1000;
   int collisions[2] = {0, 0};

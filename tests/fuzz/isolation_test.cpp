@@ -1,4 +1,4 @@
-// Plug-ins in processes of their own: whatever they do, every other query is answered.
+// Plug-ins in worker processes: whatever they do, every other query is answered.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ bool is_chosen(const Query& query) {
   return hash % 100 == 0;
 }
 
-/// Little memory. The time is short only where it is to be exceeded; otherwise a busy machine could exceed it.
+/// Little memory. The time limit is short only for plug-ins that exceed it, since a busy machine may exceed it too.
 isolation::PluginLimits limits_for(Fault fault) {
   const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
   return {.time = time, .bytes = std::uint64_t{64} << 20};

@@ -73,7 +73,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
   EXPECT_GT(sum, 1.0 / 16);
 }
 
-// Why its sum is not the one that Debian's libqd calls +.
+// The reason why DoubleDouble does not use the + of Debian's libqd.
 TEST(DoubleDouble, LibqdsOwnSumHasNoRelativeBound) {
   // High parts that differ in the last bit, and low parts that almost make it up.
   const DoubleDouble a(dd_real(1, 0x1.fffffffffffffp-54));
@@ -96,7 +96,7 @@ Rational exactly(const MpfrFloat& a) {
   return value;
 }
 
-// Of the paper's model: every result is the exact one times 1 + d, |d| <= u; and it has no more digits.
+// The paper's model: every result is the exact one times 1 + d, |d| <= u. And it has no more digits than set.
 TEST(MpfrFloat, EveryOperationIsWithinHalfItsEpsilon) {
   Random random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {
@@ -141,7 +141,7 @@ Rational exactly(__float128 a) {
   return value;
 }
 
-// What the hardware does not do for us, and no standard says.
+// The root is computed in software, and no standard bounds its error.
 TEST(Quad, ItsRootIsWithinItsEpsilon) {
   const Rational eps = 1 / Rational(mp::mpz_int(1) << 112);
   Random random(3, 0, 0);
@@ -247,7 +247,7 @@ TEST(Ladder, The53BitsOfDoubleAnswerAsDoubleDoes) {
 }
 
 TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
-  // Above the triangle by less than float can tell.
+  // Above the triangle by less than an ulp of float.
   const Query query = testing::falling_vertex(0.25, 0.25, 1, 0x1p-40);
   Query moved = query;
   for (int i = 0; i < 4; ++i)

@@ -22,7 +22,7 @@ using CgalInterval = CGAL::Interval_nt<>;
 template <unsigned bits>
 using BinaryFloat = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
 
-/// What a number surely lies in.
+/// An interval that surely contains a number.
 template <class T>
 CgalInterval enclosure(const T& x) {
   const auto near = static_cast<double>(x);
@@ -163,8 +163,8 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// 64 ε^¾ >= 33492 ε, and nothing else, is what the closed forms break first of what the paper prints; what the
-// solver really needs of μ they break below 13 bits.
+// Among the constraints that the paper prints, the closed forms first violate 64 ε^¾ >= 33492 ε. Below 13 bits they
+// violate what the solver really needs of μ.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

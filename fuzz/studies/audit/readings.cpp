@@ -21,7 +21,7 @@ constexpr Kind ee = Kind::edge_edge;
 
 double magnitude(const Rational& x) { return std::abs(static_cast<double>(x)); }
 
-/// A value, with operations that err by ω = roundings ε.
+/// The error of a value, with operations that err by ω ε.
 Reading reading(const AuditedRational& f, const AuditSample& s, double omega = 1) {
   const ErrorBound& bound = f.bound();
   return {omega * bound.error(), magnitude(f.error()) / (std::pow(s.B, bound.degree) * eps), bound};
@@ -72,7 +72,7 @@ Readings configuration(const Pair<kind, AuditedRational>& pair, const AuditSampl
   const Reading height = reading(kept.at(1), s, omega);
   kept.clear();
   std::ignore = configuration.inside(log);
-  // Of a triangle the third is the sum of the others, whose comparison is the worst.
+  // The third weight of a triangle is the sum of the others; its comparison has the largest error.
   Reading weight = larger(reading(kept.at(0), s, omega), reading(kept.at(2), s, omega));
   Reading criterion = larger(reading(kept.at(1), s, omega), reading(kept.at(3), s, omega));
   if constexpr (kind == vt) criterion = larger(criterion, reading(kept.at(5), s, omega));
@@ -100,7 +100,7 @@ Readings far_configuration(const AuditSample& s) {
 template <Kind kind>
 Readings rounded_configuration(const AuditSample& s) {
   Readings all = configuration(rounded_pair<kind>(*s.query), s, 0.5);
-  all.push_back(all.back());  // as `weight_error`
+  all.push_back(all.back());  // again, for `weight_error`
   return all;
 }
 

@@ -32,12 +32,12 @@ class IsolatedPlugin final : public BatchSubject {
 
   using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    have_done(Request::decide, queries, [&](const BatchPart& part) { part.answer(verdicts); });
+    perform(Request::decide, queries, [&](const BatchPart& part) { part.answer(verdicts); });
   }
 
   BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     BatchTime sum;
-    have_done(Request::decide_timed, queries, [&](const BatchPart& part) {
+    perform(Request::decide_timed, queries, [&](const BatchPart& part) {
       part.answer(verdicts);
       if (part.failure) return;
       sum.queries += part.end - part.first;
@@ -48,7 +48,7 @@ class IsolatedPlugin final : public BatchSubject {
 
   void time_each(std::span<const Query> queries,
                  std::span<std::optional<std::uint64_t>> nanoseconds) const override {
-    have_done(Request::time_each, queries, [&](const BatchPart& part) {
+    perform(Request::time_each, queries, [&](const BatchPart& part) {
       for (std::uint32_t i = part.first; i < part.end; ++i)
         nanoseconds[part.start + i] = part.shared.answers[i].nanoseconds;
       if (part.failure) nanoseconds[part.start + part.end].reset();
@@ -67,7 +67,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
  private:
-  /// As many as are of one kind and have room.
+  /// The size of the next batch: queries of one kind, up to batch_size.
   static std::size_t batch_at(std::span<const Query> queries) {
     std::size_t count = 1;
     while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == queries[0].kind)
@@ -85,10 +85,10 @@ class IsolatedPlugin final : public BatchSubject {
     }
   }
 
-  /// What one worker has done of a batch: its queries [first, end), and a failure at `end` if it ended there.
+  /// The part of a batch that one worker did: queries [first, end), and a failure at `end` if the worker ended there.
   struct BatchPart {
     const Shared& shared;
-    std::size_t start;  ///< of the batch, among all queries
+    std::size_t start;  ///< index of the batch's first query among all queries
     std::uint32_t first, end;
     const std::optional<WorkerFailure>& failure;
 
@@ -99,9 +99,9 @@ class IsolatedPlugin final : public BatchSubject {
     }
   };
 
-  /// Has all queries done, with a new worker behind each at which one ended.
+  /// Has all queries done, with a new worker after each query at which one ended.
   template <class Take>
-  void have_done(Request request, std::span<const Query> queries, const Take& take_part) const {
+  void perform(Request request, std::span<const Query> queries, const Take& take_part) const {
     std::unique_ptr<WorkerProcess> worker = take();
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));

@@ -27,7 +27,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Beside this program, or else where it was built.
+/// The path of nearmiss-worker: beside this program, or else where it was built.
 std::string worker_executable() {
   std::error_code unknown;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -71,7 +71,7 @@ void WorkerProcess::start(const std::string& path, int memory) {
   check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
   socket_.number = sockets[0];
   const Descriptor theirs{sockets[1]};
-  // Above the descriptors that they become, lest one overwrites the other.
+  // Numbers above those that they are duplicated to, so that one cannot overwrite the other.
   const Descriptor socket_above{fcntl(theirs.number, F_DUPFD_CLOEXEC, 16)};
   const Descriptor memory_above{fcntl(memory, F_DUPFD_CLOEXEC, 16)};
   check(socket_above.number >= 0 && memory_above.number >= 0, "descriptor");
@@ -97,7 +97,7 @@ std::chrono::duration<double> WorkerProcess::computed() const {
   clockid_t clock{};
   timespec time{};
   if (clock_getcpuclockid(process_.id, &clock) != 0 || clock_gettime(clock, &time) != 0)
-    return {};  // it died, which the socket tells
+    return {};  // the process died, which the socket shows
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
@@ -126,12 +126,12 @@ WorkerProcess::How WorkerProcess::wait() const {
 }
 
 std::optional<WorkerFailure> WorkerProcess::perform(Request request) const {
-  // What is in shared memory a plug-in may write over: nothing there is trusted afterwards.
+  // A plug-in may overwrite the shared memory, so nothing read from there later is trusted.
   const std::uint32_t first = shared_->first;
   const std::uint32_t last = shared_->count - 1;
   shared_->current = first;
   const char byte = static_cast<char>(request);
-  static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // where it is dead, that is seen below
+  static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // a dead worker is noticed below
   const How end = wait();
   if (end == How::done) return std::nullopt;
   const std::uint32_t query = std::clamp<std::uint32_t>(shared_->current, first, last);

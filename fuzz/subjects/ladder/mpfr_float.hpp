@@ -1,4 +1,4 @@
-// Numbers of any number of bits as a scalar of ccd/'s templates.
+// MPFR's numbers of any precision, as a scalar for ccd/'s templates.
 #pragma once
 
 #include <mpfr.h>
@@ -10,14 +10,14 @@
 
 namespace nearmiss {
 
-/// A number with as many bits as the thread's precision says: MPFR's, but without memory of its own. Every
-/// operation, the root too, rounds to nearest, so that its relative error is within u = 2^-bits = ε/2; exponents
-/// have no bounds that matter here.
+/// A number with as many bits as the thread's PrecisionScope sets, without memory on the heap. Every operation, the
+/// root too, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2. Exponents have no bounds that
+/// matter here.
 class MpfrFloat {
  public:
   static constexpr int most = 256;
 
-  /// How many bits this thread's numbers have, for a scope; not outside any. Numbers do not outlive it.
+  /// Sets the number of bits of this thread's numbers for a scope. Numbers exist only within one.
   class PrecisionScope {
    public:
     explicit PrecisionScope(int bits) : before_(precision_) { precision_ = bits; }
@@ -74,7 +74,7 @@ class MpfrFloat {
     mpfr_mul_2si(result.value_, a.value_, exponent, MPFR_RNDN);
     return result;
   }
-  /// Of a number that is neither 0 nor infinite.
+  /// For a finite number other than 0.
   friend int ilogb(const MpfrFloat& a) { return static_cast<int>(mpfr_get_exp(a.value_)) - 1; }
   friend bool isfinite(const MpfrFloat& a) { return mpfr_number_p(a.value_) != 0; }
 

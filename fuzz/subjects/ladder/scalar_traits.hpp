@@ -1,4 +1,4 @@
-// What Eigen and the standard library ask of a scalar class of ours.
+// Traits of our scalar classes for Eigen and the standard library.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// The subjects of ccd/ over any scalar. Included where a scalar is made into subjects, and nowhere else: its
-// templates are slow to compile.
+// The subjects of ccd/ over any scalar. Only the files that define scalars include this: its templates are slow to
+// compile.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or the smallest.
+/// The paper's tolerances, or the smallest ones.
 struct EitherTolerances : AllSteps {
   std::optional<ToleranceConstants> smallest;
 
@@ -62,7 +62,7 @@ class Scaled final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Arithmetic arithmetic(epsilon_exponent_);
-    // Rounded up, and with the slack of B in a scalar of few digits: B <= B* (1 + 40ε).
+    // Rounded up, with slack for B in a scalar of few digits: B <= B* (1 + 40ε).
     const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -111,8 +111,8 @@ class Scaled final : public Subject {
     int exponent = 0;
   };
 
-  /// A query with coordinates that T has, times a power of two that brings it into the range of float where T
-  /// is that; the exponent. All other scalars have at least the range of double.
+  /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are first scaled
+  /// by 2^exponent.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;
