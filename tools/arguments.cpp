@@ -102,7 +102,7 @@ void PluginLimits::add_to(CLI::App& command) {
 
 Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
                        std::optional<double> given_bound) {
-  const isolation::Limits allowed{parse_duration(limits.time), limits.bytes};
+  const isolation::PluginLimits allowed{parse_duration(limits.time), limits.bytes};
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {

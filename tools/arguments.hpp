@@ -35,7 +35,7 @@ void add_bound_option(CLI::App& command, std::string& bound);
 /// --query-time T and --query-memory BYTES: the limits of a plug-in.
 struct PluginLimits {
   std::string time = "1s";
-  std::uint64_t bytes = isolation::Limits().bytes;
+  std::uint64_t bytes = isolation::PluginLimits().bytes;
 
   void add_to(CLI::App& command);
 };

@@ -1,4 +1,4 @@
-// nearmiss audit: the paper's rounding constants against what its rules give for our code and what is seen.
+// nearmiss audit: the paper's rounding constants against what its rules give for our code, and the largest errors seen.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -93,19 +93,19 @@ void add_audit(CLI::App& app, int& exit_code) {
   };
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "audit", "Derive the paper's rounding constants anew from our code, and see how large errors are");
-  command->add_option("--queries", options->plan.queries, "Of each family")
+      "audit", "Derive the paper's rounding constants from our code, and search for the largest errors");
+  command->add_option("--queries", options->plan.queries, "Queries of each family that are read")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--steps", options->plan.steps, "Of the hill climb for each constant")
+  command->add_option("--steps", options->plan.steps, "Steps of the hill climb for each constant")
       ->check(CLI::Range(0, 100000000))
       ->capture_default_str();
-  command->add_option("--seed", options->plan.seed, "Of all queries and steps")
+  command->add_option("--seed", options->plan.seed, "Seed of all queries and steps")
       ->capture_default_str()
       ->type_name("S");
   command->add_option("--json", options->json, "Write the tables as JSON, for nearmiss report --audit")
       ->type_name("FILE");
-  command->footer("\nExit code 1: more was seen than the rules allow, which would be an error of ours.");
+  command->footer("\nExit code 1: an error exceeded what the rules allow. That would be a bug in nearmiss.");
   command->callback([options, &exit_code] {
     const std::vector<AuditRow> constants = audit(options->plan);
     const std::vector<ToleranceRow> tolerances = tolerance_table();

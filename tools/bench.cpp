@@ -1,4 +1,4 @@
-// nearmiss bench: what subjects cost.
+// nearmiss bench: the time that subjects take.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,15 +34,15 @@ struct Input {
   Queries queries;  ///< those that pass the box test
 };
 
-/// Times of one subject on one input, ns a query, one for each run.
-using Times = std::vector<double>;
+/// Times of one subject on one input in ns per query, one for each run.
+using RunTimes = std::vector<double>;
 
-double median(Times times) {
+double median(RunTimes times) {
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
 }
 
-/// The first queries of a family whose boxes meet, as many of each kind as asked for.
+/// The first `count` queries of each kind in a family whose boxes meet.
 Input family_input(std::string_view name, std::uint64_t count) {
   const Family family = find_family(name);
   Input input{std::string(name), {}};
@@ -68,23 +68,23 @@ Input file_input(const std::filesystem::path& path) {
   return input;
 }
 
-/// ns a query, as in a trial: one pass over the queries, repeated until it lasts long enough to be measured.
+/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be timed.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
-  using Clock = std::chrono::steady_clock;
+  using std::chrono::steady_clock;
   constexpr auto least = std::chrono::microseconds(500);
-  const auto start = Clock::now();
+  const auto start = steady_clock::now();
   BatchTime sum;
   do {
     const BatchTime pass = subject.decide_timed(queries, verdicts);
     sum.queries += pass.queries;
     sum.nanoseconds += pass.nanoseconds;
-  } while (Clock::now() - start < least);
+  } while (steady_clock::now() - start < least);
   return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
 }
 
 /// All subjects in turn, run after run, so that noise of the machine falls on all of them alike.
-std::vector<Times> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs) {
-  std::vector<Times> times(subjects.size());
+std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs) {
+  std::vector<RunTimes> times(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
   for (int run = 0; run < runs; ++run)
     for (std::size_t s = 0; s < subjects.size(); ++s)
@@ -92,17 +92,17 @@ std::vector<Times> time_all(const Subjects& subjects, const std::vector<Query>& 
   return times;
 }
 
-/// The median over the runs of a subject's time by the first subject's in the same run.
-double median_ratio(const Times& times, const Times& first) {
-  Times ratios;
+/// The median over the runs of a subject's time divided by the first subject's in the same run.
+double median_ratio(const RunTimes& times, const RunTimes& first) {
+  RunTimes ratios;
   for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / first[i]);
   return median(ratios);
 }
 
 /// The runs of both kinds together, each kind weighted by its number of queries.
-std::vector<Times> together(const std::vector<std::vector<Times>>& by_kind,
-                            const std::vector<double>& weights) {
-  std::vector<Times> sum(by_kind.front().size(), Times(by_kind.front().front().size(), 0));
+std::vector<RunTimes> together(const std::vector<std::vector<RunTimes>>& by_kind,
+                               const std::vector<double>& weights) {
+  std::vector<RunTimes> sum(by_kind.front().size(), RunTimes(by_kind.front().front().size(), 0));
   double total = 0;
   for (const double weight : weights) total += weight;
   for (std::size_t k = 0; k < by_kind.size(); ++k)
@@ -111,45 +111,58 @@ std::vector<Times> together(const std::vector<std::vector<Times>>& by_kind,
   return sum;
 }
 
-void run(const Options& options) {
-  Subjects subjects;  // plug-ins in this process too: others cost time
-  for (const std::string& name : options.subjects) subjects.push_back(make_any_subject(name));
+std::vector<Input> inputs_of(const Options& options) {
   std::vector<Input> inputs;
   for (const auto& path : options.paths) inputs.push_back(file_input(path));
   for (const std::string_view name : {"uniform", "uniform-end", "uniform-slow"})
     inputs.push_back(family_input(name, options.queries));
+  return inputs;
+}
 
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+/// Prints a line for each subject. `kind` is vt, ee or both.
+void print_rows(const Subjects& subjects, const Input& input, std::string_view kind, std::size_t queries,
+                const std::vector<RunTimes>& times) {
+  for (std::size_t s = 0; s < subjects.size(); ++s)
+    fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, queries,
+               subjects[s]->name(), median(times[s]), median_ratio(times[s], times.front()));
+}
+
+void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const Input& input, Kind kind,
+              const std::vector<RunTimes>& times) {
+  for (std::size_t s = 0; s < subjects.size(); ++s)
+    results.push_back({{"subject", subjects[s]->name()},
+                       {"kind", short_name(kind)},
+                       {"input", input.name},
+                       {"ns_per_query", median(times[s])},
+                       {"runs", times[s].size()},
+                       {"queries", input.queries.at(kind).size()},
+                       {"ratio", median_ratio(times[s], times.front())}});
+}
+
+/// RunTimes, prints and records one input: each of its kinds, then both together.
+void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann::ordered_json& results) {
+  std::vector<std::vector<RunTimes>> by_kind;
+  std::vector<double> weights;
+  std::size_t count = 0;
+  for (const auto& [kind, queries] : input.queries) {
+    by_kind.push_back(time_all(subjects, queries, runs));
+    print_rows(subjects, input, short_name(kind), queries.size(), by_kind.back());
+    add_rows(results, subjects, input, kind, by_kind.back());
+    weights.push_back(static_cast<double>(queries.size()));
+    count += queries.size();
+  }
+  if (by_kind.size() > 1) print_rows(subjects, input, "both", count, together(by_kind, weights));
+}
+
+void run(const Options& options) {
+  Subjects subjects;  // plug-ins run in this process too, because a process of their own costs time
+  for (const std::string& name : options.subjects) subjects.push_back(make_any_subject(name));
+  const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();
   fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject", "ns/query",
              over);
-  const auto print = [&](const Input& input, std::string_view kind, std::size_t count,
-                         const std::vector<Times>& times) {
-    for (std::size_t s = 0; s < subjects.size(); ++s)
-      fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, count,
-                 subjects[s]->name(), median(times[s]), median_ratio(times[s], times.front()));
-  };
-  for (const Input& input : inputs) {
-    std::vector<std::vector<Times>> by_kind;
-    std::vector<double> weights;
-    std::size_t count = 0;
-    for (const auto& [kind, queries] : input.queries) {
-      const auto times = time_all(subjects, queries, options.runs);
-      print(input, short_name(kind), queries.size(), times);
-      for (std::size_t s = 0; s < subjects.size(); ++s)
-        results.push_back({{"subject", subjects[s]->name()},
-                           {"kind", short_name(kind)},
-                           {"input", input.name},
-                           {"ns_per_query", median(times[s])},
-                           {"runs", options.runs},
-                           {"queries", queries.size()},
-                           {"ratio", median_ratio(times[s], times.front())}});
-      by_kind.push_back(times);
-      weights.push_back(static_cast<double>(queries.size()));
-      count += queries.size();
-    }
-    if (by_kind.size() > 1) print(input, "both", count, together(by_kind, weights));
-  }
+  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  for (const Input& input : inputs) time_input(subjects, input, options.runs, results);
   fmt::print(
       "\nQueries whose swept boxes meet. ns/query: without waiting for a processor, less that of an empty "
       "subject; "
@@ -164,15 +177,19 @@ void run(const Options& options) {
 void add_bench(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("bench", "Time subjects side by side, after the box test");
-  command->add_option("PATH", options->paths, "Files and folders of cases to time besides the random inputs");
+  command->add_option("PATH", options->paths,
+                      "Files and folders of cases to time in addition to the random inputs");
   add_subject_option(*command, options->subjects);
-  command->add_option("--queries", options->queries, "Random queries of each kind")
+  command->add_option("--queries", options->queries, "Number of random queries of each kind")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--runs", options->runs, "Runs")->check(CLI::Range(1, 1000000))->capture_default_str();
+  command->add_option("--runs", options->runs, "Number of runs")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
-  command->footer("\nRatios are by the first subject, so name the baseline first: --subject basic,wang");
+  command->footer(
+      "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");
   command->callback([options] { run(*options); });
 }
 

@@ -18,7 +18,7 @@ struct Options {
   std::uint64_t count = 0;
 };
 
-/// Prints those of queries first .. first + count - 1 that are of the kind, in order.
+/// Prints the queries of one kind among the indices first .. first + count - 1.
 void run(const Options& options) {
   const Family family = find_family(options.name);
   const Kind kind = parse_kind(options.kind, "--kind");
@@ -31,26 +31,24 @@ void run(const Options& options) {
 }  // namespace
 
 void add_family(CLI::App& app, int& /*exit_code*/) {
-  constexpr std::uint64_t most = std::uint64_t{1}
-                                 << 62;  // of first and count, so that their sum does not overflow
+  constexpr auto most = std::uint64_t{1} << 62;  // of first and of count: their sum does not overflow
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "family", "Print queries of a family of random queries: a line each, for nearmiss oracle and verdict");
+      "family", "Print queries of a family, one a line, as nearmiss oracle and nearmiss verdict read them");
   command
-      ->add_option("NAME", options->name, "The family, as nearmiss fuzz --help lists it; NAME@VALUE likewise")
+      ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
       ->required();
   command
-      ->add_option(
-          "--kind", options->kind,
-          "Print the queries of this kind: those with an even number are vt, those with an odd one ee")
+      ->add_option("--kind", options->kind,
+                   "Print the queries of this kind: even indices are vt, odd ones ee")
       ->required()
       ->check(CLI::IsMember({"vt", "ee"}));
   add_seed_option(*command, options->seed);
-  command->add_option("--count", options->count, "How many numbers; about half of them are of each kind")
+  command->add_option("--count", options->count, "Number of indices; about half are of each kind")
       ->required()
       ->check(CLI::Range(std::uint64_t{1}, most))
       ->type_name("N");
-  command->add_option("--first", options->first, "The first number; a campaign begins with 0")
+  command->add_option("--first", options->first, "The first index; a campaign begins with 0")
       ->check(CLI::Range(std::uint64_t{0}, most))
       ->capture_default_str()
       ->type_name("I");

@@ -56,7 +56,7 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Runs the command, and takes what it prints last: "found after S s, N executions: PATH" or else "nothing".
+/// Runs the command, and reads its last line: "found after S s, N executions: PATH" or "nothing in ...".
 Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   const std::string command =
       fmt::format("{} --first false_negative {} '{}'", options.libfuzzer, options.time, subject);
@@ -81,7 +81,7 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   return result;
 }
 
-/// "0.12 s  12,345", with a star where a bound was refuted and not a collision missed; "-" for nothing.
+/// "0.12 s  12,345", with a star for a refuted bound; "-" for nothing.
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const bool bound = *hunt.failure == name(Finding::What::refuted_bound);
@@ -149,22 +149,23 @@ int run(const Options& options) {
 void add_power(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("power", "Measure how soon each way to hunt finds each known defect");
-  command
-      ->add_option("--subject", options->subjects, "Defects, separated by commas; all where it is not given")
+  command->add_option("--subject", options->subjects, "Defects, separated by commas; all by default")
       ->delimiter(',')
       ->type_name("defect:A,...");
-  command->add_option("--way", options->ways, "Ways to hunt, separated by commas; all where it is not given")
+  command->add_option("--way", options->ways, "Ways to hunt, separated by commas; all by default")
       ->delimiter(',')
       ->check(CLI::IsMember(
           {std::string(uniform), std::string(all_families), std::string(search), std::string(libfuzzer)}));
-  command->add_option("--time", options->time, "As long for each defect and way: 10s, 2m")
+  command->add_option("--time", options->time, "Time limit for each defect and way: 10s, 2m")
       ->capture_default_str()
       ->type_name("T");
-  command->add_option("--libfuzzer", options->libfuzzer, "Hunt with this command too: tools/libfuzzer")
+  command->add_option("--libfuzzer", options->libfuzzer, "Also hunt with this command: tools/libfuzzer")
       ->type_name("COMMAND");
-  command->add_option("--json", options->json, "Keep what was measured in this file, and go on from it")
+  command
+      ->add_option("--json", options->json,
+                   "Store the measurements in this file, and skip those that it already has")
       ->type_name("FILE");
-  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
+  command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")
       ->capture_default_str()
       ->type_name("S");
   add_jobs_option(*command, options->jobs);

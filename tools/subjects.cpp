@@ -11,7 +11,8 @@ namespace nearmiss::tools {
 void add_subjects(CLI::App& app, int& /*exit_code*/) {
   auto* command = app.add_subcommand("subjects", "List the built-in subjects");
   command->footer(
-      "\nA plug-in is named by its path, with a slash in it: ./plugin.so (see ccd/nearmiss_subject.h).");
+      "\nA plug-in is named by its path, which must contain a slash: ./plugin.so (see "
+      "ccd/nearmiss_subject.h).");
   command->callback([] {
     for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<23} {}\n", subject.name, subject.about);
     fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");

@@ -58,15 +58,15 @@ int run(const Options& options) {
 void add_tightness(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "tightness", "Measure how much smaller (or larger) each tolerance could be until a miss is found");
+      "tightness", "Measure how far each tolerance can be tightened before a miss is found");
   command->add_option("--tolerance", options->names, "Tolerances and tests, separated by commas, or all")
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("all|A,B,...");
-  command->add_option("--time", options->time, "As long for each: 10s, 2m")
+  command->add_option("--time", options->time, "Time limit for each: 10s, 2m")
       ->capture_default_str()
       ->type_name("T");
-  command->add_option("--seed", options->seed, "Queries are a pure function of family, seed and number")
+  command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")
       ->capture_default_str()
       ->type_name("S");
   add_jobs_option(*command, options->jobs);

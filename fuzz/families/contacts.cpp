@@ -52,19 +52,21 @@ Query meet(Kind kind, const Contact& contact, const Vector& w) {
   return query;
 }
 
-Vector Numbers::vector() { return exact_ ? Vector(random_.integer_vector(16) / 16) : random_.vector(1); }
+Vector ContactSampler::vector() {
+  return exact_ ? Vector(random_.integer_vector(16) / 16) : random_.vector(1);
+}
 
-Vector Numbers::direction() {
+Vector ContactSampler::direction() {
   if (random_.one_in(2)) return Vector::Unit(random_.integer(0, 2));
   return vector();
 }
 
-Vector Numbers::velocity() {
+Vector ContactSampler::velocity() {
   const double speed = fraction(12);
   return speed * direction();
 }
 
-double Numbers::weight() {
+double ContactSampler::weight() {
   switch (random_.integer(0, 7)) {
     case 0:
       return 0;
@@ -79,7 +81,7 @@ double Numbers::weight() {
   }
 }
 
-Aim Numbers::aim(Kind kind) {
+Aim ContactSampler::aim(Kind kind) {
   Aim aim{};
   aim.alpha = weight();
   aim.beta = weight();
@@ -92,7 +94,7 @@ Aim Numbers::aim(Kind kind) {
   return aim;
 }
 
-Contact Numbers::contact(Kind kind, double speed) {
+Contact ContactSampler::contact(Kind kind, double speed) {
   const Aim place = aim(kind);
   Contact contact{.base = {Vector::Zero(), Vector::Zero()},
                   .q = {},
@@ -111,8 +113,8 @@ void move_to_origin(Kind kind, Contact& contact, const Vector& velocity) {
   contact.base = passing(-contact.place(kind), velocity, contact.time);
 }
 
-// Sums of at most three products of a number below 2^20 with two multiples of 1/16 have at most 20 + 8 + 3
-// bits, far below 53.
+// A sum of at most three products of a number below 2^20 and two multiples of 1/16 has at most 20 + 8 + 3 bits, far
+// below 53.
 Contact integer_contact(Random& random, Kind kind) {
   const auto path = [&](int bits, int velocity_bits) {
     const Vector start = random.integer_vector((1 << bits) - 1);

@@ -1,5 +1,5 @@
-// Sizes, speeds, angles and places at the ends of what double can hold. Factors are powers of two, so that
-// contacts which are exact stay exact.
+// Sizes, speeds, angles and places at the limits of double. Factors are powers of two, so that exact contacts stay
+// exact.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,47 +16,47 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first primitive is as fast as that; now and then so is the second, or what changes the primitives' shapes.
+/// The first primitive has the speed 10^x. In some queries so does the second, or the change of the shapes.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
-  Numbers numbers(random);
-  const double slow = std::min(speed, numbers.speed());
-  Contact contact = numbers.contact(kind, random.one_in(4) ? speed : slow);
+  ContactSampler sampler(random);
+  const double slow = std::min(speed, sampler.speed());
+  Contact contact = sampler.contact(kind, random.one_in(4) ? speed : slow);
   const double base_speed = random.one_in(4) ? speed : slow;
-  move_to_origin(kind, contact, base_speed * numbers.vector());
-  return finished(random, meet(kind, contact, speed * numbers.direction()));
+  move_to_origin(kind, contact, base_speed * sampler.vector());
+  return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// Of the sides q and r one is shorter. The contact is anywhere, or as near to the corner x1 of a triangle,
-/// or to an end of the long edge, as the short one is long.
+/// One of the sides q and r is shorter. The contact is anywhere; or its distance from the corner x1 of a triangle, or
+/// from an end of the long edge, is the length of the short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
   const bool short_q = random.one_in(2);
   Path& side = short_q ? contact.q : contact.r;
   side = scaled(side, size);
   if (random.one_in(2)) (short_q ? contact.beta : contact.alpha) *= size;
-  const double speed = random.one_in(2) ? size : numbers.fraction(52);
-  move_to_origin(kind, contact, random.one_in(2) ? Vector(Vector::Zero()) : speed * numbers.vector());
-  return finished(random, meet(kind, contact, speed * numbers.direction()));
+  const double speed = random.one_in(2) ? size : sampler.fraction(52);
+  move_to_origin(kind, contact, random.one_in(2) ? Vector(Vector::Zero()) : speed * sampler.vector());
+  return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
 Query offset(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = meet(kind, contact, numbers.velocity());
-  const Vector far = power_of_ten(x) * numbers.direction();
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = meet(kind, contact, sampler.velocity());
+  const Vector far = power_of_ten(x) * sampler.direction();
   for (std::size_t i = 0; i < 24; ++i) query.x[i] += far[static_cast<int>(i % 3)];
   return finished(random, query);
 }
 
 Query scale(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = finished(random, meet(kind, contact, numbers.velocity()));
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = finished(random, meet(kind, contact, sampler.velocity()));
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   if (largest == 0) return query;
@@ -65,12 +65,12 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, times 2^1022 along some axes, or one: there a difference of two coordinates overflows as
-/// often as not. Most primitives start in a plane across that axis, and half of the coordinates are at rest.
+/// Small integers, times 2^1022 along one axis or some: about half of the differences of coordinates overflow there.
+/// Most primitives start in a plane normal to that axis, and half of the coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
-  const int only = random.integer(0, 5);  // an axis, or no matter
+  const int only = random.integer(0, 5);  // an axis; from 3 on each axis is drawn
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -86,13 +86,13 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has an exponent of its own. The primitives touch at the origin, and go on touching
-/// there whatever a vertex or an axis is multiplied by.
+/// Each vertex and each axis has its own exponent. The primitives touch at the origin, and still do when a vertex or
+/// an axis is multiplied.
 Query mixed_scale(Random& random, Kind kind, double x) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  Query query = meet(kind, contact, numbers.velocity());
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  Query query = meet(kind, contact, sampler.velocity());
   const int most = static_cast<int>(x) / 4;
   std::array<int, 3> axis{};
   for (int& exponent : axis) exponent = random.integer(-most, most);
@@ -105,17 +105,17 @@ Query mixed_scale(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// One primitive rests, every bit of it; the other moves as fast as that.
+/// One primitive rests exactly; the other has the speed 10^x.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
-  Numbers numbers(random);
-  const double slow = std::min(speed, numbers.speed());
-  Contact contact = numbers.contact(kind, slow);
+  ContactSampler sampler(random);
+  const double slow = std::min(speed, sampler.speed());
+  Contact contact = sampler.contact(kind, slow);
   const auto rest = [](Path& path, double time) { path = passing(path.at(time), Vector::Zero(), time); };
   const bool first_moves = random.one_in(2);
   if ((kind == Kind::edge_edge) != first_moves) rest(contact.q, contact.time);
   if (first_moves) rest(contact.r, contact.time);
-  const Vector fast = speed * numbers.direction();
+  const Vector fast = speed * sampler.direction();
   const Vector none = Vector::Zero();
   move_to_origin(kind, contact, first_moves ? none : fast);
   return finished(random, meet(kind, contact, first_moves ? fast : none));
@@ -126,39 +126,39 @@ Query static_pair(Random& random, Kind kind, double x) {
 /// The other edge, or the motion of the vertex, is nearly a multiple of the side q.
 Query near_parallel(Random& random, Kind kind, double x) {
   const double angle = power_of_ten(x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
-  if (random.one_in(2)) contact.q = passing(numbers.direction(), Vector::Zero(), 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
+  if (random.one_in(2)) contact.q = passing(sampler.direction(), Vector::Zero(), 0);
   const double sign = random.one_in(2) ? 1 : -1;
   const double along = std::ldexp(sign, random.integer(-2, 1));
-  const Vector nearly = along * contact.q.start + angle * numbers.vector();
-  Vector w = numbers.velocity();
+  const Vector nearly = along * contact.q.start + angle * sampler.vector();
+  Vector w = sampler.velocity();
   if (kind == Kind::edge_edge)
     contact.r = {nearly, nearly};
   else
     w = nearly;
-  move_to_origin(kind, contact, numbers.velocity());
+  move_to_origin(kind, contact, sampler.velocity());
   return finished(random, meet(kind, contact, contact.velocity(kind) + w));
 }
 
-/// Rotates by the angle 2 atan(size / 2), which is `size` where it is small.
+/// Rotates by the angle 2 atan(size / 2), which is about `size` if that is small.
 Eigen::Matrix3d rotation(const Vector& axis, double size) {
   const double length = axis.norm();
   const Vector part = (length == 0 ? 0 : size / 2 / length) * axis;
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// Everything is thin but along one axis, or all but the motion is; turned out of the axes now and then.
+/// Everything, or everything except the motion, is long along one axis alone. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
-  Numbers numbers(random);
+  ContactSampler sampler(random);
   Vector factors = Vector::Constant(thin);
   factors[random.integer(0, 2)] = 1;
   const auto squeezed = [&](const Vector& v) -> Vector { return v.cwiseProduct(factors); };
-  Contact contact = numbers.contact(kind, numbers.speed());
+  Contact contact = sampler.contact(kind, sampler.speed());
   for (Path* const side : {&contact.q, &contact.r}) *side = {squeezed(side->start), squeezed(side->end)};
-  move_to_origin(kind, contact, squeezed(numbers.velocity()));
-  const Vector w = numbers.velocity();
+  move_to_origin(kind, contact, squeezed(sampler.velocity()));
+  const Vector w = sampler.velocity();
   Query query = meet(kind, contact, random.one_in(2) ? squeezed(w) : w);
   if (random.one_in(3)) {
     const Eigen::Matrix3d turn = rotation(random.vector(1), 2);
@@ -170,20 +170,20 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Linear interpolation between two placements of a rigid body is affine: what touches in one goes on
-/// touching, and the relative motion is all that parts it.
+/// Linear interpolation between two placements of a rigid body is affine: primitives that touch in one placement stay
+/// in contact, and only their relative motion separates them.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
   contact.q = turned(contact.q.start);
   contact.r = turned(contact.r.start);
   const double away = std::ldexp(1.0, random.integer(0, 6));  // from the axis
-  contact.base = turned(away * numbers.vector());
-  if (random.one_in(2)) contact.base.end += numbers.vector();
-  const double speed = numbers.fraction(52);
-  const Vector apart = speed * numbers.direction();
+  contact.base = turned(away * sampler.vector());
+  if (random.one_in(2)) contact.base.end += sampler.vector();
+  const double speed = sampler.fraction(52);
+  const Vector apart = speed * sampler.direction();
   return finished(random, meet(kind, contact, contact.velocity(kind) + apart));
 }
 
@@ -202,7 +202,7 @@ std::vector<Family> extreme_families() {
       {.name = "overflow",
        .about = "differences of coordinates overflow, along some axes",
        .make = overflow,
-       .block_cases = 10},  // exact arithmetic takes its time
+       .block_cases = 10},  // exact arithmetic is slow
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",

@@ -45,7 +45,7 @@ Family at_value(const Family& family, double value) {
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", name,
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
-    draw(random, parameter);  // what follows is drawn as where the value is not fixed
+    draw(random, parameter);  // later draws are then the same as without a fixed value
     return parameter.make(random, kind, value);
   };
   Family fixed = family;
@@ -92,7 +92,7 @@ Family find_family(std::string_view name, std::span<const Family> known) {
 }
 
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {
-  // The stream is a hash of the name, so that a family's queries stay when the list changes (FNV-1a).
+  // The stream is a hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
   std::uint64_t stream = 0xcbf29ce484222325;
   for (const char c : base_name(family.name))
     stream = (stream ^ static_cast<unsigned char>(c)) * 0x100000001b3;

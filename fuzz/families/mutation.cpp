@@ -23,21 +23,21 @@ auto one_of(Random& random, const Range& range) {
   return range[static_cast<std::size_t>(random.integer(0, static_cast<int>(range.size()) - 1))];
 }
 
-/// The extent of a query; 1 where all is one point.
+/// The extent of a query; 1 if all positions coincide.
 double size_of(const Query& query) {
   const double size = extent(query);
   return size == 0 ? 1 : size;
 }
 
-/// Vertices start, first + 1 .. last of a random choice: one, or all of a primitive.
-struct Vertices {
+/// Vertices first .. last: a random one, or all of a primitive.
+struct VertexRange {
   int first, last;
 };
 
-Vertices some_vertices(Random& random, Kind kind) {
+VertexRange some_vertices(Random& random, Kind kind) {
   const int one = random.integer(0, 3);
   if (random.one_in(2)) return {one, one};
-  return one < split(kind) ? Vertices{0, split(kind) - 1} : Vertices{split(kind), 3};
+  return one < split(kind) ? VertexRange{0, split(kind) - 1} : VertexRange{split(kind), 3};
 }
 
 Vector position(const Query& query, int point) {
@@ -109,7 +109,7 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// To multiples of a power of two near the largest coordinate: small integers but for their unit.
+/// Rounds to multiples of a power of two near the largest coordinate: to small integers in that unit.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -150,7 +150,7 @@ Query coplanar_once(Random& random, const Query& query) {
   return joined_somehow(random, query, place);
 }
 
-/// A vertex keeps to one place of the plane, or line, of the others; or all keep to a plane across an axis.
+/// A vertex stays at one place of the plane or line of the others, or all stay in a plane normal to an axis.
 Query coplanar_always(Random& random, const Query& query) {
   if (random.one_in(2)) {
     Query result = query;
@@ -169,7 +169,7 @@ Query coplanar_always(Random& random, const Query& query) {
 
 // --- primitives and motion -----------------------------------------------------------------------------
 
-/// Two vertices come nearer to each other by a factor, or become one.
+/// Moves a vertex towards another by a factor, or onto it.
 Query edge_shrunk(Random& random, const Query& query) {
   const int fixed = random.integer(0, 3);
   const int moving = (fixed + random.integer(1, 3)) % 4;
@@ -203,7 +203,7 @@ Vector aligned_velocity(Random& random, const Query& query) {
 
 Query velocity_aligned(Random& random, const Query& query) {
   const Vector velocity = aligned_velocity(random, query);
-  const Vertices vertices = some_vertices(random, query.kind);
+  const VertexRange vertices = some_vertices(random, query.kind);
   const bool backwards = random.one_in(2);
   Query result = query;
   for (int i = vertices.first; i <= vertices.last; ++i) {
@@ -225,9 +225,9 @@ Query vertex_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Start and end change places: those of all vertices, of a primitive, or of one vertex.
+/// Exchanges start and end of all vertices, of a primitive, or of one vertex.
 Query reversed(Random& random, const Query& query) {
-  const Vertices vertices = random.one_in(2) ? Vertices{0, 3} : some_vertices(random, query.kind);
+  const VertexRange vertices = random.one_in(2) ? VertexRange{0, 3} : some_vertices(random, query.kind);
   Query result = query;
   for (int i = vertices.first; i <= vertices.last; ++i) {
     result.set_start(i, query.end(i));
@@ -276,7 +276,7 @@ constexpr std::array table{
 
 using Apply = Query (*)(Random& random, const Query& query);
 
-/// The changed query where it is finite.
+/// The changed query if it is finite; else the given one.
 Query applied(Apply apply, Random& random, const Query& query) {
   const Query result = apply(random, query);
   return is_finite(result) ? result : query;

@@ -1,4 +1,4 @@
-// Steps from one query to another that know what a query is: what coverage-guided fuzzers hunt with.
+// Mutations of queries that know what a query is, for coverage-guided fuzzers.
 #pragma once
 
 #include <span>
@@ -13,20 +13,20 @@ namespace nearmiss {
 struct Mutation {
   std::string_view name;
   std::string_view about;
-  /// The changed query; the same one where there is nothing to change. Coordinates that are not finite come
-  /// out where something overflows.
+  /// The changed query; the same one if there is nothing to change. An overflow leaves coordinates that are not
+  /// finite.
   Query (*apply)(Random& random, const Query& query);
 };
 
 /// All sorts, in the order in which they are listed.
 std::span<const Mutation> mutations();
 
-/// Another query: one to three mutations, every other one of them by a fraction, which climbs, the others of
-/// random sorts, which explore; and then, every other time, contact restored where the primitives nearly touch,
-/// so that chains of mutations keep to collisions. Finite where `query` is.
+/// Another query, by one to three mutations. Half of these move something by a fraction, which climbs; the others are
+/// of random sorts, which explores. Then half of the time contact is restored where the primitives nearly touch, so
+/// that chains of mutations keep to collisions. Finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Vertices, axes, the starts and the ends, or single coordinates of one query and the rest of the other.
+/// Takes some vertices, axes, moments or single coordinates from one query, and the rest from the other.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

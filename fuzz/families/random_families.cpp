@@ -50,7 +50,7 @@ Query grazing(Random& random, Kind kind) {
 
 // --- nearly degenerate contact, in floating point ---------------------------------------------------
 
-/// Unit primitives aimed at each other, at a place that is outside of them now and then.
+/// Unit primitives aimed at each other; in half of the queries the place may be outside of them.
 Contact aimed_contact(Random& random, Kind kind) {
   const auto path = [&](double size, double speed) {
     const Vector start = random.vector(size);
@@ -91,7 +91,7 @@ Query small(Random& random, Kind kind) {
   return shuffled(random, meet(kind, contact, random.vector(1)));
 }
 
-/// Thin triangles and nearly parallel edges: r is a multiple of q but for a small part.
+/// Thin triangles and nearly parallel edges: r is a multiple of q plus a small vector.
 Query sliver(Random& random, Kind kind) {
   Contact contact = aimed_contact(random, kind);
   const double along = random.uniform(-1.5, 1.5);
@@ -103,8 +103,7 @@ Query sliver(Random& random, Kind kind) {
 
 // --- F is zero identically --------------------------------------------------------------------------
 
-/// All points stay in one plane through integer points, exactly: a P + b Q + O with integers that keep within
-/// 2^31.
+/// All points stay exactly in one plane: they are a P + b Q + O with integers below 2^31.
 Query planar(Random& random, Kind kind) {
   const Vector P = random.integer_vector(8);
   const Vector Q = random.integer_vector(8);
@@ -154,14 +153,14 @@ Query degenerate(Random& random, Kind kind) {
   return query;
 }
 
-/// Every coordinate an integer in -3 .. 3: coincidences of all sorts.
+/// Every coordinate is an integer in -3 .. 3, which gives coincidences of all sorts.
 Query small_integer(Random& random, Kind kind) {
   Query query{.kind = kind};
   for (double& c : query.x) c = random.integer(-3, 3);
   return query;
 }
 
-/// What needs no parameter.
+/// A family without a parameter.
 Family plain(std::string name, std::string about, Query (*make)(Random&, Kind), bool is_planted = false) {
   return {std::move(name), std::move(about), is_planted, make, std::nullopt};
 }

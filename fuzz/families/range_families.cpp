@@ -1,5 +1,5 @@
-// Products of coordinates at the ends of double's range: no coordinate overflows or underflows, but products
-// of two, three, four or six differences of coordinates do, or their sums. The components of the weights' W are
+// Products of coordinates at the ends of double's range: no coordinate overflows or underflows, but products of two,
+// three, four or six differences of coordinates do, or the sums of these. The components of the weights' W are
 // sums of products of two, F of three; their squares are of four and six. A query is first made of small
 // numbers, and then its vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
@@ -21,10 +21,10 @@ using Vector = Vector3<double>;
 /// A query before it is scaled.
 struct Draft {
   Query query;
-  bool scales_vertices = false;  ///< no contact is lost where a vertex is scaled, for it is at the origin
+  bool scales_vertices = false;  ///< scaling a vertex keeps a contact, which is at the origin
 };
 
-/// Exact contact: in the face, on an edge or in a vertex, at any time of the step, its ends included. One in
+/// Exact contact: in the face, on an edge or in a vertex, at any time of the step, its ends included. One contact in
 /// three is tangential.
 Draft touching(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
@@ -39,8 +39,8 @@ Draft touching(Random& random, Kind kind) {
   return {meet(kind, contact, w), at_origin};
 }
 
-/// Exact contact of small integers, at the origin and inside the step. Everything moves as fast as it is
-/// large, so that a wrong root of F is a time without contact.
+/// Exact contact of small integers, at the origin and inside the step. Speeds are like sizes, so that a wrong root of
+/// F is a time without contact.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);
@@ -71,8 +71,8 @@ Query lattice(Random& random, Kind kind) {
   return query;
 }
 
-/// Integer points next to a plane that is oblique to the axes: the products in F are far larger than their
-/// sum, and F changes its sign often.
+/// Integer points next to a plane oblique to the axes: the products in F are far larger than their sum, and F often
+/// changes its sign.
 Query oblique(Random& random, Kind kind) {
   const Vector P = random.integer_vector(2);
   const Vector Q = random.integer_vector(2);
@@ -97,10 +97,10 @@ Query cube(Random& random, Kind kind) {
 
 /// Contact at the origin, or a near miss: a weight or the time is outside [0, 1] by a power of two down to ε.
 Draft aimed(Random& random, Kind kind) {
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, numbers.speed());
-  move_to_origin(kind, contact, numbers.velocity());
-  return {meet(kind, contact, numbers.velocity()), true};
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, sampler.speed());
+  move_to_origin(kind, contact, sampler.velocity());
+  return {meet(kind, contact, sampler.velocity()), true};
 }
 
 Draft any_contact(Random& random, Kind kind) {
@@ -141,8 +141,8 @@ Differences differences(const Query& query) {
 
 constexpr std::size_t none = 3;  ///< of the axes
 
-/// The sum of F's products of three differences, one along each axis; or of products of two in the component
-/// of the weights along an axis, which they leave out.
+/// The sum of F's products of three differences, one along each axis. With an axis left out: the sum of the products
+/// of two in the component of the weights along that axis.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -159,17 +159,16 @@ void scale_axis(Query& query, std::size_t axis, int exponent) {
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
 }
 
-/// Multiplies an axis by the largest multiple of 1/8 that leaves the exponent of the sum of products as it is:
-/// an overflow of what is two or three times as large is then likely.
+/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. A value two or
+/// three times as large then likely overflows.
 void fill_binade(Query& query, std::size_t axis, double sum) {
   const double mantissa = std::ldexp(sum, -std::ilogb(sum));
   const double factor = (std::ceil(16 / mantissa) - 1) / 8;
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] *= factor;
 }
 
-/// Scales the axes, but for the one that is left out, so that the sum of products is in [2^x, 2^(x + 1)),
-/// unless it is zero: all by the same power of two, as far as x allows, or each by its own, up to 2^spread
-/// more or less.
+/// Scales the axes that are not left out, so that the sum of products is in [2^x, 2^(x + 1)), unless it is zero. All
+/// have the same power of two, as far as x allows, or each its own, up to a factor of 2^spread.
 void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
   const double sum = sum_of_products(query, left_out);
   int exponent = x;
@@ -189,7 +188,7 @@ void scale_products(Random& random, Query& query, std::size_t left_out, int x, i
   }
 }
 
-/// Makes two of the vertices up to 2^512 times as large or small as the others, or gives each its own size.
+/// Makes two of the vertices up to 2^512 times larger or smaller than the others, or gives each its own size.
 void scale_vertices(Random& random, Query& query) {
   const int half = random.integer(-256, 256);
   std::array<int, 4> exponents{-half, -half, half, half};
@@ -199,8 +198,8 @@ void scale_vertices(Random& random, Query& query) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], exponents[i / 3 % 4]);
 }
 
-/// Scales products of two. The other axis is scaled like them, so that F overflows or underflows too, or so
-/// that F stays up to 2^60 farther inside the range.
+/// Scales products of two. The other axis is scaled likewise, so that F overflows or underflows too, or so that F
+/// stays inside the range, by up to 2^60.
 void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   const auto left_out = static_cast<std::size_t>(random.integer(0, 2));
   scale_products(random, query, left_out, x, spread);
@@ -208,7 +207,7 @@ void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   scale_axis(query, left_out, random.one_in(4) ? x / 2 : x > 0 ? -inward : inward);
 }
 
-/// Half of the queries have coordinates of one size, in the others vertices or axes have sizes of their own.
+/// Half of the queries have coordinates of one size; in the others vertices or axes have sizes of their own.
 Query scaled_to(Random& random, const Draft& draft, int x) {
   Query query = shuffled(random, draft.query);
   const bool mixed = random.one_in(2);
@@ -243,7 +242,7 @@ Family family(std::string name, std::string about, bool is_planted, Parameter pa
   Family made = with_parameter(std::move(name), std::move(about), std::move(parameter));
   made.planted = is_planted;
   made.compare_all = true;
-  made.block_cases = 4;  // exact arithmetic takes its time
+  made.block_cases = 4;  // exact arithmetic is slow
   return made;
 }
 

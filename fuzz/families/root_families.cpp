@@ -1,4 +1,4 @@
-// Roots of F that are hard to tell: at the ends of the step, two next to each other, three in one.
+// Roots of F that are hard to find: at the ends of the step, two close to each other, three in one.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +11,10 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The place of contact, seen from the first primitive's x0, is β r + sign α q.
+/// At the contact x0 - base = β r + sign α q.
 double sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
 
-/// A contact that is exact at t = 0 or t = 1; then one coordinate of that time is moved.
+/// An exact contact at t = 0 or t = 1. One coordinate of that time is then moved by x ulps.
 Query end_contact(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   contact.time = random.integer(0, 1);
@@ -25,29 +25,29 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// The first primitive moves along a tangent of the curved path that the place of contact takes where the
-/// weights change at the rates α' and β': a double root. The path leaves its tangent by (β' r' + sign α'
-/// q') (t - time)²: moved by what that is at time ± h, the first primitive meets it at both; moved to the
-/// other side, never. Half of the primitives lie in a coordinate plane at their time and leave it along its
-/// normal, so that the smallest move is exact.
+/// If the weights change at the rates α' and β', the place of contact takes a curved path. The first primitive moves
+/// along a tangent of it, which is a double root. The path leaves its tangent by (β' r' + sign α' q') (t - time)².
+/// Moved by that vector at time ± h, the first primitive meets the path at both times; moved to the other side, never.
+/// Half of the primitives lie in a coordinate plane at their time and leave it along its normal, so that the smallest
+/// move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
-  Numbers numbers(random);
+  ContactSampler sampler(random);
   const bool flat = random.one_in(2);
   const Vector axis = Vector::Unit(random.integer(0, 2));
   const auto across = [&](const Vector& v) -> Vector { return flat ? v.cwiseProduct(axis) : v; };
   const auto within = [&](const Vector& v) -> Vector { return flat ? v - v.cwiseProduct(axis) : v; };
 
-  Contact contact = numbers.contact(kind, 0);
+  Contact contact = sampler.contact(kind, 0);
   contact.time = std::clamp(contact.time, h, 1 - h);
   const bool q_turns = !flat || kind == Kind::vertex_triangle;
-  const Vector q_velocity = across(numbers.vector());
+  const Vector q_velocity = across(sampler.vector());
   contact.q = passing(within(contact.q.start), q_turns ? q_velocity : Vector(Vector::Zero()), contact.time);
-  contact.r = passing(within(contact.r.start), across(numbers.vector()), contact.time);
+  contact.r = passing(within(contact.r.start), across(sampler.vector()), contact.time);
   const Vector stay = flat ? contact.velocity(kind) : Vector(Vector::Zero());
-  move_to_origin(kind, contact, within(numbers.vector()) - stay);
+  move_to_origin(kind, contact, within(sampler.vector()) - stay);
 
-  const Vector rates = numbers.vector();  // of the weights
+  const Vector rates = sampler.vector();  // of the weights
   const double alpha_rate = sign(kind) * rates[0];
   const double beta_rate = rates[1];
   const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
@@ -62,13 +62,13 @@ Query even_roots(Random& random, Kind kind, double x) {
 }
 
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
-/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The primitives touch where M0 turns
-/// the vector (1, -sign α, -β) into 0: all rows of C but the first are at right angles to it, and J has no
-/// use for the first. Then q and r are moved a little, and the contact with them.
+/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The primitives touch if M0 maps the vector
+/// (1, -sign α, -β) to 0: all rows of C except the first are orthogonal to it, and J ignores the first. Then q and r
+/// are moved a little, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
-  Numbers numbers(random);
-  Contact contact = numbers.contact(kind, 0);
+  ContactSampler sampler(random);
+  Contact contact = sampler.contact(kind, 0);
   Eigen::Matrix3d G;
   Eigen::Matrix3d C;
   for (int i = 0; i < 3; ++i) {
@@ -81,9 +81,9 @@ Query triple_root(Random& random, Kind kind, double x) {
   J(1, 2) = random.one_in(4) ? 0 : 1;
   const Eigen::Matrix3d M0 = G * J * C;
   const Eigen::Matrix3d M1 = G * C;
-  contact.q = passing(M0.col(1) + off * numbers.vector(), M1.col(1), contact.time);
-  contact.r = passing(M0.col(2) + off * numbers.vector(), M1.col(2), contact.time);
-  move_to_origin(kind, contact, numbers.velocity());
+  contact.q = passing(M0.col(1) + off * sampler.vector(), M1.col(1), contact.time);
+  contact.r = passing(M0.col(2) + off * sampler.vector(), M1.col(2), contact.time);
+  move_to_origin(kind, contact, sampler.velocity());
   Vector w = contact.base.velocity() + M1.col(0);
   if (kind == Kind::edge_edge) w += contact.alpha * M1.col(1);
   return finished(random, meet(kind, contact, w));

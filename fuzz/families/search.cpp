@@ -18,17 +18,17 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr double usually_smallest = 1e-5;  // of what is drawn, beside what is about 1
+constexpr double usually_smallest = 1e-5;  // lower end of the sizes and speeds that are drawn
 
-/// What is searched over: a contact, in the frame in which `base` rests at the origin, and how far apart the
-/// primitives are put.
-struct Meeting {
+/// A point of the space that is searched: a contact, in the frame in which `base` rests at the origin, and a gap
+/// between the primitives.
+struct SearchPoint {
   Path q, r;
   Vector w;      ///< velocity of the first primitive's point
   Vector place;  ///< α, β, time
   Vector gap;
 
-  /// All vectors; without the gap where primitives are to touch.
+  /// Visits all vectors; not the gap if the primitives are to touch.
   template <class Visit>
   void visit(bool touching, const Visit& visit_vector) {
     for (Vector* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
@@ -36,7 +36,7 @@ struct Meeting {
   }
 };
 
-Contact contact_of(Kind kind, const Meeting& m) {
+Contact contact_of(Kind kind, const SearchPoint& m) {
   const auto clamped = [](double x) { return std::clamp(x, 0.0, 1.0); };
   Contact contact{{Vector::Zero(), Vector::Zero()},
                   m.q,
@@ -48,9 +48,9 @@ Contact contact_of(Kind kind, const Meeting& m) {
   return contact;
 }
 
-/// On a grid on which `meet` is exact: vectors within 2^3 are multiples of 2^-22, weights and times multiples
-/// of 2^-10, and so no sum of products has more than 3 + 3 + 22 + 20 = 48 bits.
-Meeting on_grid(Meeting m) {
+/// Rounds to a grid on which `meet` is exact: vectors within 2^3 are multiples of 2^-22, weights and times multiples
+/// of 2^-10. No sum of products then has more than 3 + 3 + 22 + 20 = 48 bits.
+SearchPoint on_grid(SearchPoint m) {
   const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
   m.visit(true, [&](Vector& v) {
     for (double& c : v) c = round_to(std::clamp(c, -8.0, 8.0), 0x1p-22);
@@ -59,7 +59,7 @@ Meeting on_grid(Meeting m) {
   return m;
 }
 
-Query query_of(Kind kind, const Meeting& m) {
+Query query_of(Kind kind, const SearchPoint& m) {
   Query query = meet(kind, contact_of(kind, m), m.w);
   for (int i = 0; i < split(kind); ++i) {
     query.set_start(i, query.start(i) + m.gap);
@@ -68,15 +68,15 @@ Query query_of(Kind kind, const Meeting& m) {
   return query;
 }
 
-/// Primitives of sizes from the smallest to 1, thin ones, motion of such speeds and in their plane, or all of it
-/// near one plane, contact on borders and ends.
-Meeting draw(Random& random, double smallest) {
+/// Draws primitives with sizes and speeds from `smallest` to 1: also thin ones, motion in their plane, everything near
+/// one plane, and contact on borders and at the ends of the step.
+SearchPoint draw(Random& random, double smallest) {
   const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
   const auto speed = [&] { return random.one_in(3) ? 0 : some(smallest, 1); };
-  Meeting m;
+  SearchPoint m;
   m.q = path(random.vector(some(smallest, 1)), speed());
   m.r = path(random.vector(some(smallest, 1)), speed());
   if (random.one_in(3)) {
@@ -97,7 +97,7 @@ Meeting draw(Random& random, double smallest) {
   return m;
 }
 
-/// log2 of what makes a contact hard, each where it is smaller.
+/// log2 of six ratios; a contact is the harder, the smaller one of these is.
 std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& w) {
   const Vector q = contact.q.at(contact.time);
   const Vector r = contact.r.at(contact.time);
@@ -113,19 +113,19 @@ std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& 
           ratio(std::max(q.norm(), r.norm()), relative.norm())};
 }
 
-constexpr double nothing = -1e3;  ///< the objective of what is not looked for, far below all others
+constexpr double nothing = -1e3;  ///< the objective of a query that is not looked for, far below all others
 
-/// Shows queries to an objective, from drawn starts on, and remembers the best.
-class Climb {
+/// Maximises an objective from drawn starts on.
+class Maximiser {
  public:
-  using Objective = std::function<double(const Meeting&)>;  ///< more is better; infinity ends the search
-  using Draw = std::function<Meeting()>;
+  using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
+  using Draw = std::function<SearchPoint()>;
 
-  /// The size of a step is drawn between the finest one and half.
-  Climb(Random& random, bool touching, double finest_step, Objective objective)
+  /// Sizes of steps are drawn between `finest_step` and 0.5.
+  Maximiser(Random& random, bool touching, double finest_step, Objective objective)
       : random_(random), touching_(touching), finest_step_(finest_step), objective_(std::move(objective)) {}
 
-  Meeting run(const Draw& draw_start) {
+  SearchPoint run(const Draw& draw_start) {
     constexpr int starts = 50;
     for (int i = 0; i < starts && !over(); ++i) show(draw_start());
     for (bool again = false; !over(); again = true) optimise(again);
@@ -137,22 +137,22 @@ class Climb {
     return shown_ >= search_evaluations || best_value_ == HUGE_VAL || error_ != nullptr;
   }
 
-  double show(const Meeting& meeting) {
+  double show(const SearchPoint& point) {
     ++shown_;
-    const double value = objective_(meeting);
+    const double value = objective_(point);
     if (value > best_value_) {
       best_value_ = value;
-      best_ = meeting;
+      best_ = point;
     }
     return value;
   }
 
-  /// From the best so far, or from beside it, with steps of a size that is drawn.
+  /// Starts at the best point so far, or beside it, with steps of a random size.
   void optimise(bool beside) {
     constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
     constexpr int evaluations = 300;
     const double step = random_.log_uniform(finest_step_, 0.5);
-    Meeting start = best_;
+    SearchPoint start = best_;
     if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
     std::vector<double> point;
     start.visit(touching_, [&](const Vector& v) { point.insert(point.end(), v.begin(), v.end()); });
@@ -161,15 +161,15 @@ class Climb {
                          static_cast<unsigned>(point.size()));
     optimiser.set_max_objective(
         [](const std::vector<double>& x, std::vector<double>& /*gradient*/, void* self) {
-          auto& climb = *static_cast<Climb*>(self);
+          auto& maximiser = *static_cast<Maximiser*>(self);
           double value = nothing;
           try {
-            value = climb.show(climb.meeting_at(x));
+            value = maximiser.show(maximiser.point_at(x));
           } catch (...) {
-            climb.error_ = std::current_exception();  // the optimiser would take it for its own
+            maximiser.error_ = std::current_exception();  // the optimiser would take it for one of its own
           }
-          if (climb.over()) climb.optimiser_->force_stop();
-          return std::min(value, 1e3);  // optimisers compute with it, so it is finite for them
+          if (maximiser.over()) maximiser.optimiser_->force_stop();
+          return std::min(value, 1e3);  // finite, because optimisers compute with it
         },
         this);
     optimiser_ = &optimiser;
@@ -179,22 +179,22 @@ class Climb {
     double value = 0;
     try {
       optimiser.optimize(point, value);
-    } catch (const nlopt::forced_stop&) {       // it is over
-    } catch (const nlopt::roundoff_limited&) {  // steps became too small to tell values apart
-    } catch (const std::runtime_error&) {       // BOBYQA where its model breaks down
+    } catch (const nlopt::forced_stop&) {       // the search is over
+    } catch (const nlopt::roundoff_limited&) {  // steps became too small to change the value
+    } catch (const std::runtime_error&) {       // the model of BOBYQA broke down
     }
     if (error_) std::rethrow_exception(error_);
   }
 
-  [[nodiscard]] Meeting meeting_at(const std::vector<double>& point) const {
-    Meeting meeting;
-    meeting.gap.setZero();
-    const double* from = point.data();
-    meeting.visit(touching_, [&](Vector& v) {
+  [[nodiscard]] SearchPoint point_at(const std::vector<double>& x) const {
+    SearchPoint point;
+    point.gap.setZero();
+    const double* from = x.data();
+    point.visit(touching_, [&](Vector& v) {
       v = Vector(from[0], from[1], from[2]);
       from += 3;
     });
-    return meeting;
+    return point;
   }
 
   Random& random_;
@@ -204,19 +204,19 @@ class Climb {
   nlopt::opt* optimiser_ = nullptr;
   int shown_ = 0;
   double best_value_ = -HUGE_VAL;
-  Meeting best_;
-  std::exception_ptr error_;  ///< of the objective
+  SearchPoint best_;
+  std::exception_ptr error_;  ///< thrown by the objective
 };
 
-/// How far a subject's false positives may be: what it claims, or what wang does.
+/// The distance that a subject's false positives may have: what the subject claims, or else what wang does.
 double reach(const Subject& subject, const Query& query) {
   const double claimed = subject.distance_bound(query);
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// What counts for a subject may be much smaller than usual, where its reach is.
+/// The size from which primitives are drawn: smaller than usual for a subject with a small reach.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
-  const Meeting typical = draw(random, usually_smallest);
+  const SearchPoint typical = draw(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
 }
 
@@ -224,9 +224,9 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
   std::array<double, 6> mixture{};
   for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
   const bool exactly = random.one_in(2);
-  const auto placed = [&](const Meeting& m) { return exactly ? on_grid(m) : m; };
-  const auto objective = [&](const Meeting& anywhere) {
-    const Meeting m = placed(anywhere);
+  const auto placed = [&](const SearchPoint& m) { return exactly ? on_grid(m) : m; };
+  const auto objective = [&](const SearchPoint& anywhere) {
+    const SearchPoint m = placed(anywhere);
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
     const bool hit = subject.decide(query).hit;
@@ -241,11 +241,11 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
   };
   const double smallest = exactly ? usually_smallest : smallest_for(subject, random, kind);
   return query_of(
-      kind, placed(Climb(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
+      kind, placed(Maximiser(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
 }
 
 Query search_far(const Subject& subject, Random& random, Kind kind) {
-  const auto objective = [&](const Meeting& m) {
+  const auto objective = [&](const SearchPoint& m) {
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
     if (!subject.decide(query).hit) {
@@ -259,15 +259,15 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
     return ratio >= 1 && distance_exceeds(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
   };
   const double smallest = smallest_for(subject, random, kind);
-  return query_of(kind, Climb(random, false, smallest, objective).run([&] {
-    Meeting m = draw(random, smallest);
+  return query_of(kind, Maximiser(random, false, smallest, objective).run([&] {
+    SearchPoint m = draw(random, smallest);
     m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(subject, query_of(kind, m)));
     return m;
   }));
 }
 
-/// Each query takes as long as some thousand others. So few at a time tell nothing of a subject's own time:
-/// the search leaves its caches cold, or those of the subject that it was for warm.
+/// Each query takes as long as some thousand others. The subjects' times do not count: batches are small, and the
+/// search leaves caches cold, or warm for the one subject that it is for.
 Family search(std::string name, std::string about, std::function<Query(Random&, Kind)> make) {
   return {.name = std::move(name),
           .about = std::move(about),

@@ -1,5 +1,4 @@
-// Directed search: queries that one subject answers wrongly, or nearly so, by optimisation without
-// derivatives.
+// Directed search: optimisation without derivatives, for queries that one subject answers wrongly or nearly so.
 #pragma once
 
 #include "ccd/subject.hpp"
@@ -7,23 +6,23 @@
 
 namespace nearmiss {
 
-/// How many queries a search shows to the subject for one that it gives, at most.
+/// The number of queries that a search asks the subject about for one that it returns, at most.
 inline constexpr int search_evaluations = 2000;
 
-/// "search-miss-NAME": each query is a collision that the subject misses, or else the one that it nearly
-/// missed of all it was shown.
+/// "search-miss-NAME": each query is a collision that the subject misses, or else the one that it came nearest to
+/// missing.
 ///
-/// The search moves on the manifold of contacts: primitives that are made to meet, half of the time on a grid on
-/// which that is exact, else with all bits of a double, where the oracle tells whether they still do. What is
-/// maximised is the subject's needed tolerance; where it does not tell one, a random mixture of what makes a
-/// contact hard: a grazing motion, a small angle between the primitives, a small weight, unequal edges, a time
-/// near 0 or 1. Starts are drawn; the search goes on from the best so far. The subject must outlive the
-/// family.
+/// The search moves on the manifold of contacts: the primitives are made to meet. Half of the searches use a grid on
+/// which that is exact; the others use all bits of a double, and the oracle decides whether the primitives still
+/// meet. The search maximises the subject's needed tolerance. If the subject gives none, it maximises a random
+/// mixture of what makes a contact hard: a grazing motion, a small angle between the primitives, a small weight,
+/// unequal edges, a time near 0 or 1. Starts are drawn; the search continues from the best so far. The subject must
+/// outlive the family.
 Family miss_search(const Subject& subject);
 
-/// "search-far-NAME": each query is a false positive, as far from contact as was found, as a fraction of the
-/// bound that the subject claims (or else of wang's); one that refutes the bound ends a search. Where none
-/// was found, a query that is none. The subject must outlive the family.
+/// "search-far-NAME": each query is the farthest false positive that a search found, relative to the bound that the
+/// subject claims, or else to wang's. One that refutes the bound ends the search. A search without any false positive
+/// returns another query. The subject must outlive the family.
 Family far_search(const Subject& subject);
 
 }  // namespace nearmiss

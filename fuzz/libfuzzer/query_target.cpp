@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t signals = 7;
 constexpr std::size_t values = 128;
 
-// libFuzzer clears these before each run, and takes each that is set afterwards for something covered.
+// libFuzzer clears these before each run, and treats each one that is set afterwards as covered.
 [[gnu::used,
   gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, signals * kinds.size() * values>
     counters;
@@ -51,7 +51,7 @@ void show(Signal signal, Kind kind, std::size_t value) {
 
 void show_factor(Signal signal, Kind kind, double factor) {
   if (std::isnan(factor)) return;
-  // Four steps whenever the exponent -log2(factor) halves, from 2^8 down to 2^-10.
+  // Four steps for each halving of the exponent -log2(factor), from 2^8 down to 2^-10.
   const double exponent = std::clamp(-std::log2(factor), 0x1p-10, 0x1p8);
   show(signal, kind, static_cast<std::size_t>(4 * (std::log2(exponent) + 10)));
 }
@@ -83,7 +83,7 @@ namespace {
 using namespace nearmiss;
 using namespace nearmiss::libfuzzer;
 
-/// What is no query is mended by starting from one.
+/// The query in an input; a default one if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) {
   return from_bytes(data, size).value_or(Query{});
 }

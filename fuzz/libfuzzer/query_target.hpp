@@ -1,5 +1,4 @@
-// What the libFuzzer targets on queries share: mutation, feedback beyond coverage, and what becomes of a
-// failure.
+// Common parts of the libFuzzer targets on queries: mutation, feedback beyond coverage, and failures.
 #pragma once
 
 #include <cstddef>
@@ -10,33 +9,32 @@
 
 namespace nearmiss::libfuzzer {
 
-/// Puts one query to the test: each target has its own.
+/// Tests one query; each target defines it.
 void examine(const Query& query);
 
-/// The subject on trial: NEARMISS_SUBJECT, or wang.
+/// The subject on trial: the one that NEARMISS_SUBJECT names, or wang.
 const Subject& subject();
 
-/// What a query can show beside the code that it runs through. libFuzzer keeps every query that shows
-/// something for the first time, and mutates it further.
+/// Feedback in addition to coverage. libFuzzer keeps every query that shows a value for the first time, and mutates it
+/// further.
 enum class Signal {
-  filter_stage,  ///< of the oracle
-  true_stage,    ///< by which the subject accepted a collision, or missed it
-  false_stage,   ///< by which it accepted what is none
+  filter_stage,  ///< the stage of the oracle's filter
+  true_stage,    ///< the stage by which the subject accepted a collision, or that it missed it
+  false_stage,   ///< the stage by which it accepted a false positive
   margin,        ///< how much less tolerance a collision needs than the subject has
-  distance,      ///< of a false positive, by its bound
+  distance,      ///< of a false positive, divided by its bound
   answers,       ///< what each exact method of the oracle says
-  details,       ///< what else it saw
+  details,       ///< other properties that each method reports
 };
 
-/// Shows a value, apart for each kind of query; values from 127 on are one.
+/// Shows a value, separately for each kind of query; values from 127 on count as one.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows how near a factor is to 1, from below: finer the nearer, so that there is always a next step toward
-/// 1 to be rewarded. Not a number shows nothing.
+/// Shows how near a factor is to 1, from below. Steps become finer towards 1, so that there is always a next one to
+/// reward. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
-/// Writes the finding as a case into the folder NEARMISS_CASES, or the current one, says so in a line, and
-/// aborts.
+/// Writes the finding as a case into the folder NEARMISS_CASES, or the current one, prints a line, and aborts.
 [[noreturn]] void fail(Finding::What what, const Query& query, double ratio = 0);
 
 }  // namespace nearmiss::libfuzzer

@@ -15,7 +15,7 @@ namespace nearmiss::libfuzzer {
 
 namespace {
 
-/// Unlike ==, tells 0 from -0.
+/// Unlike ==, distinguishes 0 from -0.
 bool same_bits(const Query& a, const Query& b) {
   return a.kind == b.kind && std::memcmp(a.x.data(), b.x.data(), sizeof a.x) == 0;
 }

@@ -1,5 +1,5 @@
-// What the libFuzzer targets on readers share: whatever a file holds, a reader takes it or throws Error, and
-// what it took can be written and read again.
+// Common parts of the libFuzzer targets on readers. A reader must accept any file or throw Error; what it accepted must
+// survive writing and reading.
 #pragma once
 
 #include <iosfwd>
@@ -9,16 +9,16 @@
 
 namespace nearmiss::libfuzzer {
 
-/// Reads all that a file holds: each target has its own.
+/// Reads a whole file; each target defines it.
 void read(std::istream& in);
 
-/// Aborts with this line where the condition does not hold.
+/// Aborts with a line on stderr if the condition does not hold.
 void expect(bool condition, const char* what);
 
-/// A case as text must be read as the same case, to the last bit.
+/// Checks that a case, written as text and read again, is the same to the last bit.
 void expect_round_trip(const Case& each);
 
-/// A mesh must have a point, finite coordinates, and primitives of points that exist.
+/// Checks that a mesh has a point, finite coordinates, and primitives of existing points.
 void expect_sound(const Mesh& mesh);
 
 }  // namespace nearmiss::libfuzzer

@@ -1,5 +1,5 @@
-// Writes the inputs that libFuzzer starts from: fuzz_seeds FOLDER CASES... makes FOLDER/TARGET/... for every
-// target, of the cases in these files and folders and of some queries of each family.
+// Writes the inputs that libFuzzer starts from: fuzz_seeds FOLDER CASES... makes FOLDER/TARGET/... for every target, from
+// the cases in these files and folders, and from some queries of each family.
 #include <fmt/format.h>
 #include <gmpxx.h>
 

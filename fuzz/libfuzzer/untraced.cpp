@@ -1,10 +1,10 @@
-// Compiled without coverage: where the compiler itself names the ends of the section of the counters, it
-// takes these names for others.
+// Compiled without coverage, because the compiler names the ends of the section of counters itself in code with
+// coverage, and would take these names for others.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>
 
-// The linker's names for the ends of the section that has the counters of all code that is run through.
+// The linker's names for the ends of the section with the coverage counters.
 extern "C" std::uint8_t __start___sancov_cntrs[], __stop___sancov_cntrs[];
 
 namespace nearmiss::libfuzzer {

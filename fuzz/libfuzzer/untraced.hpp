@@ -1,4 +1,4 @@
-// Calls that libFuzzer is not to see.
+// Calls that libFuzzer must not see.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// What is called while one of these exists leaves no trace in the coverage that libFuzzer sees.
+/// Calls during the lifetime of an object leave no trace in the coverage that libFuzzer sees.
 class Untraced {
  public:
   Untraced();
@@ -18,8 +18,8 @@ class Untraced {
   std::vector<std::uint8_t> counters_;
 };
 
-/// The oracle's answer, or what else a target asks beside the one that is on trial. Exact arithmetic has so
-/// many ways that a hunter would follow those instead of the subject's, and take several times as long.
+/// Calls `ask` without a trace: for the oracle, and for anything that is not on trial. Exact arithmetic has many
+/// branches; libFuzzer would follow these instead of the subject's, and take several times as long.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

@@ -73,7 +73,7 @@ Query touching(Query query, const Aim& aim) {
 
 Query changed(Random& random, const Query& pair, double size) {
   Query query = pair;
-  if (random.one_in(2)) query = touching(query, Numbers(random).aim(query.kind));
+  if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));
   switch (random.integer(0, 3)) {
     case 0:
       break;

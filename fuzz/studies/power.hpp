@@ -1,4 +1,4 @@
-// The power of detection: how soon a hunt finds a defect that is known to be there.
+// The power of detection: how soon a hunt finds a known defect.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,12 @@ namespace nearmiss {
 /// The first failure that a campaign found, in the order of its cases.
 struct FirstFailure {
   Finding finding;
-  double seconds = 0;       ///< until then; within what is decided at once, in proportion to the cases
-  std::uint64_t cases = 0;  ///< until then, that of the failure included
+  double seconds = 0;       ///< until then; interpolated within a wave, in proportion to the cases
+  std::uint64_t cases = 0;  ///< until then, including the failure's own
 };
 
-/// Runs a campaign until one of the subjects misses a collision or has its distance bound refuted; nothing
-/// where it is over before.
+/// Runs a campaign until a subject misses a collision or its distance bound is refuted. Nothing if the campaign ends
+/// before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const std::atomic<bool>& stop);
 

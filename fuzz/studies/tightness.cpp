@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using std::chrono::steady_clock;
 
 /// wang without the tests that accept from farther away than these.
 struct Tests {
@@ -30,12 +30,12 @@ constexpr std::array tests_table{
     Tests{"vertex-vertex", "wang"},
 };
 
-/// How one name is measured.
+/// The way to measure one name.
 struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
   Family search;
-  /// The value of a query, `nothing.value` where it has none; nothing where the query does not count.
+  /// The value of a query, `nothing.value` if it has none; nothing if the query does not count.
   std::function<std::optional<double>(const Query&)> read;
 };
 
@@ -47,8 +47,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // The needed factor is known to a few bits, from above: a little less misses, but if not, it says
-    // nothing.
+    // The needed factor is known to a few bits, from above. A slightly smaller one misses; otherwise the query gives
+    // no value.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
@@ -77,7 +77,7 @@ Gauge gauge_of(std::string_view name) {
       fmt::format("unknown tolerance '{}', expected some of {}", name, fmt::join(tightness_names(), ", ")));
 }
 
-/// What some queries of a family say.
+/// The extreme among some queries of a family.
 Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed, std::uint64_t first,
                    std::uint64_t count) {
   Extreme sum = gauge.nothing;
@@ -108,12 +108,12 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
   for (const std::string& name : plan.names) gauges.push_back(gauge_of(name));
   for (const Gauge& gauge : gauges) {
     Extreme sum = gauge.nothing;
-    const auto start = Clock::now();
+    const auto start = steady_clock::now();
     const std::size_t wave = 8 * static_cast<std::size_t>(plan.jobs);
-    for (std::uint64_t round = 0; !stop && Clock::now() - start < plan.time; ++round) {
+    for (std::uint64_t round = 0; !stop && steady_clock::now() - start < plan.time; ++round) {
       std::vector<Extreme> parts(wave, gauge.nothing);
       in_parallel(plan.jobs, wave, [&](std::size_t i) {
-        const std::uint64_t number = round * (wave / 2) + i / 2;  // of the blocks of its sort
+        const std::uint64_t number = round * (wave / 2) + i / 2;  // among the blocks of its sort
         const std::uint64_t families = plan.families.size();
         parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4)
                               : read_block(gauge, plan.families[number % families], plan.seed,

@@ -1,4 +1,4 @@
-// How tight are the constants of the paper?
+// How much slack the constants of the paper have.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,25 @@
 
 namespace nearmiss {
 
-/// What is measured, with how much work.
+/// The measurements, and the time for each.
 struct TightnessPlan {
-  std::vector<std::string> names;        ///< of tolerances, and of tests: see `tightness_names`
-  std::vector<Family> families;          ///< to draw from, beside the directed search
+  std::vector<std::string> names;        ///< some of `tightness_names()`
+  std::vector<Family> families;          ///< to draw queries from, in addition to the directed search
   std::chrono::duration<double> time{};  ///< for each name
   std::uint64_t seed = 1;
   int jobs = 1;
 };
 
-/// The tolerances, and "proximity", "vertex-edge" and "vertex-vertex": the tests that accept.
+/// The names of the tolerances, and of the tests that accept: "proximity", "vertex-edge", "vertex-vertex".
 std::vector<std::string> tightness_names();
 
-/// Takes the result of a name: as it is so far, or when its time is over.
+/// Takes the result of a name: so far, or `done` when its time is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
-/// For a tolerance, half of the time collisions are drawn from all families, half directed search looks for
-/// those that need the most of it: each has a factor on this tolerance below (above) which it is missed. For
-/// tests, likewise with false positives of wang without what accepts from farther away. Throws Error for an
-/// unknown name.
+/// For a tolerance, half of the queries are drawn from all families, and directed search finds the other half, looking
+/// for collisions that need most of the tolerance. Each collision has a factor on the tolerance below (or above) which
+/// it is missed. For tests, likewise with false positives of wang without the tests that accept from farther away.
+/// Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

@@ -34,13 +34,13 @@ constexpr std::array tolerance_table{
     NamedTolerance{"eta", &Tolerances<double>::eta, 1, false},
 };
 
-/// Steps, with those that are left out, and tolerances that are multiples of the paper's for double.
+/// The steps of the algorithm without those left out, and multiples of the paper's tolerances for double.
 struct DefectiveSteps {
-  std::uint64_t left_out = 0;  ///< a bit a step
+  std::uint64_t left_out = 0;  ///< one bit for each step
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  const NamedTolerance* changed = nullptr;  ///< where it is one tolerance
+  const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if it does
 
-  /// With the changed tolerance, or else the lengths of all that accept, loosened by s.
+  /// The same with the changed tolerance loosened by s; or else with the lengths of all that accept.
   [[nodiscard]] DefectiveSteps loosened(double s) const {
     DefectiveSteps steps = *this;
     if (changed != nullptr) {
@@ -107,7 +107,7 @@ class DefectiveSubject final : public Subject {
 
 struct LeftOut {
   std::string_view name, about;
-  std::array<Step, 3> steps;  ///< the same one again where there are fewer
+  std::array<Step, 3> steps;  ///< one repeated if there are fewer
 };
 
 constexpr LeftOut left_out(std::string_view name, Step step, std::string_view about) {
@@ -152,7 +152,7 @@ constexpr std::array left_out_table{
 
 constexpr std::string_view in_float_name = "float";
 
-/// The factor of "TOLERANCE*FACTOR" is taken into `steps`; false where `name` is no such thing.
+/// Takes the factor of "TOLERANCE*FACTOR" into `steps`; false if `name` has another form.
 bool take_factor(std::string_view name, DefectiveSteps& steps) {
   const std::size_t star = name.find('*');
   if (star == std::string_view::npos) return false;

@@ -1,4 +1,4 @@
-// All subjects by name: the CCDs under test, the oracle as one, and the defective ones.
+// All subjects by name: the CCDs under test, the oracle, and the defective ones.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,11 @@
 
 namespace nearmiss {
 
-/// Those of ccd/, and the oracle as a subject; defects are listed by `defects()`.
+/// The built-in subjects: those of ccd/, the exact ones, `adaptive`. `defects()` lists the defects.
 std::vector<SubjectInfo> all_subjects();
 
-/// make_subject, the oracle's subjects, "NAME:SCALAR" (ladder/scalars.hpp) and "defect:NAME". Throws Error.
+/// A built-in subject, "NAME:SCALAR" (ladder/scalars.hpp), "defect:NAME" (defects.hpp) or the plug-in at a path in
+/// this process. `given_bound` as for make_subject. Throws Error for a name that is not known.
 std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path,
                                           std::optional<double> given_bound = std::nullopt);
 

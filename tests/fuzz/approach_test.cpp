@@ -1,4 +1,4 @@
-// What the search for the smallest distance resolves in queries of families.
+// The search for the smallest distance, on queries of families.
 #include "oracle/approach.hpp"
 
 #include <gtest/gtest.h>

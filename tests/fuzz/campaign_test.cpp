@@ -130,6 +130,24 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
   EXPECT_EQ(sum, whole.statistics);
 }
 
+TEST(Campaign, AnnouncesTheCasesThatAShardHas) {
+  CampaignPlan plan = plan_of(0, 1);
+  plan.families = {find_family("uniform"), find_family("planted"), find_family("overflow")};
+  for (const std::uint64_t shards : {1, 2, 3, 7})
+    for (const std::uint64_t cases : {1, 100, 630, 631, 1499}) {
+      plan.cases = cases;
+      plan.shards = shards;
+      std::uint64_t sum = 0;
+      for (plan.shard = 0; plan.shard < shards; ++plan.shard) {
+        const auto ignore = [](TrialResult&&, const CampaignProgress&) { return true; };
+        const CampaignProgress reached = run_campaign(plan, {}, ignore, false);
+        EXPECT_EQ(reached.of, reached.cases) << plan.shard << '/' << shards << " of " << cases;
+        sum += reached.of;
+      }
+      EXPECT_EQ(sum, cases) << shards;
+    }
+}
+
 TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
   CampaignPlan plan = plan_of(9000, 2);
   plan.families = {find_family("planted"), find_family("degenerate"), find_family("aspect@8")};

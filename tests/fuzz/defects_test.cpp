@@ -1,4 +1,4 @@
-// The library of defects: the real code but for one thing.
+// The library of defects: the real code with one thing changed.
 #include "fuzz/subjects/defects.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,8 @@
-// Plug-ins in processes of their own: whatever they do, every other query is answered.
+// Plug-ins in worker processes: whatever they do, every other query is answered.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -16,6 +17,12 @@
 #include "fuzz/trial/trial.hpp"
 #include "tests/queries.hpp"
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define NEARMISS_SANITIZER_ENDS_A_PROCESS_OUT_OF_MEMORY
+#endif
+#endif
+
 namespace nearmiss {
 namespace {
 
@@ -24,11 +31,32 @@ using ::testing::ThrowsMessage;
 
 std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-const isolation::Limits small{.time = std::chrono::milliseconds(50), .bytes = std::uint64_t{64} << 20};
+/// Whether tests/plugin/misbehaving.c does something else to a query than to report it.
+bool is_chosen(const Query& query) {
+  std::uint64_t hash = 0;
+  for (const double c : query.x) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 29;
+  }
+  return hash % 100 == 0;
+}
+
+/// Little memory. The time limit is short only for plug-ins that exceed it, since a busy machine may exceed it too.
+isolation::PluginLimits limits_for(Fault fault) {
+  const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
+  return {.time = time, .bytes = std::uint64_t{64} << 20};
+}
 
 std::vector<Query> some_queries(std::uint64_t count) {
   std::vector<Query> queries;
   for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family("uniform"), 1, i));
+  return queries;
+}
+
+/// Queries of one kind, which a worker gets at once.
+std::vector<Query> one_batch(std::uint64_t count) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family("uniform"), 1, 2 * i));
   return queries;
 }
 
@@ -48,7 +76,6 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   std::vector<Verdict> verdicts(queries.size());
   const BatchTime time = isolated->decide_timed(queries, verdicts);
   EXPECT_EQ(time.queries, queries.size());
-  EXPECT_GT(time.nanoseconds, 0);
   std::vector<std::optional<std::uint64_t>> times(queries.size());
   isolated->time_each(queries, times);
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -58,7 +85,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   }
 }
 
-// It sleeps so long at least, so this does not depend on speed.
+// It sleeps at least this long, so this does not depend on speed.
 TEST(Isolation, WaitingForADeviceCounts) {
   const auto queries = some_queries(20);
   std::vector<Verdict> verdicts(queries.size());
@@ -91,33 +118,52 @@ INSTANTIATE_TEST_SUITE_P(All, Misbehaving,
                          [](const auto& each) { return each.param.plugin; });
 
 TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
+#ifdef NEARMISS_SANITIZER_ENDS_A_PROCESS_OUT_OF_MEMORY
   if (GetParam().fault == Fault::memory) GTEST_SKIP() << "the sanitizer ends a process that is out of memory";
 #endif
-#endif
-  auto limits = small;
-  if (GetParam().fault == Fault::memory) limits.time = std::chrono::seconds(10);  // eating takes time too
-  const auto subject = make_isolated_plugin(plugin(GetParam().plugin), limits);
+  const auto subject = make_isolated_plugin(plugin(GetParam().plugin), limits_for(GetParam().fault));
   const auto queries = some_queries(600);
   std::vector<Verdict> verdicts(queries.size());
   in_parallel(2, 4, [&](std::size_t part) {
     subject->decide(std::span(queries).subspan(150 * part, 150),
                     std::span(verdicts).subspan(150 * part, 150));
   });
-  int faults = 0;
+  int chosen = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const Verdict& verdict = verdicts[i];
-    EXPECT_EQ(verdict.hit, verdict.fault == Fault::none);
-    if (verdict.fault == Fault::none) continue;
-    ++faults;
-    EXPECT_EQ(verdict.fault, GetParam().fault);
+    EXPECT_EQ(verdict.hit, verdict.fault == Fault::none) << i;
+    if (!is_chosen(queries[i])) {
+      // A busy machine may make any query late.
+      EXPECT_TRUE(verdict.fault == Fault::none || GetParam().fault == Fault::time) << i;
+      continue;
+    }
+    ++chosen;
+    EXPECT_EQ(verdict.fault, GetParam().fault) << i;
     EXPECT_EQ(fault_signature(queries[i].kind, verdict),
               std::string(short_name(queries[i].kind)) + " " + GetParam().signature);
   }
-  EXPECT_GE(faults, 2);
-  EXPECT_LE(faults, 16);
+  EXPECT_GE(chosen, 2);
 }
+
+TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
+  // An eighth of a second for each of 12 queries: together more than the limit.
+  const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
+  const auto queries = one_batch(12);
+  std::vector<Verdict> verdicts(queries.size());
+  subject->decide(queries, verdicts);
+  for (const Verdict& verdict : verdicts) EXPECT_EQ(verdict.fault, Fault::none);
+}
+
+#ifndef NEARMISS_SANITIZER_ENDS_A_PROCESS_OUT_OF_MEMORY
+TEST(Isolation, ACrashAfterARefusedAllocationIsACrash) {
+  const auto subject = make_isolated_plugin(plugin("recovers"), limits_for(Fault::crash));
+  const auto queries = one_batch(4);
+  std::vector<Verdict> verdicts(queries.size());
+  subject->decide(queries, verdicts);
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+    EXPECT_EQ(verdicts[i].fault, i % 2 == 0 ? Fault::none : Fault::crash) << i;
+}
+#endif
 
 TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
   const auto subject = make_isolated_plugin(plugin("hostile"));

@@ -13,8 +13,8 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/random.hpp"
 #include "fuzz/subjects/ladder/adaptive.hpp"
-#include "fuzz/subjects/ladder/bits.hpp"
 #include "fuzz/subjects/ladder/double_double.hpp"
+#include "fuzz/subjects/ladder/mpfr_float.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "oracle/oracle.hpp"
@@ -73,7 +73,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
   EXPECT_GT(sum, 1.0 / 16);
 }
 
-// Why its sum is not the one that Debian's libqd calls +.
+// The reason why DoubleDouble does not use the + of Debian's libqd.
 TEST(DoubleDouble, LibqdsOwnSumHasNoRelativeBound) {
   // High parts that differ in the last bit, and low parts that almost make it up.
   const DoubleDouble a(dd_real(1, 0x1.fffffffffffffp-54));
@@ -90,27 +90,27 @@ TEST(DoubleDouble, NearTheEndsOfItsRangeItIsADouble) {
 }
 
 /// The rational number that this is.
-Rational exactly(const Bits& a) {
+Rational exactly(const MpfrFloat& a) {
   Rational value;
   mpfr_get_q(value.backend().data(), a.value());
   return value;
 }
 
-// Of the paper's model: every result is the exact one times 1 + d, |d| <= u; and it has no more digits.
-TEST(Bits, EveryOperationIsWithinHalfItsEpsilon) {
+// The paper's model: every result is the exact one times 1 + d, |d| <= u. And it has no more digits than set.
+TEST(MpfrFloat, EveryOperationIsWithinHalfItsEpsilon) {
   Random random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {
-    const int bits = random.integer(2, Bits::most);
-    const Bits::Precision precision(bits);
+    const int bits = random.integer(2, MpfrFloat::most);
+    const MpfrFloat::PrecisionScope precision(bits);
     const auto draw = [&] {  // all digits, and often near to 1
-      Bits value(1);
+      MpfrFloat value(1);
       for (int k = 0; k < random.integer(1, 6); ++k)
-        value += Bits(random.uniform(-1, 1)) * ldexp(Bits(1), random.integer(-bits, 0));
+        value += MpfrFloat(random.uniform(-1, 1)) * ldexp(MpfrFloat(1), random.integer(-bits, 0));
       return value;
     };
-    const Bits a = draw();
-    const Bits b = random.one_in(3) ? -a * draw() : draw();
-    const auto within = [&](const Bits& computed, const Rational& exact) {
+    const MpfrFloat a = draw();
+    const MpfrFloat b = random.one_in(3) ? -a * draw() : draw();
+    const auto within = [&](const MpfrFloat& computed, const Rational& exact) {
       EXPECT_LE(mpfr_min_prec(computed.value()), bits);
       return abs(exactly(computed) - exact) <= abs(exact) / (Rational(mp::mpz_int(1) << bits));
     };
@@ -141,7 +141,7 @@ Rational exactly(__float128 a) {
   return value;
 }
 
-// What the hardware does not do for us, and no standard says.
+// The root is computed in software, and no standard bounds its error.
 TEST(Quad, ItsRootIsWithinItsEpsilon) {
   const Rational eps = 1 / Rational(mp::mpz_int(1) << 112);
   Random random(3, 0, 0);
@@ -155,19 +155,19 @@ TEST(Quad, ItsRootIsWithinItsEpsilon) {
 }
 #endif
 
-TEST(Bits, AreThoseOfTheScope) {
-  const Bits::Precision outer(20);
-  EXPECT_EQ(static_cast<double>(epsilon<Bits>()), 0x1p-19);
+TEST(MpfrFloat, AreThoseOfTheScope) {
+  const MpfrFloat::PrecisionScope outer(20);
+  EXPECT_EQ(static_cast<double>(epsilon<MpfrFloat>()), 0x1p-19);
   {
-    const Bits::Precision inner(200);
-    EXPECT_EQ(static_cast<double>(epsilon<Bits>()), 0x1p-199);
-    EXPECT_NE(Bits(1) + 0x1p-150, Bits(1));
+    const MpfrFloat::PrecisionScope inner(200);
+    EXPECT_EQ(static_cast<double>(epsilon<MpfrFloat>()), 0x1p-199);
+    EXPECT_NE(MpfrFloat(1) + 0x1p-150, MpfrFloat(1));
   }
-  EXPECT_EQ(Bits(1) + 0x1p-25, Bits(1));
-  EXPECT_EQ(ilogb(Bits(-5)), 2);
-  EXPECT_EQ(static_cast<double>(abs(Bits(-0.1))), 0x1.9999ap-4);
-  EXPECT_FALSE(isfinite(Bits(std::numeric_limits<double>::infinity())));
-  const Bits not_a_number = Bits(0) / Bits(0);
+  EXPECT_EQ(MpfrFloat(1) + 0x1p-25, MpfrFloat(1));
+  EXPECT_EQ(ilogb(MpfrFloat(-5)), 2);
+  EXPECT_EQ(static_cast<double>(abs(MpfrFloat(-0.1))), 0x1.9999ap-4);
+  EXPECT_FALSE(isfinite(MpfrFloat(std::numeric_limits<double>::infinity())));
+  const MpfrFloat not_a_number = MpfrFloat(0) / MpfrFloat(0);
   EXPECT_FALSE(not_a_number == not_a_number || not_a_number <= 0 || not_a_number >= 0);
   EXPECT_TRUE(not_a_number != not_a_number);
 }
@@ -247,7 +247,7 @@ TEST(Ladder, The53BitsOfDoubleAnswerAsDoubleDoes) {
 }
 
 TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
-  // Above the triangle by less than float can tell.
+  // Above the triangle by less than an ulp of float.
   const Query query = testing::falling_vertex(0.25, 0.25, 1, 0x1p-40);
   Query moved = query;
   for (int i = 0; i < 4; ++i)

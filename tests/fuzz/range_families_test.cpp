@@ -9,22 +9,15 @@
 #include <limits>
 #include <string>
 
-#include "fuzz/families/families.hpp"
 #include "oracle/features.hpp"
+#include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {
 namespace {
 
+using testing::count_of_400;
 using ::testing::HasSubstr;
-
-/// How many of 400 queries are as they should be.
-template <class Property>
-int count(const std::string& name, const Property& property) {
-  const Family family = find_family(name);
-  int found = 0;
-  for (std::uint64_t i = 0; i < 400; ++i) found += property(make_query(family, 5, i)) ? 1 : 0;
-  return found;
-}
+using testing::largest_coordinate;
 
 /// The sum of the magnitudes of F's products of three differences from x0; or of products of two, in the
 /// component of the weights that leaves out an axis. An x87 long double has room for all of them.
@@ -61,25 +54,21 @@ bool products_are_about(const Query& query, int x) {
 TEST(Range, ProductsAreAsLargeAsTheParameterSays) {
   for (const char* name : {"near-overflow", "near-overflow-planted"})
     for (const int x : {1016, 1023, 1024, 1025})
-      EXPECT_GT(
-          count(fmt::format("{}@{}", name, x), [&](const Query& q) { return products_are_about(q, x); }), 380)
+      EXPECT_GT(count_of_400(fmt::format("{}@{}", name, x),
+                             [&](const Query& q) { return products_are_about(q, x); }),
+                380)
           << name << ' ' << x;
   for (const char* name : {"near-underflow", "near-underflow-planted"})
     for (const int x : {-1090, -1074, -1022, -1006})
-      EXPECT_GT(
-          count(fmt::format("{}@{}", name, x), [&](const Query& q) { return products_are_about(q, x); }), 380)
+      EXPECT_GT(count_of_400(fmt::format("{}@{}", name, x),
+                             [&](const Query& q) { return products_are_about(q, x); }),
+                380)
           << name << ' ' << x;
-}
-
-double largest_coordinate(const Query& query) {
-  double largest = 0;
-  for (const double c : query.x) largest = std::max(largest, std::abs(c));
-  return largest;
 }
 
 TEST(Range, CoordinatesAreOfEverySizeThatProductsOverflowAt) {
   const auto between = [&](double lo, double hi) {
-    return count("near-overflow@1023", [&](const Query& query) {
+    return count_of_400("near-overflow@1023", [&](const Query& query) {
       const double largest = largest_coordinate(query);
       return lo <= largest && largest < hi;
     });
@@ -93,7 +82,7 @@ TEST(Range, CoordinatesAreOfEverySizeThatProductsOverflowAt) {
 
 TEST(Range, SomeOfTheSumsOverflowAndOthersDoNot) {
   const auto overflowing = [](int x) {
-    return count("near-overflow@" + std::to_string(x), [](const Query& query) {
+    return count_of_400("near-overflow@" + std::to_string(x), [](const Query& query) {
       return sum_of_products(query, 3) > std::numeric_limits<double>::max();
     });
   };
@@ -104,7 +93,7 @@ TEST(Range, SomeOfTheSumsOverflowAndOthersDoNot) {
 TEST(Range, ContactIsPlantedAtEveryTimeAndPlace) {
   for (const char* name : {"near-overflow-planted", "near-underflow-planted"}) {
     std::string seen;
-    count(name, [&](const Query& query) {
+    count_of_400(name, [&](const Query& query) {
       seen += to_text(query.kind, contact_features(query).value()) + "\n";
       return true;
     });

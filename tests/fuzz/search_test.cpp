@@ -79,7 +79,7 @@ double farthest(const Subject& subject, std::uint64_t searches) {
 
 TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) { EXPECT_GT(farthest(*make_subject("wang"), 20), 0.9); }
 
-// Where primitives must be as small as what they are looked for.
+// Primitives must be as small as the bound.
 TEST(FarSearch, ComesNearTheBoundOfAFineScalarToo) {
   EXPECT_GT(farthest(*make_any_subject("wang-tight:p112"), 10), 0.9);
 }

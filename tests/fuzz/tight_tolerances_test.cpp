@@ -17,24 +17,24 @@ namespace nearmiss {
 namespace {
 
 namespace mp = boost::multiprecision;
-using Interval = CGAL::Interval_nt<>;
+using CgalInterval = CGAL::Interval_nt<>;
 
 template <unsigned bits>
-using Bits = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
+using BinaryFloat = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
 
-/// What a number surely lies in.
+/// An interval that surely contains a number.
 template <class T>
-Interval enclosure(const T& x) {
+CgalInterval enclosure(const T& x) {
   const auto near = static_cast<double>(x);
   return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
 }
 
 /// The values as they are computed, divided by the powers of B.
 template <class T>
-Tolerances<Interval> enclosed(const T& B) {
+Tolerances<CgalInterval> enclosed(const T& B) {
   const Tolerances<T> tol = tight_tolerances(B);
-  const Interval b = enclosure(B);
-  Tolerances<Interval> all;
+  const CgalInterval b = enclosure(B);
+  Tolerances<CgalInterval> all;
   all.delta = enclosure(tol.delta) / b / b;
   all.D2 = enclosure(tol.D2) / b / b;
   all.rho = enclosure(tol.rho) / b / b;
@@ -48,10 +48,10 @@ Tolerances<Interval> enclosed(const T& B) {
   return all;
 }
 
-void expect_constraints(const Tolerances<Interval>& tol, const Interval& eps, int exponent) {
+void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
   // Any E will do: the lower end of what allows most.
-  const Interval E = longest_short_edge(tol, errors).inf();
+  const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
 }
@@ -61,33 +61,33 @@ void expect_constraints_as_computed() {
   const int exponent = epsilon_exponent<T>;
   ASSERT_EQ(static_cast<double>(epsilon<T>()), std::ldexp(1.0, exponent));
   for (const double B : {1.0, 1.3, 1.9, 0.7})
-    expect_constraints(enclosed(T(B)), Interval(std::ldexp(1.0, exponent)), exponent);
+    expect_constraints(enclosed(T(B)), CgalInterval(std::ldexp(1.0, exponent)), exponent);
 }
 
 // To the last rounding of each, in interval arithmetic.
 TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
-  expect_constraints_as_computed<Bits<11>>();
-  expect_constraints_as_computed<Bits<12>>();
-  expect_constraints_as_computed<Bits<16>>();
+  expect_constraints_as_computed<BinaryFloat<11>>();
+  expect_constraints_as_computed<BinaryFloat<12>>();
+  expect_constraints_as_computed<BinaryFloat<16>>();
   expect_constraints_as_computed<float>();
-  expect_constraints_as_computed<Bits<32>>();
+  expect_constraints_as_computed<BinaryFloat<32>>();
   expect_constraints_as_computed<double>();
   expect_constraints_as_computed<long double>();
-  expect_constraints_as_computed<Bits<105>>();
-  expect_constraints_as_computed<Bits<113>>();
-  expect_constraints_as_computed<Bits<256>>();
+  expect_constraints_as_computed<BinaryFloat<105>>();
+  expect_constraints_as_computed<BinaryFloat<113>>();
+  expect_constraints_as_computed<BinaryFloat<256>>();
 }
 
 TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   for (int exponent = -10; exponent >= -255; --exponent) {
-    const Interval eps(std::ldexp(1.0, exponent));
-    expect_constraints(tolerances_of(solve_tight(exponent), eps, Interval(1)), eps, exponent);
+    const CgalInterval eps(std::ldexp(1.0, exponent));
+    expect_constraints(tolerances_of(solve_tight(exponent), eps, CgalInterval(1)), eps, exponent);
   }
 }
 
 /// The constraints as functions of the logarithms of τ, η, R, λ², D², both E, ψ and μ, in units of powers of
 /// e; ρ is given.
-struct Problem {
+struct ToleranceProblem {
   double eps;
   double rho;
 
@@ -115,19 +115,20 @@ struct Problem {
 /// The smallest D² that NLopt finds from a point that satisfies the constraints, but is far from ours.
 double lowest_D2(int exponent) {
   const ToleranceConstants c = solve_tight(exponent);
-  Problem problem{std::ldexp(1.0, exponent), c.rho};
+  ToleranceProblem problem{std::ldexp(1.0, exponent), c.rho};
   std::vector<double> x{std::log(c.tau),      std::log(c.eta), std::log(2 * c.S), std::log(0.5 * c.lambda2),
                         std::log(2.5 * c.D2), std::log(c.R),   std::log(c.R),     std::log(1.5 * c.psi),
                         std::log(1.5 * c.mu)};
   double log_D2 = 0;
   for (int again = 0; again < 4; ++again) {
-    nlopt::opt optimiser(nlopt::LN_COBYLA, Problem::variables);
+    nlopt::opt optimiser(nlopt::LN_COBYLA, ToleranceProblem::variables);
     optimiser.set_min_objective(
         [](unsigned /*count*/, const double* at, double* /*gradient*/, void* /*data*/) { return at[4]; },
         nullptr);
     optimiser.add_inequality_mconstraint(
         [](unsigned /*count*/, double* missing, unsigned /*variables*/, const double* at,
-           double* /*gradient*/, void* data) { static_cast<const Problem*>(data)->violations(at, missing); },
+           double* /*gradient*/,
+           void* data) { static_cast<const ToleranceProblem*>(data)->violations(at, missing); },
         &problem, std::vector<double>(constraint_count, 1e-9));
     optimiser.set_initial_step(0.1);
     optimiser.set_xtol_rel(1e-10);
@@ -162,8 +163,8 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// 64 ε^¾ >= 33492 ε, and nothing else, is what the closed forms break first of what the paper prints; what the
-// solver really needs of μ they break below 13 bits.
+// Among the constraints that the paper prints, the closed forms first violate 64 ε^¾ >= 33492 ε. Below 13 bits they
+// violate what the solver really needs of μ.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

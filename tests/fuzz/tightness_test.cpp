@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "ccd/error.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "oracle/oracle.hpp"
@@ -19,10 +21,16 @@ Extreme measure(const std::string& name) {
   TightnessPlan plan;
   plan.names = {name};
   plan.families = {find_family("planted-ulp"), find_family("near-parallel-edges")};
-  plan.time = 1ms;  // one wave
+  plan.time = 1h;
+  std::atomic<bool> stop{false};
   Extreme last;
   measure_tightness(
-      plan, [&](const Extreme& extreme, bool) { last = extreme; }, false);
+      plan,
+      [&](const Extreme& extreme, bool) {
+        last = extreme;
+        stop = true;  // after one wave
+      },
+      stop);
   return last;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fuzz/random.hpp"
-#include "fuzz/subjects/ladder/bits.hpp"
+#include "fuzz/subjects/ladder/mpfr_float.hpp"
 
 namespace nearmiss::proofs {
 
@@ -37,7 +37,7 @@ double highest(const Climb& climb, const Draw& draw, const Change& change, const
 }
 
 /// The nearest number of the thread's precision.
-inline double snapped(double x) { return static_cast<double>(Bits(x)); }
+inline double snapped(double x) { return static_cast<double>(MpfrFloat(x)); }
 
 /// u of a number of bits.
 inline double roundoff(int bits) { return std::ldexp(1.0, -bits); }

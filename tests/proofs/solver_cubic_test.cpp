@@ -24,10 +24,10 @@ Cubic<T> cubic(const Coefficients& k) {
 
 /// 0, the computed critical points, and 1.
 std::vector<double> nodes_of(const Coefficients& k) {
-  Times<Bits, 2> critical;
-  detail::find_critical_times(critical, cubic<Bits>(k));
+  Times<MpfrFloat, 2> critical;
+  detail::find_critical_times(critical, cubic<MpfrFloat>(k));
   std::vector<double> nodes{0};
-  for (const Bits& t : critical) nodes.push_back(static_cast<double>(t));
+  for (const MpfrFloat& t : critical) nodes.push_back(static_cast<double>(t));
   nodes.push_back(1);
   return nodes;
 }
@@ -91,7 +91,7 @@ Coefficients changed(Random& random, Coefficients k, int bits) {
 
 template <class Value>
 double highest_of(int bits, const Climb& climb, const char* name, const Value& value) {
-  const Bits::Precision precision(bits);
+  const MpfrFloat::PrecisionScope precision(bits);
   const double found = highest(
       climb, drawn, [&](Random& random, const Coefficients& k) { return changed(random, k, bits); },
       [&](const Coefficients& k) { return value(k, bits); });
@@ -113,7 +113,7 @@ TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
 TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
   // u = 2^-4 is too large for the formula of second order, which has no meaning there; the first one is enough.
   constexpr int bits = 4;
-  const Bits::Precision precision(bits);
+  const MpfrFloat::PrecisionScope precision(bits);
   std::vector<double> all{0};
   for (int exponent = -2; exponent <= 1; ++exponent)
     for (int i = 8; i < 16; ++i)
@@ -150,12 +150,12 @@ double horner(double u) {
 double nearer_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
-  const Cubic<Bits> computed = cubic<Bits>(k);
+  const Cubic<MpfrFloat> computed = cubic<MpfrFloat>(k);
   const auto nodes = nodes_of(k);
   double seen = 0;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const auto left = static_cast<double>(computed(Bits(nodes[i])));
-    const auto right = static_cast<double>(computed(Bits(nodes[i + 1])));
+    const auto left = static_cast<double>(computed(MpfrFloat(nodes[i])));
+    const auto right = static_cast<double>(computed(MpfrFloat(nodes[i + 1])));
     const double sign = left < 0 ? -1 : 1;
     for (const double t : places_between(k, nodes[i], nodes[i + 1]))
       seen = std::max(seen, std::min(sign * left, sign * right) - sign * F(t));
@@ -175,9 +175,9 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));
-  const Cubic<Bits> computed = cubic<Bits>(k);
+  const Cubic<MpfrFloat> computed = cubic<MpfrFloat>(k);
   double seen = 0;
-  for (const Bits& t : solve_cubic(computed, Bits(mu)))
+  for (const MpfrFloat& t : solve_cubic(computed, MpfrFloat(mu)))
     seen = std::max(seen, std::abs(static_cast<double>(computed(t))));
   return seen / mu;
 }

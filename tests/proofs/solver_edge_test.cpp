@@ -67,10 +67,10 @@ std::vector<Place> places_of(const Problem& p, double rho) {
   const auto add = [&](double t, bool candidate) { places.push_back({t, candidate, 0}); };
   add(0, true);
   add(1, true);
-  const auto coarse_edge = p.moving<Bits>(6);
-  const detail::CrossProduct<Bits> coarse(p.moving<Bits>(0), coarse_edge, Bits(rho));
-  for (const Bits& t : detail::zero_components(coarse)) add(static_cast<double>(t), true);
-  for (const Bits& t : detail::piece_minima(coarse, coarse_edge, Bits(p.S)))
+  const auto coarse_edge = p.moving<MpfrFloat>(6);
+  const detail::CrossProduct<MpfrFloat> coarse(p.moving<MpfrFloat>(0), coarse_edge, MpfrFloat(rho));
+  for (const MpfrFloat& t : detail::zero_components(coarse)) add(static_cast<double>(t), true);
+  for (const MpfrFloat& t : detail::piece_minima(coarse, coarse_edge, MpfrFloat(p.S)))
     add(static_cast<double>(t), true);
 
   const auto vertex = p.moving<double>(0);
@@ -111,7 +111,7 @@ double rise_ratio(const Problem& p, int bits, double rho) {
 }
 
 double highest_rise(int bits, double rho, const Climb& climb) {
-  const Bits::Precision precision(bits);
+  const MpfrFloat::PrecisionScope precision(bits);
   const double found = highest(
       climb, drawn, [&](Random& random, const Problem& p) { return changed(random, p, bits); },
       [&](const Problem& p) { return rise_ratio(p, bits, rho); });
@@ -184,17 +184,17 @@ std::optional<Problem> within_R(Random& random, double R) {
 
 TEST(ProofsSolverEdge, EveryVertexWithinRIsReported) {
   for (const int bits : {11, 16, 24, 40}) {
-    const Bits::Precision precision(bits);
-    const auto tol = tolerances_of(solve_tight(1 - bits), epsilon<Bits>(), Bits(1));
+    const MpfrFloat::PrecisionScope precision(bits);
+    const auto tol = tolerances_of(solve_tight(1 - bits), epsilon<MpfrFloat>(), MpfrFloat(1));
     const auto R = static_cast<double>(tol.S) / std::sqrt(8);
     int reported_by_edge = 0;
     for (std::uint64_t i = 0; i < 20000; ++i) {
       Random random(9, static_cast<std::uint64_t>(bits), i);
       const auto p = within_R(random, R);
       if (!p) continue;
-      const auto vertex = p->moving<Bits>(0);
-      const auto edge = p->moving<Bits>(6);
-      const VertexEdge<Bits> ve{vertex, edge, {vertex.xv - edge.xv}};
+      const auto vertex = p->moving<MpfrFloat>(0);
+      const auto edge = p->moving<MpfrFloat>(6);
+      const VertexEdge<MpfrFloat> ve{vertex, edge, {vertex.xv - edge.xv}};
       const Verdict verdict = vertex_edge(ve, tol);
       ASSERT_TRUE(verdict.hit) << bits << " bits, " << i;
       if (verdict.stage != Stage::vv) ++reported_by_edge;

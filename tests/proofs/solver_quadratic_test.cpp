@@ -22,8 +22,8 @@ using Quadratic = std::array<double, 3>;
 /// The c' that the rounding of b² and of 4ac makes of c; for all products of doubles here Real is exact.
 Real constant_of_roots(const Quadratic& p) {
   const auto [a, b, c] = p;
-  const Bits square = Bits(b) * Bits(b);
-  const Bits product = 4 * Bits(a) * Bits(c);
+  const MpfrFloat square = MpfrFloat(b) * MpfrFloat(b);
+  const MpfrFloat product = 4 * MpfrFloat(a) * MpfrFloat(c);
   const Real b2 = Real(b) * b;
   const Real of_product = c == 0 ? Real(1) : Real(static_cast<double>(product)) / (4 * Real(a) * c);
   const Real of_square = b == 0 ? Real(1) : b2 / static_cast<double>(square);
@@ -46,8 +46,8 @@ Distances distances(const Quadratic& p, int bits) {
   if (c != 0) all.constant = std::abs(static_cast<double>(changed / c - 1)) / errors.constant;
   const Real disc = Real(b) * b - 4 * Real(a) * changed;
   if (disc < 0) return all;
-  Times<Bits, 2> times;
-  solve_quadratic(times, Bits(a), Bits(b), Bits(c));
+  Times<MpfrFloat, 2> times;
+  solve_quadratic(times, MpfrFloat(a), MpfrFloat(b), MpfrFloat(c));
   for (const int sign : {1, -1}) {
     const Real root = (-b + sign * sqrt(disc)) / (2 * Real(a));
     if (root < 0 || root > 1) continue;
@@ -55,7 +55,7 @@ Distances distances(const Quadratic& p, int bits) {
       return static_cast<double>(root == 0 ? Real(abs(time)) : Real(abs(time / root - 1)));
     };
     double nearest = apart(1);  // t = 1 stands for a root that comes out beyond
-    for (const Bits& t : times) nearest = std::min(nearest, apart(Real(static_cast<double>(t))));
+    for (const MpfrFloat& t : times) nearest = std::min(nearest, apart(Real(static_cast<double>(t))));
     all.factor = std::max(all.factor, nearest / errors.factor);
   }
   return all;
@@ -72,7 +72,7 @@ std::vector<double> all_numbers(int bits, int lowest, int highest) {
 
 TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
   constexpr int bits = 3;
-  const Bits::Precision precision(bits);
+  const MpfrFloat::PrecisionScope precision(bits);
   const auto all = all_numbers(bits, -2, 1);
   Distances worst;
   for (const double a : all) {
@@ -93,7 +93,7 @@ TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
 
 /// The largest of one distance that is found.
 double highest_distance(int bits, double Distances::*which) {
-  const Bits::Precision precision(bits);
+  const MpfrFloat::PrecisionScope precision(bits);
   const auto rounded = [](Quadratic p) {
     for (double& x : p) x = snapped(x);
     return p;

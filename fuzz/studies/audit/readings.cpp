@@ -21,15 +21,15 @@ constexpr Kind ee = Kind::edge_edge;
 
 double magnitude(const Rational& x) { return std::abs(static_cast<double>(x)); }
 
-/// A value, with operations that err by ω = roundings ε.
-Reading reading(const Number& f, const Sample& s, double omega = 1) {
+/// The error of a value, with operations that err by ω ε.
+Reading reading(const AuditedRational& f, const AuditSample& s, double omega = 1) {
   const ErrorBound& bound = f.bound();
   return {omega * bound.error(), magnitude(f.error()) / (std::pow(s.B, bound.degree) * eps), bound};
 }
 
 /// Both sides of a comparison.
-using Comparison = std::pair<Number, Number>;
-Reading reading(const Comparison& c, const Sample& s, double omega = 1) {
+using ComparedSides = std::pair<AuditedRational, AuditedRational>;
+Reading reading(const ComparedSides& c, const AuditSample& s, double omega = 1) {
   const ErrorBound a = c.first.bound();
   const ErrorBound b = c.second.bound();
   const int degree = a.coefficient > 0 ? a.degree : b.degree;
@@ -44,11 +44,9 @@ Reading larger(const Reading& a, const Reading& b) {
   return sum;
 }
 
-using Comparisons = std::vector<Comparison>;
-
-Tolerances<Number> thresholds(const Sample& s) {
-  Tolerances<Number> tol{};
-  for (Number* area : {&tol.tau, &tol.psi, &tol.lambda2, &tol.D2, &tol.delta, &tol.rho})
+Tolerances<AuditedRational> thresholds(const AuditSample& s) {
+  Tolerances<AuditedRational> tol{};
+  for (AuditedRational* area : {&tol.tau, &tol.psi, &tol.lambda2, &tol.D2, &tol.delta, &tol.rho})
     *area = threshold(0, 2);
   tol.eta = threshold(s.eta, 1);
   tol.S = threshold(s.S, 1);
@@ -56,25 +54,25 @@ Tolerances<Number> thresholds(const Sample& s) {
 }
 
 /// The computed coefficients, taken as exact.
-Cubic<Number> as_exact(const Cubic<Number>& F) {
-  const auto exact = [](const Number& c) {
-    return Number(c.value(), c.value(), {c.bound().coefficient, c.bound().degree, 0});
+Cubic<AuditedRational> as_exact(const Cubic<AuditedRational>& F) {
+  const auto exact = [](const AuditedRational& c) {
+    return AuditedRational(c.value(), c.value(), {c.bound().coefficient, c.bound().degree, 0});
   };
   return {exact(F.a), exact(F.b), exact(F.c), exact(F.d)};
 }
 
 /// Area, height, weight and its comparison with N·N.
 template <Kind kind>
-Readings configuration(const Pair<kind, Number>& pair, const Sample& s, double omega) {
-  const Configuration<kind, Number> configuration(pair, exact_time(s.t));
-  Comparisons kept;
+Readings configuration(const Pair<kind, AuditedRational>& pair, const AuditSample& s, double omega) {
+  const Configuration<kind, AuditedRational> configuration(pair, exact_time(s.t));
+  std::vector<ComparedSides> kept;
   const ComparisonLog<Rational> log(kept);
   std::ignore = configuration.well_shaped(thresholds(s), log);
   const Reading area = reading(kept.at(0), s, omega);
   const Reading height = reading(kept.at(1), s, omega);
   kept.clear();
   std::ignore = configuration.inside(log);
-  // Of a triangle the third is the sum of the others, whose comparison is the worst.
+  // The third weight of a triangle is the sum of the others; its comparison has the largest error.
   Reading weight = larger(reading(kept.at(0), s, omega), reading(kept.at(2), s, omega));
   Reading criterion = larger(reading(kept.at(1), s, omega), reading(kept.at(3), s, omega));
   if constexpr (kind == vt) criterion = larger(criterion, reading(kept.at(5), s, omega));
@@ -82,32 +80,32 @@ Readings configuration(const Pair<kind, Number>& pair, const Sample& s, double o
 }
 }  // namespace
 
-Readings coefficients(const Sample& s) {
+Readings coefficients(const AuditSample& s) {
   const auto F = coplanarity(exact_pair<vt>(s));
   return {larger(reading(F.a, s), reading(F.d, s)), larger(reading(F.b, s), reading(F.c, s))};
 }
 
-Readings cubic_value(const Sample& s) {
+Readings cubic_value(const AuditSample& s) {
   return {reading(coplanarity(exact_pair<vt>(s))(exact_time(s.t)), s)};
 }
 
 template <Kind kind>
-Readings exact_configuration(const Sample& s) {
+Readings exact_configuration(const AuditSample& s) {
   return configuration(exact_pair<kind>(s), s, 1);
 }
-Readings far_configuration(const Sample& s) {
+Readings far_configuration(const AuditSample& s) {
   const Readings all = exact_configuration<ee>(s);
   return {all[2], all[3]};
 }
 template <Kind kind>
-Readings rounded_configuration(const Sample& s) {
+Readings rounded_configuration(const AuditSample& s) {
   Readings all = configuration(rounded_pair<kind>(*s.query), s, 0.5);
-  all.push_back(all.back());  // as `weight_error`
+  all.push_back(all.back());  // again, for `weight_error`
   return all;
 }
 
 template <Kind kind>
-Readings rounded_cubic(const Sample& s) {
+Readings rounded_cubic(const AuditSample& s) {
   auto pair = rounded_pair<kind>(*s.query);
   const auto F = coplanarity(pair);
   detail::form_bound(pair);
@@ -115,17 +113,17 @@ Readings rounded_cubic(const Sample& s) {
           reading(pair.B, s, 0.5)};
 }
 
-Readings near_edge(const Sample& s) {
-  const Moving<Number> a = exactly(s.p, s.reach);
-  Comparisons kept;
-  detail::near_edge(VertexEdge<Number>{a, exactly(s.q), a}, exact_time(s.t), thresholds(s),
+Readings near_edge(const AuditSample& s) {
+  const Moving<AuditedRational> a = exactly(s.p, s.reach);
+  std::vector<ComparedSides> kept;
+  detail::near_edge(VertexEdge<AuditedRational>{a, exactly(s.q), a}, exact_time(s.t), thresholds(s),
                     ComparisonLog<Rational>(kept));
   return {reading(kept.at(0), s), reading(kept.at(1), s), reading(kept.at(2), s), reading(kept.at(3), s)};
 }
 
-Readings quadratic_residual(const Sample& s) {
+Readings quadratic_residual(const AuditSample& s) {
   const double rho = 3 * std::sqrt(eps) * s.B * s.B;
-  const detail::CrossProduct<Number> g(exactly(s.p, s.reach), exactly(s.q), threshold(rho, 2));
+  const detail::CrossProduct<AuditedRational> g(exactly(s.p, s.reach), exactly(s.q), threshold(rho, 2));
   double kappa = 0;
   double seen = 0;
   for (int k = 0; k < 3; ++k) {
@@ -146,8 +144,8 @@ Readings quadratic_residual(const Sample& s) {
 namespace {
 
 /// `candidate_error` of a sample, in units of B²ε, for S in units of B.
-double candidate_bound(const Sample& s, double S) {
-  const detail::CrossProduct<Number> g(exactly(s.p, s.reach), exactly(s.q), threshold(0, 2));
+double candidate_bound(const AuditSample& s, double S) {
+  const detail::CrossProduct<AuditedRational> g(exactly(s.p, s.reach), exactly(s.q), threshold(0, 2));
   double kappa = 0;
   double a = 0;
   double b = 0;
@@ -162,7 +160,7 @@ double candidate_bound(const Sample& s, double S) {
 
 }  // namespace
 
-Readings missed_minimum(const Sample& s) {
+Readings missed_minimum(const AuditSample& s) {
   const double root_eps = std::sqrt(eps);
   const double unit = s.B * s.B * root_eps;
   const double S = 18 * s.B * std::sqrt(std::sqrt(eps));
@@ -197,13 +195,13 @@ Readings missed_minimum(const Sample& s) {
   return {{derived, seen, {}, false}, {derived + F_error, seen, {}, false}};
 }
 
-Readings vertex_vertex_time(const Sample& s) {
-  const Moving<Number> ji = exactly(s.p, s.reach);
+Readings vertex_vertex_time(const AuditSample& s) {
+  const Moving<AuditedRational> ji = exactly(s.p, s.reach);
   const Reading m = reading(ji.x().dot(ji.v()), s);
   const Reading n = reading(ji.v().dot(ji.v()), s);
-  Comparisons kept;
+  std::vector<ComparedSides> kept;
   const auto t = vertex_vertex(ji, thresholds(s), ComparisonLog<Rational>(kept));
-  const Number& squared = kept.at(0).first;
+  const AuditedRational& squared = kept.at(0).first;
   const Rational there = ji.at(exact_time(t->value())).squaredNorm().exact() - squared.exact();
   const double area = s.B * s.B * eps;
   const double b = max_component(s.p.v());
@@ -219,14 +217,14 @@ Readings vertex_vertex_time(const Sample& s) {
           {moved + evaluation, magnitude(squared.error()) / area, {}, false}};
 }
 
-Readings far_vertices(const Sample& s) { return {vertex_vertex_time(s).back()}; }
+Readings far_vertices(const AuditSample& s) { return {vertex_vertex_time(s).back()}; }
 
-Readings cubic_residual(const Sample& s) {
+Readings cubic_residual(const AuditSample& s) {
   const auto F = coplanarity(exact_pair<vt>(s));
-  const Cubic<Number> taken = as_exact(F);
+  const Cubic<AuditedRational> taken = as_exact(F);
   double coefficients = 0;
-  for (const Number* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
-  const auto bound = [](const Number& c) { return c.bound().coefficient; };
+  for (const AuditedRational* c : {&F.a, &F.b, &F.c, &F.d}) coefficients += c->bound().error();
+  const auto bound = [](const AuditedRational& c) { return c.bound().coefficient; };
   const double horner = horner_error(bound(taken.a), bound(taken.b), bound(taken.c), bound(taken.d));
   double seen = 0;
   const Cubic<double> computed{F.a.value(), F.b.value(), F.c.value(), F.d.value()};
@@ -237,19 +235,20 @@ Readings cubic_residual(const Sample& s) {
   return {{cubic_error(coefficients, horner, bound(taken.c)), seen}};
 }
 
-Readings weight_spread(const Sample& s) {
+Readings weight_spread(const AuditSample& s) {
   const auto pair = exact_pair<ee>(s);
-  const Configuration<ee, Number> configuration(pair, exact_time(s.t));
+  const Configuration<ee, AuditedRational> configuration(pair, exact_time(s.t));
   double seen = 0;
-  for (const Number& w : configuration.weights) seen = std::max(seen, std::abs(w.value()) / std::pow(s.B, 4));
+  for (const AuditedRational& w : configuration.weights)
+    seen = std::max(seen, std::abs(w.value()) / std::pow(s.B, 4));
   return {{9, seen, {}, false}};
 }
 
-template Readings exact_configuration<vt>(const Sample&);
-template Readings exact_configuration<ee>(const Sample&);
-template Readings rounded_configuration<vt>(const Sample&);
-template Readings rounded_configuration<ee>(const Sample&);
-template Readings rounded_cubic<vt>(const Sample&);
-template Readings rounded_cubic<ee>(const Sample&);
+template Readings exact_configuration<vt>(const AuditSample&);
+template Readings exact_configuration<ee>(const AuditSample&);
+template Readings rounded_configuration<vt>(const AuditSample&);
+template Readings rounded_configuration<ee>(const AuditSample&);
+template Readings rounded_cubic<vt>(const AuditSample&);
+template Readings rounded_cubic<ee>(const AuditSample&);
 
 }  // namespace nearmiss::audit_parts

@@ -29,7 +29,7 @@ double draw_time(Random& random) {
 
 }  // namespace
 
-bool Sample::within_bounds() const {
+bool AuditSample::within_bounds() const {
   const auto within = [this](const Moving<double>& m, double size) {
     const double most = size * B * (1 - 8 * epsilon<double>());
     return max_component(m.x()) <= most && max_component(m.v()) <= B * (1 - 8 * epsilon<double>()) &&
@@ -38,8 +38,8 @@ bool Sample::within_bounds() const {
   return B > 0 && within(p, reach) && within(q, 1) && within(r, 1);
 }
 
-Sample draw_sample(Random& random, double reach) {
-  Sample sample;
+AuditSample draw_sample(Random& random, double reach) {
+  AuditSample sample;
   sample.reach = reach;
   for (int i = 0; i < 3; ++i) {
     draw_component(random, sample.p, i, reach);
@@ -52,8 +52,8 @@ Sample draw_sample(Random& random, double reach) {
   return sample;
 }
 
-Sample changed(Random& random, const Sample& sample) {
-  Sample next = sample;
+AuditSample changed(Random& random, const AuditSample& sample) {
+  AuditSample next = sample;
   for (int count = random.integer(1, 3); count > 0; --count) {
     const int which = random.integer(0, 10);
     if (which == 9) {
@@ -76,8 +76,8 @@ Sample changed(Random& random, const Sample& sample) {
   return next.t <= 1 && next.within_bounds() ? next : sample;
 }
 
-std::optional<Sample> sample_of(const Query& query, Random& random) {
-  Sample sample;
+std::optional<AuditSample> sample_of(const Query& query, Random& random) {
+  AuditSample sample;
   const auto fill = [&](const auto& pair) {
     sample.p = pair.p;
     sample.q = pair.q;
@@ -96,15 +96,15 @@ std::optional<Sample> sample_of(const Query& query, Random& random) {
   return sample;
 }
 
-Moving<Number> exactly(const Moving<double>& vector, double reach) {
-  Moving<Number> leaves;
+Moving<AuditedRational> exactly(const Moving<double>& vector, double reach) {
+  Moving<AuditedRational> leaves;
   for (int i = 0; i < 6; ++i) leaves.xv[i] = {vector.xv[i], vector.xv[i], {i < 3 ? reach : 1, 1, 0}};
   return leaves;
 }
 
-Moving<Number> rounded(const Query& query, int a, int b) {
+Moving<AuditedRational> rounded(const Query& query, int a, int b) {
   const Moving<double> vector = relative_motion<double>(query, a, b);
-  Moving<Number> leaves;
+  Moving<AuditedRational> leaves;
   const auto difference = [&](int time, int i) {
     const auto at = [&](int vertex) {
       return Rational(query.x[static_cast<std::size_t>(12 * time + 3 * vertex + i)]);

@@ -1,4 +1,4 @@
-// What the audit computes with: relative vectors in double and, to the last bit, what they stand for.
+// Relative vectors for the audit, in double and as exact numbers.
 #pragma once
 
 #include <boost/multiprecision/gmp.hpp>
@@ -11,48 +11,48 @@ namespace nearmiss::audit_parts {
 
 namespace mp = boost::multiprecision;
 using Rational = mp::number<mp::gmp_rational, mp::et_off>;
-using Number = Audited<Rational>;
+using AuditedRational = Audited<Rational>;
 
-/// Three moving vectors, a time, and the bound B that holds for all of them at all times, but for p, which is
-/// within `reach` B. Made of a query, or of any vectors, which then are exact.
-struct Sample {
+/// Three moving vectors, a time, and a bound B of q and r at all times; p is within `reach` B. The vectors are those of
+/// a query, or any vectors, which then are exact.
+struct AuditSample {
   Moving<double> p, q, r;
   double t = 0;
   double B = 1;
-  double eta = 1, S = 1;  ///< thresholds that are factors: at most B
+  double eta = 1, S = 1;  ///< thresholds that are factors in a comparison; at most B
   double reach = 1;
-  std::optional<Query> query;  ///< that they are the relative vectors of, in its own unit of length
+  std::optional<Query> query;  ///< the query that the vectors are of, in its own unit of length
 
   [[nodiscard]] bool within_bounds() const;
 };
 
-/// Vectors with components up to 1, that one hill climb or another begins with.
-Sample draw_sample(Random& random, double reach);
-/// A step from it.
-Sample changed(Random& random, const Sample& sample);
-/// The relative vectors of a query with a random time, where they are within bounds.
-std::optional<Sample> sample_of(const Query& query, Random& random);
+/// Random vectors with components up to 1, as starts of a hill climb.
+AuditSample draw_sample(Random& random, double reach);
+/// A random step from a sample.
+AuditSample changed(Random& random, const AuditSample& sample);
+/// The relative vectors of a query with a random time; nothing if they are not within bounds.
+std::optional<AuditSample> sample_of(const Query& query, Random& random);
 
 /// A computed vector taken as exact (§4).
-Moving<Number> exactly(const Moving<double>& vector, double reach = 1);
+Moving<AuditedRational> exactly(const Moving<double>& vector, double reach = 1);
 
-/// The same with the rounding that made it from the coordinates (§5), in units of u: a position has one, a
-/// velocity three of B (two positions and their difference). Both differences x_a - x_b are within B.
-Moving<Number> rounded(const Query& query, int a, int b);
+/// The vector x_a - x_b of a query with its rounding (§5), in units of u: a position has one rounding, a velocity three
+/// of B (two positions and their difference). Both differences x_a - x_b are within B.
+Moving<AuditedRational> rounded(const Query& query, int a, int b);
 
-/// F(t) and the configuration are functions of these.
+/// The vectors of which F(t) and the configuration are functions.
 template <Kind kind>
-Pair<kind, Number> exact_pair(const Sample& s) {
-  Pair<kind, Number> pair;
+Pair<kind, AuditedRational> exact_pair(const AuditSample& s) {
+  Pair<kind, AuditedRational> pair;
   pair.p = exactly(s.p, s.reach);
   pair.q = exactly(s.q);
   pair.r = exactly(s.r);
   return pair;
 }
 template <Kind kind>
-Pair<kind, Number> rounded_pair(const Query& query) {
+Pair<kind, AuditedRational> rounded_pair(const Query& query) {
   constexpr bool vt = kind == Kind::vertex_triangle;
-  Pair<kind, Number> pair;
+  Pair<kind, AuditedRational> pair;
   pair.p = vt ? rounded(query, 0, 1) : rounded(query, 2, 0);
   pair.q = vt ? rounded(query, 2, 1) : rounded(query, 1, 0);
   pair.r = vt ? rounded(query, 3, 1) : rounded(query, 3, 2);
@@ -60,9 +60,9 @@ Pair<kind, Number> rounded_pair(const Query& query) {
 }
 
 /// A time in [0, 1].
-inline Number exact_time(double t) { return {t, t, {1, 0, 0}}; }
+inline AuditedRational exact_time(double t) { return {t, t, {1, 0, 0}}; }
 
-/// A threshold of a degree, exact, that is at most B^degree.
-inline Number threshold(double value, int degree) { return {value, value, {1, degree, 0}}; }
+/// An exact threshold of at most B^degree.
+inline AuditedRational threshold(double value, int degree) { return {value, value, {1, degree, 0}}; }
 
 }  // namespace nearmiss::audit_parts

@@ -1,4 +1,4 @@
-// What the tolerances promise for each machine epsilon.
+// The distance bounds that the tolerances promise for each machine epsilon.
 #pragma once
 
 #include <string_view>
@@ -9,22 +9,21 @@
 
 namespace nearmiss {
 
-/// Closed forms of the paper, and the solved ones, for ε = 2^exponent. Lengths in units of B ε^¼.
+/// The paper's closed forms and the smallest tolerances for ε = 2^exponent. Lengths in units of B ε^¼.
 struct ToleranceRow {
   int exponent = 0;
   std::string_view scalars;
   ToleranceConstants tight{};
   double paper_bound = 0;
   double tight_bound = 0;
-  double relative_bound = 0;  ///< the tight one in units of B
-  std::string_view
-      paper_breaks;  ///< the constraint that the closed forms do not satisfy; none where it is empty
-  std::string_view printed_breaks;  ///< the same with the errors as the paper prints them
+  double relative_bound = 0;        ///< the tight one in units of B
+  std::string_view paper_breaks;    ///< the first constraint that the closed forms violate; empty if none
+  std::string_view printed_breaks;  ///< the same with the errors that the paper prints
 };
 
 std::vector<ToleranceRow> tolerance_table();
 
-/// The E that allows most: squared, four times R² - r², with R² = S²/8 as in `constraints`.
+/// The E for which the constraints allow most: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
 template <class Number>
 Number longest_short_edge(const Tolerances<Number>& tol, const RoundingErrors<Number>& errors) {
   using std::sqrt;

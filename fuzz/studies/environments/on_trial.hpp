@@ -1,11 +1,11 @@
-// What a plug-in of this folder asks of the CCD that it holds.
+// The functions that a plug-in of this folder calls of its CCD.
 #pragma once
 
 #include "ccd/query.hpp"
 
 namespace nearmiss::environments {
 
-/// In whatever arithmetic it is called. May throw.
+/// Decides in the caller's arithmetic. May throw.
 bool collides(const Query& query);
 
 /// The largest distance that a false positive may have.

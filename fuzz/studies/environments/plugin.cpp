@@ -1,5 +1,5 @@
-// One of our own CCDs behind the plug-in interface, in one mode of the processor: ROUNDING, and FLUSH where
-// results and operands that are subnormal are zero. It is set around each test, and the caller's comes back.
+// One of our own CCDs behind the plug-in interface, in one mode of the processor: ROUNDING, and with FLUSH subnormal
+// results and operands become zero. The mode is set for each test, and the caller's is restored.
 #include <algorithm>
 #include <cfenv>
 #include <exception>

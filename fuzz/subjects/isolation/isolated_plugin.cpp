@@ -7,40 +7,37 @@
 
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
+#include "fuzz/subjects/batch_subject.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using isolation::Failure;
-using isolation::Limits;
-using isolation::Order;
+using isolation::PluginLimits;
+using isolation::Request;
 using isolation::Shared;
+using isolation::WorkerFailure;
 using isolation::WorkerProcess;
 
-class IsolatedPlugin final : public Subject {
+class IsolatedPlugin final : public BatchSubject {
  public:
-  IsolatedPlugin(std::string path, const Limits& limits) : path_(std::move(path)), limits_(limits) {
-    idle_.push_back(std::make_unique<WorkerProcess>(path_, limits_));
-    name_ = idle_.back()->shared().name.data();
-    claims_bound_ = idle_.back()->shared().claims_bound;
+  /// `first` is a worker with the plug-in at the path.
+  IsolatedPlugin(std::string path, const PluginLimits& limits, std::unique_ptr<WorkerProcess> first)
+      : BatchSubject(first->shared().name.data()),
+        path_(std::move(path)),
+        limits_(limits),
+        claims_bound_(first->shared().claims_bound) {
+    idle_.push_back(std::move(first));
   }
 
-  [[nodiscard]] const std::string& name() const override { return name_; }
-
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    Verdict verdict;
-    decide(std::span(&query, 1), std::span(&verdict, 1));
-    return verdict;
-  }
-
+  using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    have_done(Order::decide, queries, [&](const Part& part) { part.answer(verdicts); });
+    perform(Request::decide, queries, [&](const BatchPart& part) { part.answer(verdicts); });
   }
 
   BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     BatchTime sum;
-    have_done(Order::decide_timed, queries, [&](const Part& part) {
+    perform(Request::decide_timed, queries, [&](const BatchPart& part) {
       part.answer(verdicts);
       if (part.failure) return;
       sum.queries += part.end - part.first;
@@ -51,7 +48,7 @@ class IsolatedPlugin final : public Subject {
 
   void time_each(std::span<const Query> queries,
                  std::span<std::optional<std::uint64_t>> nanoseconds) const override {
-    have_done(Order::time_each, queries, [&](const Part& part) {
+    perform(Request::time_each, queries, [&](const BatchPart& part) {
       for (std::uint32_t i = part.first; i < part.end; ++i)
         nanoseconds[part.start + i] = part.shared.answers[i].nanoseconds;
       if (part.failure) nanoseconds[part.start + part.end].reset();
@@ -63,14 +60,14 @@ class IsolatedPlugin final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     std::unique_ptr<WorkerProcess> worker = take();
     fill(worker->shared(), std::span(&query, 1));
-    if (worker->obey(Order::bounds)) return std::numeric_limits<double>::quiet_NaN();
+    if (worker->perform(Request::bounds)) return std::numeric_limits<double>::quiet_NaN();
     const double bound = worker->shared().answers[0].number;
     give_back(std::move(worker));
     return bound;
   }
 
  private:
-  /// As many as are of one kind and have room.
+  /// The size of the next batch: queries of one kind, up to batch_size.
   static std::size_t batch_at(std::span<const Query> queries) {
     std::size_t count = 1;
     while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == queries[0].kind)
@@ -83,17 +80,17 @@ class IsolatedPlugin final : public Subject {
     shared.first = 0;
     shared.count = static_cast<std::uint32_t>(queries.size());
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (!is_finite(queries[i])) refuse_coordinates(name_);
+      if (!is_finite(queries[i])) refuse_coordinates(name());
       shared.queries[i] = queries[i].x;
     }
   }
 
-  /// What one worker has done of a batch: its queries [first, end), and a failure at `end` if it ended there.
-  struct Part {
+  /// The part of a batch that one worker did: queries [first, end), and a failure at `end` if the worker ended there.
+  struct BatchPart {
     const Shared& shared;
-    std::size_t start;  ///< of the batch, among all queries
+    std::size_t start;  ///< index of the batch's first query among all queries
     std::uint32_t first, end;
-    const std::optional<Failure>& failure;
+    const std::optional<WorkerFailure>& failure;
 
     void answer(std::span<Verdict> verdicts) const {
       for (std::uint32_t i = first; i < end; ++i)
@@ -102,18 +99,18 @@ class IsolatedPlugin final : public Subject {
     }
   };
 
-  /// Has all queries done, with a new worker behind each at which one ended.
+  /// Has all queries done, with a new worker after each query at which one ended.
   template <class Take>
-  void have_done(Order order, std::span<const Query> queries, const Take& take_part) const {
+  void perform(Request request, std::span<const Query> queries, const Take& take_part) const {
     std::unique_ptr<WorkerProcess> worker = take();
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
       fill(worker->shared(), batch);
       for (std::uint32_t first = 0; first < batch.size();) {
         worker->shared().first = first;
-        const std::optional<Failure> failure = worker->obey(order);
+        const std::optional<WorkerFailure> failure = worker->perform(request);
         const auto end = failure ? failure->query : static_cast<std::uint32_t>(batch.size());
-        take_part(Part{worker->shared(), start, first, end, failure});
+        take_part(BatchPart{worker->shared(), start, first, end, failure});
         if (!failure) break;
         first = end + 1;
         worker = std::make_unique<WorkerProcess>(path_, limits_);
@@ -142,8 +139,7 @@ class IsolatedPlugin final : public Subject {
   }
 
   std::string path_;
-  Limits limits_;
-  std::string name_;
+  PluginLimits limits_;
   bool claims_bound_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
@@ -151,8 +147,8 @@ class IsolatedPlugin final : public Subject {
 
 }  // namespace
 
-std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const Limits& limits) {
-  return std::make_unique<IsolatedPlugin>(path, limits);
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const PluginLimits& limits) {
+  return std::make_unique<IsolatedPlugin>(path, limits, std::make_unique<WorkerProcess>(path, limits));
 }
 
 }  // namespace nearmiss

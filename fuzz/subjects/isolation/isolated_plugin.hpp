@@ -1,4 +1,4 @@
-// A plug-in that may crash, hang and eat memory without harm to us.
+// A plug-in in worker processes: it may crash, hang and exhaust memory.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,10 @@
 
 namespace nearmiss {
 
-/// The plug-in at a path, in worker processes: as many as threads ask at the same time. What goes wrong in
-/// one is the verdict's fault, and the next query has a new process; what the plug-in prints is lost. Throws
-/// Error where it cannot be loaded.
-std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const isolation::Limits& limits = {});
+/// The plug-in at a path, in one worker process for each thread that asks at the same time. A failure becomes the
+/// verdict's fault, and the next query gets a new process. The plug-in's output is discarded. Throws Error if the
+/// plug-in cannot be loaded.
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& path,
+                                              const isolation::PluginLimits& limits = {});
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// What a worker process and the process that asks it share: memory and a socket.
+// Memory and socket that a worker process and the asking process share.
 #pragma once
 
 #include <array>
@@ -9,38 +9,38 @@
 
 namespace nearmiss::isolation {
 
-/// Descriptors with which a worker starts.
-inline constexpr int socket_descriptor = 3;  ///< a byte asks for the whole batch, a byte says that it is done
+/// File descriptors with which a worker starts.
+inline constexpr int socket_descriptor = 3;  ///< one byte requests a batch, one byte replies that it is done
 inline constexpr int memory_descriptor = 4;  ///< Shared
 
 inline constexpr std::size_t batch_size = 2048;
 
-/// A byte that asks: decide the queries; decide them, and tell how long all took; time each by itself; give bounds.
-enum class Order : char { decide = 'd', decide_timed = 't', time_each = 'e', bounds = 'b' };
+/// A request, one byte: decide the queries; decide them and measure the time of all; time each by itself; give bounds.
+enum class Request : char { decide = 'd', decide_timed = 't', time_each = 'e', bounds = 'b' };
 
 /// The plug-in's answer to one query.
-struct Answer {
-  std::int32_t value = 0;         ///< what the plug-in returned
-  std::uint64_t nanoseconds = 0;  ///< that time_each measured
+struct PluginAnswer {
+  std::int32_t value = 0;         ///< the plug-in's return value
+  std::uint64_t nanoseconds = 0;  ///< measured by time_each
   double number = 0;              ///< the time of impact, or the bound
 };
 
-/// Both sides write here, one after the other: the one that asks before an order, the worker before its
-/// answer. Only `current`, `calls` and `memory_refused` are looked at meanwhile, or after the worker died.
+/// Both sides write here in turn: the asking process before a request, the worker before its reply. Only `current`,
+/// `calls` and `memory_refused` are read in between, or after the worker died.
 struct Shared {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
-  std::atomic<std::uint32_t> calls{0};           ///< of the plug-in that were begun
-  std::atomic<std::uint32_t> memory_refused{0};  ///< an allocation failed while it was
+  std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
+  std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
   Kind kind{};
-  std::uint32_t first = 0;  ///< of the batch, to be done
-  std::uint32_t count = 0;  ///< up to here
+  std::uint32_t first = 0;  ///< the queries [first, count) of the batch are requested
+  std::uint32_t count = 0;
   std::array<std::array<double, 24>, batch_size> queries{};
-  std::array<Answer, batch_size> answers{};
-  std::uint64_t nanoseconds = 0;  ///< that decide_timed measured
-  // After loading, before any order:
-  std::array<char, 256> name{};  ///< the plug-in's own
+  std::array<PluginAnswer, batch_size> answers{};
+  std::uint64_t nanoseconds = 0;  ///< measured by decide_timed
+  // Written after loading, before any request:
+  std::array<char, 256> name{};  ///< the plug-in's own name
   bool claims_bound = false;
-  std::array<char, 1024> error{};  ///< why it cannot be used; empty where it can
+  std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can
 };
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);

@@ -1,5 +1,5 @@
-// nearmiss-worker PLUGIN BYTES: a process in which a plug-in may do what it likes. It answers orders until
-// nobody asks any more, with at most so much memory on top of what loading it took; 0 for any.
+// nearmiss-worker PLUGIN BYTES: the process in which a plug-in runs. It answers requests until the asking process
+// ends. BYTES limits the memory that it may use in addition to what loading took; 0 is no limit.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
@@ -30,8 +30,8 @@ Shared* shared = nullptr;
 
 }  // namespace
 
-// The plug-in's allocations come here, to be noted where they fail; glibc has these names for that purpose.
-// (Sanitizers have their own.)
+// The plug-in's allocations come here, so that failures are noted; glibc has these names for that purpose.
+// (Sanitizers have their own allocators.)
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define NEARMISS_SANITIZER_ALLOCATES
@@ -73,18 +73,18 @@ void* realloc(void* old, std::size_t size) {
 
 namespace {
 
-/// The plug-in prints into the void.
+/// Discards the plug-in's output, and sets the actions of signals.
 void close_off() {
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   if (nothing > STDERR_FILENO) close(nothing);
-  // The one that asks is interrupted, and then ends this one; a signal to both must not look like a crash.
+  // An interrupt goes to both processes. The asking one then ends this one; it must not look like a crash.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
-  // A crash is to be seen as what it is, also where a sanitizer would make an exit of it.
+  // A crash must be seen as one, even if a sanitizer would turn it into an exit.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
 }
 
-/// Ends the process, whatever the plug-in does, when nobody is there any more to ask.
+/// Ends this process when the asking one has ended, whatever the plug-in does.
 void end_with_the_other_side() {
   std::thread([] {
     pollfd other_side{socket_descriptor, 0, 0};
@@ -112,7 +112,7 @@ Query query_at(std::uint32_t i) {
   return query;
 }
 
-/// Says which query comes next, for the case that it is the last one.
+/// Notes which query comes next; it may be the last one.
 void begin(std::uint32_t i) {
   shared->memory_refused.store(0, std::memory_order_relaxed);
   shared->current.store(i, std::memory_order_release);
@@ -121,7 +121,7 @@ void begin(std::uint32_t i) {
 
 void ask(const Plugin& plugin, std::uint32_t i) {
   begin(i);
-  Answer& answer = shared->answers[i];
+  PluginAnswer& answer = shared->answers[i];
   answer.number = std::numeric_limits<double>::quiet_NaN();
   answer.value = plugin.ask(query_at(i), answer.number);
 }
@@ -130,29 +130,29 @@ void ask(const Plugin& plugin, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first; i < last; ++i) ask(plugin, i);
 }
 
-void answer(const Plugin& plugin, Order order) {
+void answer(const Plugin& plugin, Request request) {
   const Plugin& empty = Plugin::empty_plugin();
   const std::uint32_t first = shared->first;
   const std::uint32_t last = shared->count;
-  switch (order) {
-    case Order::decide:
+  switch (request) {
+    case Request::decide:
       ask(plugin, first, last);
       break;
-    case Order::decide_timed: {
+    case Request::decide_timed: {
       const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
       ask(empty, first, few);
       ask(plugin, first, few);
-      // Of all threads: a plug-in may have its own.
+      // The time of all threads, since a plug-in may have threads of its own.
       shared->nanoseconds = time_beyond(
           CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, first, last); }, [&] { ask(empty, first, last); });
       break;
     }
-    case Order::time_each:
+    case Request::time_each:
       for (std::uint32_t i = first; i < last; ++i)
         shared->answers[i].nanoseconds = best_time_beyond(
             CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, i); }, [&] { ask(empty, i); });
       break;
-    case Order::bounds:
+    case Request::bounds:
       for (std::uint32_t i = first; i < last; ++i) {
         begin(i);
         shared->answers[i].number = plugin.distance_bound(query_at(i));
@@ -189,8 +189,8 @@ int work(const char* path, const char* bytes) {
   }
   limit_memory(std::strtoull(bytes, nullptr, 10));
   say_done();
-  for (char order = 0; read(socket_descriptor, &order, 1) == 1;) {
-    answer(*plugin, static_cast<Order>(order));
+  for (char request = 0; read(socket_descriptor, &request, 1) == 1;) {
+    answer(*plugin, static_cast<Request>(request));
     say_done();
   }
   return 0;

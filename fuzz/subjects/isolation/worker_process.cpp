@@ -25,9 +25,9 @@ namespace nearmiss::isolation {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using std::chrono::steady_clock;
 
-/// Beside this program, or else where it was built.
+/// The path of nearmiss-worker: beside this program, or else where it was built.
 std::string worker_executable() {
   std::error_code unknown;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -53,7 +53,7 @@ WorkerProcess::Child::~Child() {
   waitpid(id, nullptr, 0);
 }
 
-WorkerProcess::WorkerProcess(const std::string& path, const Limits& limits) : limits_(limits) {
+WorkerProcess::WorkerProcess(const std::string& path, const PluginLimits& limits) : limits_(limits) {
   const Descriptor memory{memfd_create("nearmiss-worker", MFD_CLOEXEC)};
   check(memory.number >= 0 && ftruncate(memory.number, sizeof(Shared)) == 0, "memory");
   void* const mapped = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, memory.number, 0);
@@ -71,7 +71,7 @@ void WorkerProcess::start(const std::string& path, int memory) {
   check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
   socket_.number = sockets[0];
   const Descriptor theirs{sockets[1]};
-  // Above the descriptors that they become, lest one overwrites the other.
+  // Numbers above those that they are duplicated to, so that one cannot overwrite the other.
   const Descriptor socket_above{fcntl(theirs.number, F_DUPFD_CLOEXEC, 16)};
   const Descriptor memory_above{fcntl(memory, F_DUPFD_CLOEXEC, 16)};
   check(socket_above.number >= 0 && memory_above.number >= 0, "descriptor");
@@ -97,7 +97,7 @@ std::chrono::duration<double> WorkerProcess::computed() const {
   clockid_t clock{};
   timespec time{};
   if (clock_getcpuclockid(process_.id, &clock) != 0 || clock_gettime(clock, &time) != 0)
-    return {};  // it died, which the socket tells
+    return {};  // the process died, which the socket shows
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
@@ -105,7 +105,7 @@ WorkerProcess::How WorkerProcess::wait() const {
   constexpr int patience = 10;
   constexpr int look_again_ms = 10;
   std::uint32_t calls = shared_->calls;
-  auto since = Clock::now();
+  auto since = steady_clock::now();
   auto computed_since = computed();
   while (true) {
     pollfd socket{socket_.number, POLLIN, 0};
@@ -116,26 +116,26 @@ WorkerProcess::How WorkerProcess::wait() const {
     }
     if (const std::uint32_t now = shared_->calls; now != calls) {
       calls = now;
-      since = Clock::now();
+      since = steady_clock::now();
       computed_since = computed();
     } else if (computed() - computed_since >= limits_.time ||
-               Clock::now() - since >= patience * limits_.time) {
+               steady_clock::now() - since >= patience * limits_.time) {
       return How::late;
     }
   }
 }
 
-std::optional<Failure> WorkerProcess::obey(Order order) const {
-  // What is in shared memory a plug-in may write over: nothing there is trusted afterwards.
+std::optional<WorkerFailure> WorkerProcess::perform(Request request) const {
+  // A plug-in may overwrite the shared memory, so nothing read from there later is trusted.
   const std::uint32_t first = shared_->first;
   const std::uint32_t last = shared_->count - 1;
   shared_->current = first;
-  const char byte = static_cast<char>(order);
-  static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // where it is dead, that is seen below
+  const char byte = static_cast<char>(request);
+  static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // a dead worker is noticed below
   const How end = wait();
   if (end == How::done) return std::nullopt;
   const std::uint32_t query = std::clamp<std::uint32_t>(shared_->current, first, last);
-  Failure failure{query, Fault::time, 0};
+  WorkerFailure failure{query, Fault::time, 0};
   if (end == How::dead) {
     siginfo_t how{};
     waitid(P_PID, static_cast<id_t>(process_.id), &how, WEXITED | WNOWAIT);

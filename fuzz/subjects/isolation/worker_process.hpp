@@ -1,4 +1,4 @@
-// One worker process, from the side of the one that asks.
+// One worker process, as the asking process sees it.
 #pragma once
 
 #include <sys/types.h>
@@ -14,33 +14,34 @@
 
 namespace nearmiss::isolation {
 
-/// What a plug-in may use.
-struct Limits {
-  /// A query is over it when its process has computed for so long, or ten times as long has gone by.
+/// The limits of a plug-in.
+struct PluginLimits {
+  /// Time limit per query, of the process's computing time; at most ten times as long may pass.
   std::chrono::duration<double> time{1};
-  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< more than loading it took; 0: any
+  std::uint64_t bytes = std::uint64_t{1}
+                        << 30;  ///< limit of memory in addition to what loading took; 0 is no limit
 };
 
-/// What became of a query that was not answered.
-struct Failure {
-  std::uint32_t query;  ///< its place in the batch
+/// Why a query has no answer.
+struct WorkerFailure {
+  std::uint32_t query;  ///< its index in the batch
   Fault fault;
-  std::int32_t code;  ///< of a crash: the signal, or the exit code negated
+  std::int32_t code;  ///< for a crash: the signal, or the negated exit code
 };
 
-/// A running worker. It is of no use any more once an order failed.
+/// A running worker. It cannot be used after a request failed.
 class WorkerProcess {
  public:
-  /// Throws Error where the plug-in cannot be used.
-  WorkerProcess(const std::string& path, const Limits& limits);
+  /// Throws Error if the plug-in cannot be used.
+  WorkerProcess(const std::string& path, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess() = default;
 
   [[nodiscard]] Shared& shared() const { return *shared_; }
 
-  /// Has everything that stands in shared() done; nothing where that is so.
-  std::optional<Failure> obey(Order order) const;
+  /// Has the queries in shared() done. Returns why one failed; nothing if all are done.
+  std::optional<WorkerFailure> perform(Request request) const;
 
  private:
   struct Descriptor {
@@ -55,13 +56,13 @@ class WorkerProcess {
     ~Child();
   };
 
-  /// How waiting for the worker ended: it is done, or it died, or a query is over its limit.
+  /// How waiting for the worker ended: it is done, it died, or a query exceeded a limit.
   enum class How : std::uint8_t { done, dead, late };
   void start(const std::string& path, int memory);
   [[nodiscard]] How wait() const;
   [[nodiscard]] std::chrono::duration<double> computed() const;
 
-  Limits limits_;
+  PluginLimits limits_;
   std::unique_ptr<Shared, Unmap> shared_;
   Descriptor socket_;
   Child process_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/subjects/batch_subject.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "oracle/filter.hpp"
 #include "oracle/oracle.hpp"
@@ -13,18 +14,14 @@ namespace nearmiss {
 
 namespace {
 
-class Adaptive final : public Subject {
+class Adaptive final : public BatchSubject {
  public:
-  Adaptive() : wang_(make_subject("wang")), finer_(try_make_scaled("wang:dd", std::nullopt)) {}
+  Adaptive()
+      : BatchSubject(std::string(adaptive_info.name)),
+        wang_(make_subject("wang")),
+        finer_(try_make_scaled("wang:dd", std::nullopt)) {}
 
-  [[nodiscard]] const std::string& name() const override { return name_; }
-
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    Verdict verdict;
-    decide(std::span(&query, 1), std::span(&verdict, 1));
-    return verdict;
-  }
-
+  using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     for (std::size_t first = 0; first < queries.size(); first += at_once)
       decide_some(queries.subspan(first, std::min(at_once, queries.size() - first)), verdicts.subspan(first));
@@ -42,7 +39,7 @@ class Adaptive final : public Subject {
     for (std::size_t i = 0; i < queries.size(); ++i)
       if (verdicts[i].hit) reported[count++] = i;
     if (count == 0) return;
-    std::vector<Query> again;  // of the size that it needs: to clear room for all would take longer than wang
+    std::vector<Query> again;  // no larger than needed: clearing room for all would take longer than wang
     again.reserve(count);
     for (std::size_t i = 0; i < count; ++i) again.push_back(queries[reported[i]]);
     std::array<FilterStage, at_once> stages;
@@ -61,7 +58,6 @@ class Adaptive final : public Subject {
     return settle(query, stage) ? Verdict::accepted(Stage::exact, time) : Verdict::rejected(Rejection::exact);
   }
 
-  std::string name_{adaptive_info.name};
   std::unique_ptr<Subject> wang_, finer_;
 };
 

@@ -1,21 +1,25 @@
-#include "fuzz/subjects/ladder/bits.hpp"
-
 #include <fmt/format.h>
 
+#include "fuzz/subjects/ladder/mpfr_float.hpp"
 #include "fuzz/subjects/ladder/scaled_subject.hpp"
 
 namespace nearmiss::ladder {
 
-/// The thread's numbers have as many bits as ε says. Doubles come and go by the processor's arithmetic.
-template <>
-struct Setting<Bits> {
-  explicit Setting(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
+namespace {
+
+/// Gives the thread's numbers as many bits as ε says. Conversions from and to double are done by the processor.
+struct MpfrArithmetic {
+  explicit MpfrArithmetic(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
   PlainArithmetic guard;
-  Bits::Precision precision;
+  MpfrFloat::PrecisionScope precision;
 };
 
-static_assert(most_bits <= Bits::most);
+}  // namespace
 
-Scalar bits_scalar(int bits) { return {fmt::format("p{}", bits), 1 - bits, &make_scaled<Bits>}; }
+static_assert(most_bits <= MpfrFloat::most);
+
+Scalar bits_scalar(int bits) {
+  return {fmt::format("p{}", bits), 1 - bits, &make_scaled<MpfrFloat, MpfrArithmetic>};
+}
 
 }  // namespace nearmiss::ladder

@@ -1,22 +1,23 @@
-// Double-double numbers of libqd as a scalar of ccd/'s templates.
+// libqd's double-double numbers, as a scalar for ccd/'s templates.
 #pragma once
 
 #include <qd/dd_real.h>
 
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
+#include "fuzz/subjects/ladder/scalar_traits.hpp"
+
 namespace nearmiss {
 
-/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, as long as nothing comes near
-/// the ends of double's range,
+/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, if nothing comes near the ends of
+/// double's range,
 ///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error
 ///   product          5u²          bounds for basic building blocks of double-word arithmetic", ACM TOMS 44,
 ///                                 2017; Algorithm 10 there)
-///   quotient, root   at most 16u², as tests against rational numbers have it; nobody states more
-/// and so ε = 16u² = 2^-102. Debian's libqd is built to add in another way, whose error has no relative bound
-/// where signs differ: the paper's model would not hold, so its careful sum and quotient are called by name.
+///   quotient, root   at most 16u² in tests against rational numbers; no proof is published
+/// so ε = 16u² = 2^-102. Debian's libqd is built with another sum, whose relative error is unbounded for operands of
+/// opposite signs. The paper's model would not hold, so the accurate sum and quotient are called by name.
 class DoubleDouble {
  public:
   DoubleDouble(double value = 0) : value_(value) {}
@@ -53,12 +54,12 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// Of the higher part, which is at most one too large.
+  /// That of the higher part, which is at most one too large.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
-  /// Beyond about 2^996 libqd's steps overflow where the result does not: then that of double counts.
+  /// Beyond about 2^996 libqd's steps may overflow although the result does not; the result in double is then taken.
   static DoubleDouble or_double(const dd_real& result, double in_double) {
     return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
                                                                     : DoubleDouble(in_double);
@@ -70,23 +71,12 @@ class DoubleDouble {
 }  // namespace nearmiss
 
 template <>
-struct std::numeric_limits<nearmiss::DoubleDouble> : std::numeric_limits<double> {
+struct std::numeric_limits<nearmiss::DoubleDouble>
+    : nearmiss::ladder::LimitsOfDouble<nearmiss::DoubleDouble> {
   static constexpr int digits = 103;
   static nearmiss::DoubleDouble epsilon() { return 0x1p-102; }
-  static nearmiss::DoubleDouble min() { return std::numeric_limits<double>::min(); }
-  static nearmiss::DoubleDouble max() { return std::numeric_limits<double>::max(); }
-  static nearmiss::DoubleDouble infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
 template <>
-struct Eigen::NumTraits<nearmiss::DoubleDouble> : Eigen::GenericNumTraits<nearmiss::DoubleDouble> {
-  enum {
-    IsInteger = 0,
-    IsSigned = 1,
-    IsComplex = 0,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 20,
-    MulCost = 25
-  };
-};
+struct Eigen::NumTraits<nearmiss::DoubleDouble>
+    : nearmiss::ladder::RealTraits<nearmiss::DoubleDouble, 2, 20, 25> {};

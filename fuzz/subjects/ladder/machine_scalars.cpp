@@ -1,6 +1,6 @@
-// Scalars of the machine, and two doubles. IEEE 754's operations and root, to nearest (`Setting`), are the
-// exact ones times 1 + d, |d| <= u = ε/2, as long as nothing over- or underflows: `in_range` (ccd/motion.hpp)
-// sees to that. So do x87's with 64 bits, which long double has; double-double has an ε of its own.
+// Scalars of the machine, and double-double. IEEE 754's operations and root, rounded to nearest (`MachineArithmetic`),
+// are the exact ones times 1 + d, |d| <= u = ε/2, unless they over- or underflow, which `in_range` (ccd/motion.hpp)
+// excludes. The same holds for long double, x87's with 64 bits. Double-double has its own ε.
 #include "fuzz/subjects/ladder/double_double.hpp"
 #include "fuzz/subjects/ladder/scaled_subject.hpp"
 

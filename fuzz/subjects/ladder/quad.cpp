@@ -1,6 +1,6 @@
-// IEEE's binary128, which g++ computes in software; clang has no library for it, and then there is none. Its
-// operations round to nearest, as those of machine_scalars.cpp; libquadmath's root does not always, but is
-// within ε, as a test against rational numbers has it.
+// IEEE's binary128, which g++ computes in software. clang has no library for it, and then there is no such scalar. The
+// operations round to nearest, as those of machine_scalars.cpp. libquadmath's root does not always, but is within ε
+// in a test against rational numbers.
 #include "fuzz/subjects/ladder/scalars.hpp"
 
 #if __has_include(<quadmath.h>)

@@ -22,21 +22,21 @@ struct Scalar {
                                    std::optional<double> given_bound);
 };
 
-/// The parts of the list, each from a file of its own. No quad where the compiler has none.
+/// The parts of the list, each from its own file. quad_scalar() is empty if the compiler has no binary128.
 std::vector<Scalar> machine_scalars();
 std::vector<Scalar> quad_scalar();
-/// Of so many bits: "p40".
+/// The scalar with this number of bits: "p40".
 Scalar bits_scalar(int bits);
 
 inline constexpr int fewest_bits = 16, most_bits = 256;
 
 }  // namespace ladder
 
-/// The scalars with a name of their own, by ascending precision. Beside them there are "p16" to "p256".
+/// The scalars with their own name, by ascending precision. There are also "p16" to "p256".
 std::vector<ladder::Scalar> named_scalars();
 
-/// basic, wang or wang-tight over a scalar, as "wang:p40"; nothing for a name without a colon. A bound as for
-/// make_subject. Throws Error for an algorithm or a scalar that is not known.
+/// basic, wang or wang-tight over a scalar: "wang:p40". Nothing for a name without a colon. `given_bound` as for
+/// make_subject. Throws Error for an unknown algorithm or scalar.
 std::unique_ptr<Subject> try_make_scaled(std::string_view name, std::optional<double> given_bound);
 
 }  // namespace nearmiss

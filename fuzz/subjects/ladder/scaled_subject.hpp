@@ -1,5 +1,5 @@
-// The subjects of ccd/ over any scalar. Included where a scalar is made into subjects, and nowhere else: its
-// templates are slow to compile.
+// The subjects of ccd/ over any scalar. Only the files that define scalars include this: its templates are slow to
+// compile.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or the smallest.
+/// The paper's tolerances, or the smallest ones.
 struct EitherTolerances : AllSteps {
   std::optional<ToleranceConstants> smallest;
 
@@ -30,16 +30,15 @@ struct EitherTolerances : AllSteps {
   }
 };
 
-/// What must be so while T computes.
-template <class T>
-struct Setting {
-  explicit Setting(int /*epsilon_exponent*/) {}
+/// The arithmetic in which scalars of the machine compute, for a scope.
+struct MachineArithmetic {
+  explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
 };
 
-/// basic, wang or wang-tight with all arithmetic in T. Coordinates of more digits than T has are rounded to T
-/// first; that query is what is decided.
-template <class T>
+/// basic, wang or wang-tight with all arithmetic in T, each time within an Arithmetic(ε's exponent). If T has
+/// fewer digits than a double, coordinates are rounded to T first, and the rounded query is decided.
+template <class T, class Arithmetic>
 class Scaled final : public Subject {
  public:
   Scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm, std::optional<double> given)
@@ -56,14 +55,14 @@ class Scaled final : public Subject {
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override {
     if (!is_finite(query)) refuse_coordinates(name_);
-    const Setting<T> setting(epsilon_exponent_);
+    const Arithmetic arithmetic(epsilon_exponent_);
     return decide(query, steps_);
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
-    const Setting<T> setting(epsilon_exponent_);
-    // Rounded up, and with the slack of B in a scalar of few digits: B <= B* (1 + 40ε).
+    const Arithmetic arithmetic(epsilon_exponent_);
+    // Rounded up, with slack for B in a scalar of few digits: B <= B* (1 + 40ε).
     const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -74,7 +73,7 @@ class Scaled final : public Subject {
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();
-    const Setting<T> setting(epsilon_exponent_);
+    const Arithmetic arithmetic(epsilon_exponent_);
     return least_loosening([&](double s) {
       const Loosened<EitherTolerances> steps{steps_, s};
       return decide(query, steps).hit;
@@ -84,7 +83,7 @@ class Scaled final : public Subject {
   [[nodiscard]] bool rounds() const override { return narrow_; }
 
   [[nodiscard]] Query rounded(const Query& query) const override {
-    const Setting<T> setting(epsilon_exponent_);
+    const Arithmetic arithmetic(epsilon_exponent_);
     Seen seen = as_seen(query);
     for (double& c : seen.query.x) c = std::ldexp(c, -seen.exponent);
     return seen.query;
@@ -112,8 +111,8 @@ class Scaled final : public Subject {
     int exponent = 0;
   };
 
-  /// A query with coordinates that T has, times a power of two that brings it into the range of float where T
-  /// is that; the exponent. All other scalars have at least the range of double.
+  /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are first scaled
+  /// by 2^exponent.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;
@@ -135,10 +134,10 @@ class Scaled final : public Subject {
   EitherTolerances steps_;
 };
 
-template <class T>
+template <class T, class Arithmetic = MachineArithmetic>
 std::unique_ptr<Subject> make_scaled(std::string_view name, int epsilon_exponent, Algorithm algorithm,
                                      std::optional<double> given) {
-  return std::make_unique<Scaled<T>>(name, epsilon_exponent, algorithm, given);
+  return std::make_unique<Scaled<T, Arithmetic>>(name, epsilon_exponent, algorithm, given);
 }
 
 }  // namespace nearmiss::ladder

@@ -1,0 +1,31 @@
+// Traits of our scalar classes for Eigen and the standard library.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace nearmiss::ladder {
+
+/// std::numeric_limits of a T with at least double's range: as of double. T adds its epsilon.
+template <class T>
+struct LimitsOfDouble : std::numeric_limits<double> {
+  static T min() { return std::numeric_limits<double>::min(); }
+  static T max() { return std::numeric_limits<double>::max(); }
+  static T infinity() { return std::numeric_limits<double>::infinity(); }
+};
+
+/// Eigen::NumTraits of a real T that has a constructor, with Eigen's estimates of what operations cost.
+template <class T, int read_cost, int add_cost, int multiplication_cost>
+struct RealTraits : Eigen::GenericNumTraits<T> {
+  enum {
+    IsInteger = 0,
+    IsSigned = 1,
+    IsComplex = 0,
+    RequireInitialization = 1,
+    ReadCost = read_cost,
+    AddCost = add_cost,
+    MulCost = multiplication_cost
+  };
+};
+
+}  // namespace nearmiss::ladder

@@ -1,0 +1,126 @@
+// Chains of mutations, and crossings: pure functions, finite, and they keep to collisions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "fuzz/families/families.hpp"
+#include "fuzz/families/mutation.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  Random one(3, 4, 5);
+  Random same(3, 4, 5);
+  Random other(3, 4, 6);
+  const Query result = mutated(one, query);
+  EXPECT_EQ(mutated(same, query), result);
+  EXPECT_NE(mutated(other, query), result);
+}
+
+/// Queries to start from: of all families, and of extreme coordinates.
+std::vector<Query> seeds() {
+  std::vector<Query> queries;
+  for (const Family& family : families())
+    for (std::uint64_t i = 0; i < 16; ++i) queries.push_back(make_query(family, 5, i));
+  for (const Kind kind : kinds) {
+    for (const double size : {1e-100, 1e-150, 1e-300}) {  // small primitives, far apart along x
+      Query query{.kind = kind};
+      for (std::size_t i = 0; i < 24; ++i) query.x[i] = size * std::sqrt(i);
+      for (int i = split(kind); i < 4; ++i) {
+        query.x[3 * static_cast<std::size_t>(i)] = 1 / size;
+        query.x[12 + 3 * static_cast<std::size_t>(i)] = 1 / size;
+      }
+      queries.push_back(query);
+    }
+    for (const double extreme : {0.0, std::numeric_limits<double>::max(), std::numeric_limits<double>::min(),
+                                 std::numeric_limits<double>::denorm_min()}) {
+      Query query{.kind = kind};
+      for (std::size_t i = 0; i < 24; ++i) query.x[i] = i % 3 == 0 ? -extreme : extreme;
+      queries.push_back(query);
+      query.x[7] = 1;
+      queries.push_back(query);
+    }
+  }
+  return queries;
+}
+
+TEST(Mutated, IsAnotherFiniteQueryHoweverLongTheChain) {
+  const auto starts = seeds();
+  for (std::uint64_t chain = 0; chain < 100'000; ++chain) {
+    Query query = starts[chain % starts.size()];
+    for (std::uint64_t step = 0; step < 8; ++step) {
+      Random random(6, chain, step);
+      const Query next = mutated(random, query);
+      ASSERT_TRUE(is_finite(next)) << chain << ", " << step;
+      ASSERT_NE(next, query) << chain << ", " << step;
+      query = next;
+    }
+  }
+}
+
+TEST(Mutated, KeepsToCollisions) {
+  int collisions = 0;
+  constexpr int chains = 200;
+  constexpr int steps = 10;
+  for (std::uint64_t chain = 0; chain < chains; ++chain) {
+    Query query = make_query(find_family("uniform"), 7, chain);
+    for (std::uint64_t step = 0; step < steps; ++step) {
+      Random random(7, chain, step);
+      query = mutated(random, query);
+      collisions += collides(query) ? 1 : 0;
+    }
+  }
+  std::cout << collisions << " of " << chains * steps << " collide\n";
+  EXPECT_GE(collisions, chains * steps / 2);
+}
+
+/// Whether the choice between two parents, by coordinate, is one by the parts alone.
+bool is_by(const std::array<bool, 24>& choice, const std::function<std::size_t(std::size_t)>& part) {
+  std::array<std::set<bool>, 24> seen;
+  for (std::size_t i = 0; i < 24; ++i) seen[part(i)].insert(choice[i]);
+  return std::all_of(seen.begin(), seen.end(), [](const auto& choices) { return choices.size() <= 1; });
+}
+
+TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
+  const Query first = make_query(find_family("uniform"), 8, 0);
+  const Query second = make_query(find_family("uniform"), 8, 1);
+  std::set<Kind> seen_kinds;
+  int vertices = 0;
+  int axes = 0;
+  int moments = 0;
+  int coordinates = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(9, 0, i);
+    const Query child = crossed(random, first, second);
+    seen_kinds.insert(child.kind);
+    std::array<bool, 24> from_first{};
+    for (std::size_t k = 0; k < 24; ++k) {
+      from_first[k] = child.x[k] == first.x[k];
+      ASSERT_TRUE(from_first[k] || child.x[k] == second.x[k]);
+    }
+    if (is_by(from_first, [](std::size_t) { return 0; })) continue;  // all of one
+    if (is_by(from_first, [](std::size_t k) { return k / 3 % 4; }))
+      ++vertices;
+    else if (is_by(from_first, [](std::size_t k) { return k % 3; }))
+      ++axes;
+    else if (is_by(from_first, [](std::size_t k) { return k / 12; }))
+      ++moments;
+    else
+      ++coordinates;
+  }
+  for (const int count : {vertices, axes, moments, coordinates}) EXPECT_GT(count, 50);
+  EXPECT_EQ(seen_kinds.size(), 2);
+}
+
+}  // namespace
+}  // namespace nearmiss

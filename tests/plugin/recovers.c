@@ -1,0 +1,20 @@
+/* A subject that asks for more memory than it may have, does without, and reports the query; its process crashes at
+ * the next one. */
+#include <signal.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "ccd/nearmiss_subject.h"
+
+static int test(const double* x, double* toi) {
+  static int calls = 0;
+  (void)x;
+  (void)toi;
+  if (++calls == 2) return raise(SIGSEGV);
+  void* volatile const refused = malloc((size_t)1 << 40);
+  free(refused);
+  return 1;
+}
+
+static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "recovers", "1", test, test, NULL};
+const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
