@@ -3,6 +3,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
+#include "fuzz/meshes/formats.hpp"
 
 void nearmiss::libfuzzer::read(std::istream& in) {
   for (const auto parse : {parse_off, parse_ply, parse_stl}) {

@@ -56,11 +56,8 @@ class Lines {
   std::size_t read_ = 0;  ///< words that next_word has given
 };
 
-/// Throws Error where a word is no finite decimal number.
-void expect_decimal(std::string_view word, const Lines& lines);
-
-/// Throws Error where a file has no point, or more than an int can count.
-void expect_points(std::size_t points, std::string_view name);
+/// The finite decimal number that a word is. Throws Error if it is none.
+double parse_decimal(std::string_view word, const Lines& lines);
 
 /// How a word, or the lack of one, is shown in a message.
 std::string shown(std::string_view word);

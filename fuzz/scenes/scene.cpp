@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "fuzz/meshes/formats.hpp"
 
 namespace nearmiss {
 
