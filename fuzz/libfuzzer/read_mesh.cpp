@@ -1,4 +1,4 @@
-// libFuzzer: OFF, PLY and STL files; each reader is given all.
+// libFuzzer: OFF, PLY and STL files. Every reader is given every file.
 #include <istream>
 
 #include "ccd/error.hpp"

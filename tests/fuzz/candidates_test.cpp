@@ -77,6 +77,50 @@ TEST(Candidates, TheSweepFindsTheSamePairs) {
   }
 }
 
+/// The candidates of a kind; `finder` is find_candidates or find_candidates_by_sweep.
+template <class Finder>
+std::multiset<Candidate> candidates(const MovingMesh& mesh, Kind kind, const Finder& finder) {
+  std::multiset<Candidate> found;
+  finder(
+      mesh, kind, [&](const Candidate& each) { found.insert(each); }, [] { return false; });
+  return found;
+}
+
+std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop) {
+  return find_candidates(mesh, kind, sink, stop);
+}
+
+TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const MovingMesh mesh = random_mesh(seed, 300, 600);
+    for (const Kind kind : kinds) {
+      ASSERT_GT(CandidateFinder(mesh, kind).parts(), 3);
+      EXPECT_TRUE(candidates(mesh, kind, boxes) == candidates(mesh, kind, find_candidates_by_sweep))
+          << "seed " << seed << ' ' << short_name(kind);
+    }
+  }
+}
+
+/// A vertex at rest at a height above, beside or before a triangle at rest whose box is the unit cube.
+MovingMesh vertex_beside_triangle(int axis, double height) {
+  Vector3<double> vertex(0.5, 0.5, 0.5);
+  vertex[axis] = height;
+  const std::vector<Vector3<double>> points{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, vertex};
+  return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
+}
+
+// To the last bit, on all sides.
+TEST(Candidates, BoxesThatTouchMeet) {
+  const Kind kind = Kind::vertex_triangle;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const auto& [height, expected] :
+         {std::pair(0.0, 1), {1.0, 1}, {-0x1p-1074, 0}, {1 + 0x1p-52, 0}, {0x1p-1074, 1}, {1 - 0x1p-53, 1}}) {
+      const MovingMesh mesh = vertex_beside_triangle(axis, height);
+      EXPECT_EQ(candidates(mesh, kind, boxes).size(), expected) << axis << ' ' << height;
+      EXPECT_EQ(candidates(mesh, kind, find_candidates_by_sweep).size(), expected) << axis << ' ' << height;
+    }
+}
+
 TEST(Candidates, AMeshOfOneTriangleHasNoPair) {
   const MovingMesh mesh = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
                                            {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
