@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <type_traits>
 
 #include "ccd/error.hpp"
 
@@ -23,12 +25,10 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-}  // namespace
-
-double parse_number(std::string_view text, std::string_view where) {
-  const auto fail = [&] {
-    return Error(fmt::format("{}: found '{}', expected a finite number", where, text));
-  };
+/// A finite double or float. Throws Error that says what was expected.
+template <class Number>
+Number parse(std::string_view text, std::string_view where, std::string_view expected) {
+  const auto fail = [&] { return Error(fmt::format("{}: found '{}', expected {}", where, text, expected)); };
   std::string_view digits = text;
   const bool negative = digits.starts_with('-');
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
@@ -38,18 +38,32 @@ double parse_number(std::string_view text, std::string_view where) {
   const bool starts_well =
       !digits.empty() && (digits[0] == '.' || std::isxdigit(static_cast<unsigned char>(digits[0])));
   if (!starts_well) throw fail();
-  double value = 0;
+  Number value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             hex ? std::chars_format::hex : std::chars_format::general);
   if (end != digits.data() + digits.size()) throw fail();
   if (error == std::errc::result_out_of_range) {
-    // Too large, or so small that it rounds to 0: only the former is refused. strtod tells them apart.
-    value = std::strtod(std::string(hex ? "0x" : "").append(digits).c_str(), nullptr);
+    // Too large, or so small that it rounds to 0: only the former is refused. strtod and strtof tell them apart.
+    const std::string again = std::string(hex ? "0x" : "").append(digits);
+    if constexpr (std::is_same_v<Number, float>)
+      value = std::strtof(again.c_str(), nullptr);
+    else
+      value = std::strtod(again.c_str(), nullptr);
   } else if (error != std::errc()) {
     throw fail();
   }
   if (!std::isfinite(value)) throw fail();
   return negative ? -value : value;
+}
+
+}  // namespace
+
+double parse_number(std::string_view text, std::string_view where) {
+  return parse<double>(text, where, "a finite number");
+}
+
+float parse_float(std::string_view text, std::string_view where) {
+  return parse<float>(text, where, "a number that a float can be");
 }
 
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {

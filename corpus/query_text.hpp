@@ -1,6 +1,8 @@
 // Queries as text: the one reader and writer of coordinates.
 #pragma once
 
+#include <charconv>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,19 @@ namespace nearmiss {
 /// A finite number, decimal or C hex float ("0x1.8p-3"), rounded to nearest where it is not a double; nothing
 /// is taken from the locale. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
+
+/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number that
+/// a float can be", also for a number that is too large.
+float parse_float(std::string_view text, std::string_view where);
+
+/// A decimal integer without a plus sign; nothing if the text is none, or is outside the range of the type.
+template <class Integer>
+std::optional<Integer> parse_integer(std::string_view text) {
+  Integer value{};
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
+  return value;
+}
 
 /// Parses exactly numbers.size() numbers, separated by blanks or commas.
 /// Throws Error that starts with `where`.

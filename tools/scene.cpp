@@ -1,4 +1,4 @@
-// nearmiss scene: what the pairs of a moving mesh need, and what becomes of them.
+// nearmiss scene: decides the pairs of a moving mesh.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/scenes/built_in.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/scenes/scene_trial.hpp"
@@ -52,12 +52,12 @@ Scene open_scene(const std::vector<std::string>& arguments) {
 /// A line for each built-in scene.
 void list_scenes() {
   fmt::print("{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
-  for (const BuiltIn& scene : built_in_scenes())
+  for (const BuiltInScene& scene : built_in_scenes())
     fmt::print("{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest, scene.largest,
                scene.description);
 }
 
-/// Files for nearmiss replay: FILE.vt and FILE.ee, a query a line.
+/// Writes files for nearmiss replay: FILE.vt and FILE.ee, with a query on each line.
 class Export {
  public:
   explicit Export(const fs::path& file) {
@@ -71,12 +71,12 @@ class Export {
   /// Writes the pairs of a step that are asked.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, const std::atomic<bool>& stop) {
     if (files_.empty()) return;
-    const auto write = [&](const Pairs& pairs) {
+    const auto write = [&](const AskedPairs& pairs) {
       for (const Query& query : pairs.queries) files_[pairs.kind].second << to_line(query) << '\n';
     };
     follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.load(); });
   }
-  /// Throws Error where not everything could be written. An empty file is removed.
+  /// Throws Error if something could not be written. Removes empty files.
   void finish() {
     for (auto& [kind, file] : files_) {
       const bool empty = file.second.tellp() == 0;
@@ -90,7 +90,7 @@ class Export {
   std::map<Kind, std::pair<std::string, std::ofstream>> files_;
 };
 
-/// What a run's results depend on, and how it is run again.
+/// What the results of a run depend on, and the command that repeats it.
 RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);
@@ -110,7 +110,7 @@ RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   return info;
 }
 
-/// How far a scene is: each step is asked about, and verified where that is wanted, which takes most of the
+/// Shows the progress of a scene: each step is asked about and, if that is wanted, verified, which takes most of the
 /// time.
 class SceneProgress {
  public:
@@ -143,7 +143,7 @@ class SceneProgress {
 
 struct Verified {
   Verification verification;
-  std::chrono::duration<double> asking{};  ///< the time that it took to follow the plan
+  std::chrono::duration<double> asking{};  ///< the time spent on following the plan
 };
 
 /// Goes through all steps of a scene.
@@ -172,7 +172,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   return verified;
 }
 
-/// What the scene has, at its first frame.
+/// The scene's name and size, for the terminal.
 std::string describe(const Scene& scene) {
   const MovingMesh mesh = moving_mesh(scene, 0);
   return fmt::format("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
@@ -208,59 +208,78 @@ int run(Options options) {
   return verified.verification.fine() ? code : exit_found;
 }
 
+void add_scene_options(CLI::App& command, Options& options) {
+  command
+      .add_option(
+          "SCENE", options.scene,
+          "The mesh at t = 0 and the same mesh at t = 1 (START END); a folder of frames: *.obj, *.off, *.ply "
+          "or "
+          "*.stl; or a built-in scene, NAME or NAME@SIZE, where SIZE is the approximate number of triangles, "
+          "lines of hair or points (a folder of that name is ./NAME)")
+      ->expected(1, 2);
+  command.add_flag("--list", options.list, "List the built-in scenes and their sizes");
+  command.add_flag("--weld", options.weld, "Merge points that coincide in the first frame");
+}
+
+void add_bound_options(CLI::App& command, Options& options) {
+  command
+      .add_option("--bound", options.bounds,
+                  "The bound B: each pair's own, the largest of the scene's pairs, or a number; several, "
+                  "separated by "
+                  "commas, are compared side by side")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("pair|scene|B,...");
+  command
+      .add_option("--thickness", options.thickness,
+                  "The thickness of contact: ask only the cheapest of the subjects (all, if none is named) "
+                  "whose claimed "
+                  "distance of false positives does not exceed it")
+      ->type_name("H");
+}
+
+void add_plan_options(CLI::App& command, Options& options) {
+  command
+      .add_option("--leave-out", options.leave_out,
+                  "Pairs that subjects are not asked about: none; those whose swept boxes do not meet; or "
+                  "also those at "
+                  "rest or in translation relative to each other")
+      ->check(CLI::IsMember({"nothing", "boxes", "all"}))
+      ->capture_default_str();
+  command.add_flag(
+      "--plan-only", options.plan_only,
+      "Show only which pairs are left out and why, and what wang and the oracle need for the others");
+  command.add_flag(
+      "--verify-plan", options.verify_plan,
+      "Ask the oracle about everything that is left out too; exit code 1 if a collision is lost");
+  command
+      .add_option("--export", options.export_to,
+                  "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
+      ->type_name("FILE");
+}
+
+/// With --thickness, makes all subjects available unless some are named.
+void name_subjects(const CLI::App& command, Options& options) {
+  if (options.thickness.empty() || command.count("--subject") > 0) return;
+  options.trial.subjects.clear();
+  for (const SubjectInfo& info : all_subjects()) options.trial.subjects.emplace_back(info.name);
+}
+
 }  // namespace
 
 void add_scene(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command =
-      app.add_subcommand("scene", "Decide the pairs of a moving mesh; what they do not need is left out");
-  command
-      ->add_option(
-          "SCENE", options->scene,
-          "The mesh at t = 0 and the same mesh at t = 1 (START END); a folder of frames: *.obj, *.off, "
-          "*.ply or *.stl; or a built-in scene, NAME or NAME@SIZE, of about so many triangles, lines of hair "
-          "or points (a folder of that name is ./NAME)")
-      ->expected(1, 2);
-  command->add_flag("--list", options->list, "List the built-in scenes, and their sizes");
+      app.add_subcommand("scene", "Decide the pairs of a moving mesh, except those that need no subject");
+  add_scene_options(*command, *options);
   options->trial.add_to(*command);
-  command
-      ->add_option("--bound", options->bounds,
-                   "The bound B: each pair's own, the largest of the scene's pairs, or a number; several, "
-                   "separated by commas, side by side")
-      ->delimiter(',')
-      ->capture_default_str()
-      ->type_name("pair|scene|B,...");
-  command
-      ->add_option(
-          "--leave-out", options->leave_out,
-          "Pairs that subjects are not asked about: none, those whose swept boxes do not meet, or also "
-          "those at rest or in translation relative to each other")
-      ->check(CLI::IsMember({"nothing", "boxes", "all"}))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--thickness", options->thickness,
-          "The thickness of contact: of the subjects (all, where none is named) ask only the cheapest whose "
-          "claimed distance of false positives stays below it")
-      ->type_name("H");
-  command->add_flag("--weld", options->weld, "Make points that are in one place at the first frame one");
-  command->add_flag("--plan-only", options->plan_only,
-                    "Say only what is left out and why, and what wang and the oracle need for the rest");
-  command->add_flag(
-      "--verify-plan", options->verify_plan,
-      "Ask the oracle about everything that is left out too; exit code 1 where a collision is lost");
-  command
-      ->add_option("--export", options->export_to,
-                   "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
-      ->type_name("FILE");
+  add_bound_options(*command, *options);
+  add_plan_options(*command, *options);
   options->record.add_to(*command);
   command->callback([options, command, &exit_code] {
     if (options->list) return list_scenes();
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
-    if (!options->thickness.empty() && command->count("--subject") == 0) {
-      options->trial.subjects.clear();  // then all are there to choose from
-      for (const SubjectInfo& info : all_subjects()) options->trial.subjects.emplace_back(info.name);
-    }
+    name_subjects(*command, *options);
     exit_code = run(*options);
   });
 }

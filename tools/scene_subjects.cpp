@@ -9,7 +9,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/scenes/precision.hpp"
+#include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/text.hpp"
 #include "tools/terminal.hpp"
@@ -18,7 +18,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The largest bound B of all pairs whose boxes meet (§5), over all steps, rounded up to four digits.
+/// The largest bound B (§5) of the pairs whose boxes meet, over all steps, rounded up to four digits.
 double scene_bound(const Scene& scene) {
   double largest = 0;
   for (std::size_t step = 0; step < scene.steps(); ++step) {
@@ -32,7 +32,7 @@ double scene_bound(const Scene& scene) {
   return rounded >= largest && std::isfinite(rounded) ? rounded : largest;
 }
 
-/// Whether a subject takes notice of a bound that is given.
+/// Whether a given bound makes a difference to a subject.
 bool uses_bound(const std::string& name) {
   Query query{.kind = Kind::edge_edge};
   query.x[0] = 1;
@@ -64,10 +64,10 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects) {
   const double limit = parse_number(thickness, "--thickness");
-  const auto all = precisions(scene, leave_out, subjects, [] { return interrupted().load(); });
-  const Precision* const best = cheapest_within(all, limit);
+  const auto all = claimed_precisions(scene, leave_out, subjects, [] { return interrupted().load(); });
+  const ClaimedPrecision* const best = cheapest_within(all, limit);
   std::vector<std::vector<std::string>> rows{{"subject", "claimed distance", "ns/query", ""}};
-  for (const Precision& each : all)
+  for (const ClaimedPrecision& each : all)
     rows.push_back({each.subject, fmt::format("{:.3g}", each.claimed),
                     fmt::format("{:.0f}", each.ns_per_query),
                     &each == best ? "the cheapest within the thickness"

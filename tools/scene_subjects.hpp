@@ -1,4 +1,4 @@
-// Which subjects are asked about a scene, and with which bounds.
+// The subjects that are asked about a scene, with their bounds.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ namespace nearmiss::tools {
 
 struct SceneSubjects {
   Subjects subjects;
-  std::optional<double> bound = {};  ///< of the scene, where one is asked for
+  std::optional<double> bound = {};  ///< the scene's, if a subject needs it
 };
 
-/// The subjects with each bound, "pair", "scene" or a number: NAME takes each pair's own, NAME@scene the
+/// The subjects with each of the bounds "pair", "scene" or a number: NAME uses each pair's own bound, NAME@scene the
 /// largest of the scene's pairs, NAME@B the number. Throws Error.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene);
 
-/// Leaves the cheapest subject whose false positives stay within the contact's thickness, a number; prints
-/// what each promises and costs. Throws Error where there is none.
+/// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of contact;
+/// prints the claim and the cost of each subject. Throws Error if there is none, or the thickness is no number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects);
 

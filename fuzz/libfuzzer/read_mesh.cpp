@@ -1,8 +1,9 @@
-// libFuzzer: OFF, PLY and STL files; each reader is given all.
+// libFuzzer: OFF, PLY and STL files. Every reader is given every file.
 #include <istream>
 
 #include "ccd/error.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
+#include "fuzz/meshes/formats.hpp"
 
 void nearmiss::libfuzzer::read(std::istream& in) {
   for (const auto parse : {parse_off, parse_ply, parse_stl}) {

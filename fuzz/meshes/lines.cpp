@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <istream>
-#include <limits>
 
 #include "corpus/query_text.hpp"
 
@@ -67,15 +66,10 @@ Error Lines::error(std::string_view found, std::string_view expected) const {
   return Error(fmt::format("{}: found {}, expected {}", where(), found, expected));
 }
 
-void expect_decimal(std::string_view word, const Lines& lines) {
-  parse_number(word, lines.where());
+double parse_decimal(std::string_view word, const Lines& lines) {
+  const double value = parse_number(word, lines.where());
   if (word.find_first_of("xX") != std::string_view::npos) throw lines.error(shown(word), "a decimal number");
-}
-
-void expect_points(std::size_t points, std::string_view name) {
-  if (points == 0) throw Error(fmt::format("{}: found no vertex, expected at least one", name));
-  if (points > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw Error(fmt::format("{}: found {} vertices, expected fewer than 2^31", name, points));
+  return value;
 }
 
 std::string shown(std::string_view word) {

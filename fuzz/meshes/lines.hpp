@@ -11,11 +11,10 @@
 
 namespace nearmiss {
 
-/// All that a stream has. Throws Error where it cannot be read to its end.
+/// Everything that a stream holds. Throws Error if it cannot be read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// The lines of a text that hold a word, one at a time, each split into words at blanks. The text must
-/// outlive this.
+/// Goes through the lines of a text that hold a word, and splits each into words at blanks. The text must outlive this.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
@@ -28,13 +27,13 @@ class Lines {
   /// The words of this line, at least one.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
-  /// The next word of this line, or of the lines that follow; empty at the end of the text.
+  /// The next word of this line, or of a later one; empty at the end of the text.
   std::string_view next_word();
 
-  /// Makes next_word go on behind this line.
+  /// Makes next_word go on after this line.
   void skip_line() { read_ = words_.size(); }
 
-  /// The text behind this line.
+  /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
   /// The number of this line, from 1.
@@ -44,7 +43,7 @@ class Lines {
   [[nodiscard]] std::string where() const { return where(number_); }
   [[nodiscard]] std::string where(long line) const;
 
-  /// What is not as it should be at this line.
+  /// The error of finding this at this line.
   [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
 
  private:
@@ -53,16 +52,13 @@ class Lines {
   Comments comments_;
   long number_ = 0;
   std::vector<std::string_view> words_;
-  std::size_t read_ = 0;  ///< words that next_word has given
+  std::size_t read_ = 0;  ///< number of words that next_word has returned
 };
 
-/// Throws Error where a word is no finite decimal number.
-void expect_decimal(std::string_view word, const Lines& lines);
+/// The finite decimal number that a word is. Throws Error if it is none.
+double parse_decimal(std::string_view word, const Lines& lines);
 
-/// Throws Error where a file has no point, or more than an int can count.
-void expect_points(std::size_t points, std::string_view name);
-
-/// How a word, or the lack of one, is shown in a message.
+/// A word, or the lack of one, as messages show it.
 std::string shown(std::string_view word);
 
 }  // namespace nearmiss

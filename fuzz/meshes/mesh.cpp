@@ -4,19 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <fstream>
-#include <map>
+#include <limits>
 #include <numeric>
-#include <string_view>
 
 #include "ccd/error.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Throws Error where two lists of primitives differ.
 template <std::size_t n>
@@ -37,35 +32,32 @@ void expect_same(const std::vector<std::array<int, n>>& first, const std::string
                           fmt::join(counted_from_one(*a), " "), first_name));
 }
 
-using Reader = Mesh (*)(std::istream&, const std::string&);
-
-const std::map<std::string, Reader>& readers() {
-  static const std::map<std::string, Reader> by_ending{
-      {".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}};
-  return by_ending;
-}
-
 }  // namespace
 
-std::string mesh_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return readers().contains(ending) ? ending : "";
+void add_polygon(Mesh& mesh, std::span<const long> polygon) {
+  const auto vertex = [&](std::size_t i) { return static_cast<int>(polygon[i]); };
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    mesh.triangles.push_back({vertex(0), vertex(i - 1), vertex(i)});
 }
 
-Mesh read_mesh(const fs::path& file) {
-  const auto reader = readers().find(mesh_ending(file));
-  if (reader == readers().end())
-    throw Error(fmt::format("{}: found the ending '{}', expected .obj, .off, .ply or .stl", file.string(),
-                            file.extension().string()));
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
-  return reader->second(in, file.string());
+void expect_points(std::size_t points, std::string_view name) {
+  if (points == 0) throw Error(fmt::format("{}: found no vertex, expected at least one", name));
+  if (points > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error(fmt::format("{}: found {} vertices, expected fewer than 2^31", name, points));
+}
+
+void expect_same_primitives(const Mesh& first, const std::string& first_name, const Mesh& other,
+                            const std::string& other_name) {
+  if (first.points.size() != other.points.size())
+    throw Error(fmt::format("{}: found {} vertices, expected {} as in {}", other_name, other.points.size(),
+                            first.points.size(), first_name));
+  expect_same(first.triangles, first_name, other.triangles, other_name, "triangle", "triangles");
+  expect_same(first.lines, first_name, other.lines, other_name, "line", "lines");
 }
 
 Bodies bodies(const Mesh& mesh) {
-  // Of each point one of the same body with a smaller number, or itself: the way leads to the smallest.
+  // parent[i] is a point of the same body with a smaller number, or i itself: the chain of parents ends at the
+  // smallest.
   std::vector<int> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto at = [&](int point) -> int& { return parent[static_cast<std::size_t>(point)]; };
@@ -105,15 +97,6 @@ MovingMesh make_moving_mesh(Mesh mesh, std::vector<Vector3<double>> end) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return {std::move(mesh.points), std::move(end), std::move(mesh.triangles), std::move(edges)};
-}
-
-void expect_same_primitives(const Mesh& first, const std::string& first_name, const Mesh& other,
-                            const std::string& other_name) {
-  if (first.points.size() != other.points.size())
-    throw Error(fmt::format("{}: found {} vertices, expected {} as in {}", other_name, other.points.size(),
-                            first.points.size(), first_name));
-  expect_same(first.triangles, first_name, other.triangles, other_name, "triangle", "triangles");
-  expect_same(first.lines, first_name, other.lines, other_name, "line", "lines");
 }
 
 }  // namespace nearmiss

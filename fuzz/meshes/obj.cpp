@@ -1,36 +1,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <span>
 #include <string_view>
 
 #include "corpus/query_text.hpp"
+#include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
-#include "fuzz/meshes/mesh.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-/// A face or polyline; its vertices count from 1.
-struct Primitive {
+struct FaceOrPolyline {
   bool is_face;
   long line;
-  std::size_t begin, end;  ///< of its vertices, in the list of all primitives' vertices
+  std::size_t begin, end;  ///< its vertices, in the list of the vertices of all
 };
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }
 
-/// The vertex of a primitive's "v", "v/vt", "v//vn" or "v/vt/vn".
-long primitive_vertex(std::string_view word, bool is_face, const Lines& lines) {
-  long index = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, index);
-  if (error != std::errc() || (rest != end && *rest != '/'))
+/// The number of a vertex as the file has it: "v", "v/vt", "v//vn" or "v/vt/vn".
+long parse_vertex(std::string_view word, bool is_face, const Lines& lines) {
+  const auto vertex = parse_integer<long>(word.substr(0, word.find('/')));
+  if (!vertex)
     throw lines.error(fmt::format("{} in a {}", shown(word), name_of(is_face)), "the number of a vertex");
-  return index;
+  return *vertex;
 }
 
 Vector3<double> coordinates(const Lines& lines) {
@@ -40,33 +36,47 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline, counted from 1, to a list; `points` were defined before it.
-void add_primitive_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
+/// Adds the vertices of a face or polyline to a list; there they count from 0. `points` were defined before it.
+void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();
   const std::size_t least = is_face ? 3 : 2;
   if (words.size() < 1 + least)
     throw lines.error(fmt::format("a {} of {} vertices", name_of(is_face), words.size() - 1),
                       fmt::format("at least {}", least));
   for (std::size_t i = 1; i < words.size(); ++i) {
-    const long index = primitive_vertex(words[i], is_face, lines);
-    if (index == 0 || index < -points)
-      throw lines.error(fmt::format("vertex {} in a {}", index, name_of(is_face)),
+    const long vertex = parse_vertex(words[i], is_face, lines);
+    if (vertex == 0 || vertex < -points)
+      throw lines.error(fmt::format("vertex {} in a {}", vertex, name_of(is_face)),
                         fmt::format("1 or more, or -{} to -1", points));
-    list.push_back(index > 0 ? index : points + 1 + index);
+    list.push_back(vertex > 0 ? vertex - 1 : points + vertex);
   }
 }
 
-/// Adds the triangles of a face or the lines of a polyline.
-void add_primitive(bool is_face, std::span<const long> primitive, Mesh& mesh) {
-  const auto vertex = [&](std::size_t i) { return static_cast<int>(primitive[i] - 1); };
-  for (std::size_t i = 1; !is_face && i < primitive.size(); ++i)
-    mesh.lines.push_back({vertex(i - 1), vertex(i)});
-  for (std::size_t i = 2; is_face && i < primitive.size(); ++i)
-    mesh.triangles.push_back({vertex(0), vertex(i - 1), vertex(i)});
+void add_polyline(Mesh& mesh, std::span<const long> polyline) {
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    mesh.lines.push_back({static_cast<int>(polyline[i - 1]), static_cast<int>(polyline[i])});
 }
 
-/// What else the format has; a line that starts with another word is none of an OBJ file.
-bool is_passed_over(std::string_view keyword) {
+/// Adds the triangles and lines. Throws Error if a vertex does not exist: faces may come before their vertices, so
+/// this is known only at the end of the file.
+void add_primitives(Mesh& mesh, const std::vector<FaceOrPolyline>& primitives, std::span<const long> vertices,
+                    const Lines& lines) {
+  const auto points = static_cast<long>(mesh.points.size());
+  for (const auto& [is_face, line, begin, end] : primitives) {
+    const std::span primitive = vertices.subspan(begin, end - begin);
+    const long largest = *std::max_element(primitive.begin(), primitive.end());
+    if (largest >= points)
+      throw Error(fmt::format("{}: found vertex {} in a {}, expected at most {}, the number of vertices",
+                              lines.where(line), largest + 1, name_of(is_face), points));
+    if (is_face)
+      add_polygon(mesh, primitive);
+    else
+      add_polyline(mesh, primitive);
+  }
+}
+
+/// Whether a line with this first word is of the format, but not needed for a mesh.
+bool is_skipped(std::string_view keyword) {
   static const std::set<std::string_view> keywords{
       "vt",     "vn",         "vp",        "cstype", "deg",      "bmat",     "step",   "p",      "curv",
       "curv2",  "surf",       "parm",      "trim",   "hole",     "scrv",     "sp",     "end",    "con",
@@ -82,7 +92,7 @@ Mesh parse_obj(std::istream& in, const std::string& name) {
   const std::string text = read_all(in, name);
   Lines lines(text, name, Lines::Comments::hash);
   Mesh mesh;
-  std::vector<Primitive> primitives;
+  std::vector<FaceOrPolyline> primitives;
   std::vector<long> vertices;
   while (lines.next()) {
     const std::string_view keyword = lines.words()[0];
@@ -90,22 +100,14 @@ Mesh parse_obj(std::istream& in, const std::string& name) {
       mesh.points.push_back(coordinates(lines));
     } else if (keyword == "f" || keyword == "l") {
       const std::size_t begin = vertices.size();
-      add_primitive_vertices(lines, keyword == "f", static_cast<long>(mesh.points.size()), vertices);
+      add_vertices(lines, keyword == "f", static_cast<long>(mesh.points.size()), vertices);
       primitives.push_back({keyword == "f", lines.number(), begin, vertices.size()});
-    } else if (!is_passed_over(keyword)) {
+    } else if (!is_skipped(keyword)) {
       throw lines.error(shown(keyword), "a line of the OBJ format");
     }
   }
   expect_points(mesh.points.size(), name);
-  const auto points = static_cast<long>(mesh.points.size());
-  for (const auto& [is_face, line, begin, end] : primitives) {
-    const std::span primitive = std::span(vertices).subspan(begin, end - begin);
-    const long largest = *std::max_element(primitive.begin(), primitive.end());
-    if (largest > points)  // a primitive may come before its vertices
-      throw Error(fmt::format("{}: found vertex {} in a {}, expected at most {}, the number of vertices",
-                              lines.where(line), largest, name_of(is_face), points));
-    add_primitive(is_face, primitive, mesh);
-  }
+  add_primitives(mesh, primitives, vertices, lines);
   return mesh;
 }
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <limits>
 #include <span>
 
+#include "corpus/query_text.hpp"
+#include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
-#include "fuzz/meshes/plain.hpp"
 
 namespace nearmiss {
 
@@ -14,17 +14,17 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
+constexpr int largest_int = std::numeric_limits<int>::max();
+
 /// A number of vertices, faces or edges, or of a vertex: from 0 to `largest`.
 int parse_count(std::string_view word, int largest, std::string_view what, const Lines& lines) {
-  int count = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(word.data(), end, count);
-  if (error != std::errc() || rest != end || count < 0 || count > largest)
+  const auto count = parse_integer<int>(word);
+  if (!count || *count < 0 || *count > largest)
     throw lines.error(shown(word), fmt::format("{} from 0 to {}", what, largest));
-  return count;
+  return *count;
 }
 
-/// The words behind the keyword; or of the next line, if there are none.
+/// The words after the keyword; or those of the next line, if there are none.
 Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();
@@ -37,6 +37,19 @@ Words after_keyword(Lines& lines) {
   return lines.words();
 }
 
+struct Counts {
+  int vertices, faces;
+};
+
+Counts read_counts(Lines& lines, std::string_view name) {
+  const Words counts = after_keyword(lines);
+  if (counts.size() != 2 && counts.size() != 3)
+    throw lines.error(fmt::format("{}", fmt::join(counts, " ")), "the numbers of vertices, faces and edges");
+  const int vertices = parse_count(counts[0], largest_int, "a number of vertices", lines);
+  expect_points(static_cast<std::size_t>(vertices), name);
+  return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};
+}
+
 /// The next line of a vertex or face.
 Words next_line(Lines& lines, std::string_view what, int index, int count) {
   if (!lines.next())
@@ -44,41 +57,46 @@ Words next_line(Lines& lines, std::string_view what, int index, int count) {
   return lines.words();
 }
 
+/// Checks numbers that a mesh does not need.
 void expect_decimals(Words words, const Lines& lines) {
-  for (const std::string_view word : words) expect_decimal(word, lines);
+  for (const std::string_view word : words) parse_decimal(word, lines);
+}
+
+Vector3<double> parse_vertex(Words vertex, const Lines& lines) {
+  if (vertex.size() < 3) throw lines.error(fmt::format("{} coordinates of a vertex", vertex.size()), "3");
+  Vector3<double> point;
+  for (int i = 0; i < 3; ++i) point[i] = parse_decimal(vertex[static_cast<std::size_t>(i)], lines);
+  expect_decimals(vertex.subspan(3), lines);
+  return point;
+}
+
+/// The vertices of a face.
+std::vector<long> parse_face(Words face, int vertices, const Lines& lines) {
+  const auto size =
+      static_cast<std::size_t>(parse_count(face[0], largest_int, "a number of vertices", lines));
+  if (size < 3) throw lines.error(fmt::format("a face of {} vertices", size), "at least 3");
+  if (face.size() <= size)
+    throw lines.error(fmt::format("{} vertices of a face", face.size() - 1), fmt::format("{}", size));
+  std::vector<long> polygon;
+  for (const std::string_view word : face.subspan(1, size))
+    polygon.push_back(parse_count(word, vertices - 1, "a vertex", lines));
+  expect_decimals(face.subspan(1 + size), lines);  // the colour
+  return polygon;
 }
 
 }  // namespace
 
-std::string plain_off(std::string_view text, std::string_view name) {
-  constexpr int largest = std::numeric_limits<int>::max();
+Mesh parse_off(std::istream& in, const std::string& name) {
+  const std::string text = read_all(in, name);
   Lines lines(text, name, Lines::Comments::hash);
-  const Words counts = after_keyword(lines);
-  if (counts.size() != 2 && counts.size() != 3)
-    throw lines.error(fmt::format("{}", fmt::join(counts, " ")), "the numbers of vertices, faces and edges");
-  const int vertices = parse_count(counts[0], largest, "a number of vertices", lines);
-  expect_points(static_cast<std::size_t>(vertices), name);
-  const int faces = parse_count(counts[1], largest, "a number of faces", lines);
-  std::string plain = fmt::format("OFF\n{} {} 0\n", vertices, faces);
-  for (int i = 0; i < vertices; ++i) {
-    const Words vertex = next_line(lines, "vertex", i, vertices);
-    if (vertex.size() < 3) throw lines.error(fmt::format("{} coordinates of a vertex", vertex.size()), "3");
-    expect_decimals(vertex, lines);
-    plain += fmt::format("{}\n", fmt::join(vertex.first(3), " "));
-  }
-  for (int i = 0; i < faces; ++i) {
-    const Words face = next_line(lines, "face", i, faces);
-    const auto size = static_cast<std::size_t>(parse_count(face[0], largest, "a number of vertices", lines));
-    if (size < 3) throw lines.error(fmt::format("a face of {} vertices", size), "at least 3");
-    if (face.size() <= size)
-      throw lines.error(fmt::format("{} vertices of a face", face.size() - 1), fmt::format("{}", size));
-    for (const std::string_view word : face.subspan(1, size))
-      parse_count(word, vertices - 1, "a vertex", lines);
-    expect_decimals(face.subspan(1 + size), lines);  // of its colour
-    plain += fmt::format("{}\n", fmt::join(face.first(1 + size), " "));
-  }
+  const Counts counts = read_counts(lines, name);
+  Mesh mesh;
+  for (int i = 0; i < counts.vertices; ++i)
+    mesh.points.push_back(parse_vertex(next_line(lines, "vertex", i, counts.vertices), lines));
+  for (int i = 0; i < counts.faces; ++i)
+    add_polygon(mesh, parse_face(next_line(lines, "face", i, counts.faces), counts.vertices, lines));
   if (lines.next()) throw lines.error(shown(lines.words()[0]), "the end of the file");
-  return plain;
+  return mesh;
 }
 
 }  // namespace nearmiss

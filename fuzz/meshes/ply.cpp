@@ -1,207 +1,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <optional>
-#include <vector>
+#include <span>
 
-#include "fuzz/meshes/lines.hpp"
-#include "fuzz/meshes/plain.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/meshes/formats.hpp"
+#include "fuzz/meshes/ply_header.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-struct Type {
-  std::string_view name, other_name;
-  std::size_t bytes;
-  long smallest, largest;  ///< of an integer; both 0 for a floating-point type
+// --- numbers ----------------------------------------------------------------------------------------------
 
-  [[nodiscard]] bool is_integer() const { return smallest != largest; }
-};
-
-constexpr std::array<Type, 8> types{{{"char", "int8", 1, INT8_MIN, INT8_MAX},
-                                     {"uchar", "uint8", 1, 0, UINT8_MAX},
-                                     {"short", "int16", 2, INT16_MIN, INT16_MAX},
-                                     {"ushort", "uint16", 2, 0, UINT16_MAX},
-                                     {"int", "int32", 4, INT32_MIN, INT32_MAX},
-                                     {"uint", "uint32", 4, 0, UINT32_MAX},
-                                     {"float", "float32", 4, 0, 0},
-                                     {"double", "float64", 8, 0, 0}}};
-
-struct Property {
-  const Type* length;  ///< of a list's length; null where it is no list
-  const Type* type;
-  std::string name;
-};
-
-struct Element {
-  std::string name;
-  std::uint64_t items;
-  std::vector<Property> properties;
-};
-
-enum class Encoding { text, little_endian, big_endian };
-
-struct Header {
-  Encoding encoding{};
-  std::vector<Element> elements;
-};
-
-// --- the header -------------------------------------------------------------------------------------------
-
-const Type* parse_type(std::string_view word, const Lines& lines) {
-  const auto type = std::find_if(types.begin(), types.end(),
-                                 [&](const Type& t) { return t.name == word || t.other_name == word; });
-  if (type == types.end()) throw lines.error(shown(word), "a type of numbers");
-  return &*type;
-}
-
-Encoding parse_encoding(std::string_view word, const Lines& lines) {
-  if (word == "ascii") return Encoding::text;
-  if (word == "binary_little_endian") return Encoding::little_endian;
-  if (word == "binary_big_endian") return Encoding::big_endian;
-  throw lines.error(shown(word), "ascii, binary_little_endian or binary_big_endian");
-}
-
-Element parse_element(const Lines& lines) {
-  const auto& words = lines.words();
-  if (words.size() != 3)
-    throw lines.error(fmt::format("{} words", words.size()), "element, a name and a number");
-  std::uint64_t items = 0;
-  const char* const end = words[2].data() + words[2].size();
-  const auto [rest, error] = std::from_chars(words[2].data(), end, items);
-  if (error != std::errc() || rest != end) throw lines.error(shown(words[2]), "how many there are");
-  return {std::string(words[1]), items, {}};
-}
-
-Property parse_property(const Lines& lines) {
-  const auto& words = lines.words();
-  const bool is_list = words.size() > 1 && words[1] == "list";
-  if (words.size() != (is_list ? 5 : 3))
-    throw lines.error(fmt::format("{} words", words.size()), "property, a type and a name");
-  if (!is_list) return {nullptr, parse_type(words[1], lines), std::string(words[2])};
-  const Type* const length = parse_type(words[2], lines);
-  if (!length->is_integer()) throw lines.error(shown(words[2]), "a type of integers for a list's length");
-  return {length, parse_type(words[3], lines), std::string(words[4])};
-}
-
-Header parse_header(Lines& lines) {
-  const auto next = [&](std::string_view expected) {
-    do {
-      if (!lines.next()) throw lines.error(shown({}), expected);
-    } while (lines.words()[0] == "comment" || lines.words()[0] == "obj_info");
-    return lines.words()[0];
-  };
-  if (next("ply") != "ply") throw lines.error(shown(lines.words()[0]), "ply");
-  if (next("format") != "format" || lines.words().size() < 2)
-    throw lines.error(shown(lines.words()[0]), "format and ascii, binary_little_endian or binary_big_endian");
-  Header header{parse_encoding(lines.words()[1], lines), {}};
-  for (;;) {
-    const std::string_view keyword = next("end_header");
-    if (keyword == "end_header") {
-      lines.skip_line();
-      return header;
-    }
-    if (keyword == "element") {
-      header.elements.push_back(parse_element(lines));
-    } else if (keyword == "property" && !header.elements.empty()) {
-      header.elements.back().properties.push_back(parse_property(lines));
-    } else {
-      throw lines.error(shown(keyword), "element, property of an element, or end_header");
-    }
-  }
-}
-
-// --- what is read -----------------------------------------------------------------------------------------
-
-/// Throws Error where a name is there more than once.
-template <class Named>
-const Named* find(const std::vector<Named>& all, std::string_view wanted, std::string_view name) {
-  const auto has_name = [&](const Named& each) { return each.name == wanted; };
-  if (std::count_if(all.begin(), all.end(), has_name) > 1)
-    throw Error(fmt::format("{}: found {} twice in the header, expected it once", name, wanted));
-  const auto found = std::find_if(all.begin(), all.end(), has_name);
-  return found == all.end() ? nullptr : &*found;
-}
-
-void expect_coordinates(const Element& vertex, std::string_view name) {
-  for (const std::string_view coordinate : {"x", "y", "z"}) {
-    const Property* const property = find(vertex.properties, coordinate, name);
-    if (!property || property->length || property->type->is_integer())
-      throw Error(fmt::format("{}: found {} {} of a vertex, expected float or double", name,
-                              property ? property->type->name : "no", coordinate));
-  }
-}
-
-/// The property that lists the vertices of a face.
-const Property* indices(const Element& face, std::string_view name) {
-  const Property* const one = find(face.properties, "vertex_index", name);
-  const Property* const many = find(face.properties, "vertex_indices", name);
-  if (one && many) throw Error(fmt::format("{}: found vertex_index and vertex_indices, expected one", name));
-  const Property* const list = one ? one : many;
-  if (!list || !list->length || (list->type->name != "int" && list->type->name != "uint"))
-    throw Error(fmt::format(
-        "{}: found no list of int or uint that is vertex_indices, expected the vertices of faces", name));
-  return list;
-}
-
-/// The header without the names of what is not read.
-std::string plain_header(const Header& header, std::string_view name) {
-  const Element* const vertex = find(header.elements, "vertex", name);
-  if (!vertex) throw Error(fmt::format("{}: found no element vertex, expected one", name));
-  expect_coordinates(*vertex, name);
-  const Element* const face = find(header.elements, "face", name);
-  const Property* const list = face && face->items > 0 ? indices(*face, name) : nullptr;
-  for (const std::string_view primitives : {"edge", "halfedge", "tristrips"})
-    if (const Element* const element = find(header.elements, primitives, name); element && element->items > 0)
-      throw Error(
-          fmt::format("{}: found the element {}, expected no other primitives than face", name, primitives));
-  constexpr std::array encodings{"ascii", "binary_little_endian", "binary_big_endian"};
-  std::string plain =
-      fmt::format("ply\nformat {} 1.0\n", encodings[static_cast<std::size_t>(header.encoding)]);
-  for (const Element& element : header.elements) {
-    const bool is_read = &element == vertex || (&element == face && list);
-    plain += fmt::format("element {} {}\n", is_read ? element.name : "other", element.items);
-    for (const Property& p : element.properties) {
-      const bool is_coordinate = &element == vertex && (p.name == "x" || p.name == "y" || p.name == "z");
-      plain += fmt::format("property {}{} {}\n", p.length ? fmt::format("list {} ", p.length->name) : "",
-                           p.type->name,
-                           &p == list      ? "vertex_indices"
-                           : is_coordinate ? p.name
-                                           : "other");
-    }
-  }
-  return plain + "end_header\n";
-}
-
-// --- the numbers ------------------------------------------------------------------------------------------
-
-/// The numbers behind the header, as text.
+/// The numbers after the header, as text.
 class TextNumbers {
  public:
   explicit TextNumbers(Lines& lines) : lines_(lines) {}
 
-  /// One number of this type; nothing at the end of the file.
-  std::optional<long> integer(const Type& type) {
+  /// The next number, which must be of this type; nothing at the end of the file.
+  std::optional<double> next(const ply::NumberType& type) {
     const std::string_view word = lines_.next_word();
     if (word.empty()) return std::nullopt;
-    long value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || rest != end || value < type.smallest || value > type.largest)
-      throw lines_.error(shown(word), fmt::format("an integer from {} to {}", type.smallest, type.largest));
-    return value;
+    if (type.is_integer()) return static_cast<double>(integer(word, type));
+    const double value = parse_decimal(word, lines_);
+    return type.bytes == sizeof(float) ? parse_float(word, lines_.where()) : value;
   }
 
-  /// Reads over so many numbers; false at the end of the file.
-  bool pass(const Type& type, long count) {
+  /// Skips numbers of this type; false at the end of the file.
+  bool skip(const ply::NumberType& type, std::uint64_t count) {
     for (; count > 0; --count)
-      if (!(type.is_integer() ? integer(type).has_value() : real(type))) return false;
+      if (!next(type)) return false;
     return true;
   }
 
@@ -211,39 +43,41 @@ class TextNumbers {
   }
 
  private:
-  bool real(const Type& type) {
-    const std::string_view word = lines_.next_word();
-    if (word.empty()) return false;
-    expect_decimal(word, lines_);
-    if (type.bytes == sizeof(float) && !std::isfinite(std::strtof(std::string(word).c_str(), nullptr)))
-      throw lines_.error(shown(word), "a number that a float can be");
-    return true;
+  [[nodiscard]] long integer(std::string_view word, const ply::NumberType& type) const {
+    const auto value = parse_integer<long>(word);
+    if (!value || *value < type.smallest || *value > type.largest)
+      throw lines_.error(shown(word), fmt::format("an integer from {} to {}", type.smallest, type.largest));
+    return *value;
   }
 
   Lines& lines_;
 };
 
-/// The numbers behind the header, as bytes.
+/// The numbers after the header, as bytes.
 class BinaryNumbers {
  public:
-  BinaryNumbers(std::string_view bytes, Encoding encoding, std::string_view name)
+  BinaryNumbers(std::string_view bytes, ply::Encoding encoding, std::string_view name)
       : bytes_(bytes), encoding_(encoding), name_(name) {}
 
-  std::optional<long> integer(const Type& type) {
+  /// The next number; nothing at the end of the file.
+  std::optional<double> next(const ply::NumberType& type) {
     if (bytes_.size() < type.bytes) return std::nullopt;
-    std::uint32_t value = 0;
+    std::uint64_t bits = 0;
     for (std::size_t i = 0; i < type.bytes; ++i) {
-      const std::size_t from_most_significant = encoding_ == Encoding::big_endian ? i : type.bytes - 1 - i;
-      value = value << 8 | static_cast<unsigned char>(bytes_[from_most_significant]);
+      const std::size_t from_most_significant =
+          encoding_ == ply::Encoding::big_endian ? i : type.bytes - 1 - i;
+      bits = bits << 8 | static_cast<unsigned char>(bytes_[from_most_significant]);
     }
     bytes_.remove_prefix(type.bytes);
-    if (type.smallest == 0 || value <= type.largest) return value;
-    return static_cast<long>(value) + 2 * type.smallest;
+    if (type.is_integer()) return static_cast<double>(signed_value(static_cast<long>(bits), type));
+    if (type.bytes == sizeof(double)) return std::bit_cast<double>(bits);
+    return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
   }
 
-  bool pass(const Type& type, long count) {
-    if (static_cast<std::size_t>(count) > bytes_.size() / type.bytes) return false;
-    bytes_.remove_prefix(static_cast<std::size_t>(count) * type.bytes);
+  /// Skips numbers of this type; false at the end of the file.
+  bool skip(const ply::NumberType& type, std::uint64_t count) {
+    if (count > bytes_.size() / type.bytes) return false;
+    bytes_.remove_prefix(count * type.bytes);
     return true;
   }
 
@@ -254,44 +88,132 @@ class BinaryNumbers {
   }
 
  private:
+  /// The value of two's complement, from that of an unsigned integer of as many bits.
+  static long signed_value(long value, const ply::NumberType& type) {
+    return value <= type.largest ? value : value + 2 * type.smallest;
+  }
+
   std::string_view bytes_;
-  Encoding encoding_;
+  ply::Encoding encoding_;
   std::string_view name_;
 };
 
-/// Throws Error where the file does not hold what its header says.
-template <class Numbers>
-void expect_all(const Header& header, Numbers numbers, std::string_view name) {
-  for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.items > 0)  // they would be there without a byte
-      throw Error(fmt::format("{}: found no property of {}, expected one", name, element.name));
-    for (std::uint64_t i = 0; i < element.items; ++i) {
-      for (const Property& property : element.properties) {
-        const std::optional<long> length = property.length ? numbers.integer(*property.length) : 1;
-        if (length && *length < 0)
-          throw Error(fmt::format("{}: found a list of {} numbers in {} {}, expected 0 or more", name,
-                                  *length, element.name, i + 1));
-        if (!length || !numbers.pass(*property.type, *length))
-          throw Error(fmt::format("{}: found the end of the file in {} {}, expected {}", name, element.name,
-                                  i + 1, element.items));
-      }
-    }
-  }
-  numbers.expect_end();
+// --- mesh -------------------------------------------------------------------------------------------------
+
+/// Points and polygons as the file has them. Polygons may come before their points.
+struct PolygonSoup {
+  std::vector<Vector3<double>> points;
+  std::vector<long> vertices;      ///< of all polygons, one after the other
+  std::vector<std::size_t> sizes;  ///< of each polygon
+};
+
+void expect_finite(const std::vector<Vector3<double>>& points, std::string_view name) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const double c : points[i])
+      if (!std::isfinite(c))
+        throw Error(fmt::format("{}: found {} in vertex {}, expected a finite number", name, c, i + 1));
 }
+
+/// Throws Error unless a polygon has three vertices or more, all among `points`.
+void expect_polygon(std::span<const long> polygon, std::size_t points, std::size_t number,
+                    std::string_view name) {
+  if (polygon.size() < 3)
+    throw Error(
+        fmt::format("{}: found face {} of {} vertices, expected at least 3", name, number, polygon.size()));
+  const auto as_unsigned = [](long vertex) { return static_cast<std::size_t>(vertex); };  // -1 is the largest
+  const long worst = *std::ranges::max_element(polygon, {}, as_unsigned);
+  if (as_unsigned(worst) >= points)
+    throw Error(
+        fmt::format("{}: found vertex {} in face {}, expected 0 to {}", name, worst, number, points - 1));
+}
+
+Mesh to_mesh(PolygonSoup soup, std::string_view name) {
+  expect_points(soup.points.size(), name);
+  expect_finite(soup.points, name);
+  Mesh mesh{std::move(soup.points), {}, {}};
+  std::span<const long> rest = soup.vertices;
+  for (std::size_t i = 0; i < soup.sizes.size(); ++i) {
+    const auto polygon = rest.first(soup.sizes[i]);
+    expect_polygon(polygon, mesh.points.size(), i + 1, name);
+    add_polygon(mesh, polygon);
+    rest = rest.subspan(soup.sizes[i]);
+  }
+  return mesh;
+}
+
+/// Reads the items of all elements, and keeps what a mesh needs.
+template <class Numbers>
+class ItemReader {
+ public:
+  ItemReader(const ply::MeshProperties& wanted, Numbers numbers, std::string_view name)
+      : wanted_(wanted), numbers_(std::move(numbers)), name_(name) {}
+
+  PolygonSoup read(const std::vector<ply::Element>& elements) && {
+    for (const ply::Element& element : elements) {
+      if (element.properties.empty() && element.items > 0)  // they would be there without a byte
+        throw Error(fmt::format("{}: found no property of {}, expected one", name_, element.name));
+      for (std::uint64_t item = 1; item <= element.items; ++item) read_item(element, item);
+    }
+    numbers_.expect_end();
+    return std::move(soup_);
+  }
+
+ private:
+  void read_item(const ply::Element& element, std::uint64_t item) {
+    for (const ply::Property& property : element.properties) {
+      const std::optional<double> length = property.length ? numbers_.next(*property.length) : 1;
+      if (length && *length < 0)
+        throw Error(fmt::format("{}: found a list of {} numbers in {} {}, expected 0 or more", name_, *length,
+                                element.name, item));
+      if (!length || !read_numbers(property, static_cast<std::uint64_t>(*length)))
+        throw Error(fmt::format("{}: found the end of the file in {} {}, expected {}", name_, element.name,
+                                item, element.items));
+    }
+    if (&element == wanted_.vertex) soup_.points.push_back(point_);
+  }
+
+  /// Reads the numbers of one property; false at the end of the file.
+  bool read_numbers(const ply::Property& property, std::uint64_t count) {
+    if (&property == wanted_.face_vertices) return read_face_vertices(*property.type, count);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (&property == wanted_.coordinates[i]) return read_coordinate(*property.type, static_cast<int>(i));
+    return numbers_.skip(*property.type, count);
+  }
+
+  bool read_coordinate(const ply::NumberType& type, int i) {
+    const std::optional<double> value = numbers_.next(type);
+    if (value) point_[i] = *value;
+    return value.has_value();
+  }
+
+  bool read_face_vertices(const ply::NumberType& type, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::optional<double> vertex = numbers_.next(type);
+      if (!vertex) return false;
+      soup_.vertices.push_back(static_cast<long>(*vertex));
+    }
+    soup_.sizes.push_back(count);
+    return true;
+  }
+
+  const ply::MeshProperties& wanted_;
+  Numbers numbers_;
+  std::string_view name_;
+  PolygonSoup soup_;
+  Vector3<double> point_{0, 0, 0};  ///< the coordinates of this vertex
+};
 
 }  // namespace
 
-std::string plain_ply(std::string_view text, std::string_view name) {
+Mesh parse_ply(std::istream& in, const std::string& name) {
+  const std::string text = read_all(in, name);
   Lines lines(text, name, Lines::Comments::none);
-  const Header header = parse_header(lines);
-  std::string plain = plain_header(header, name);
-  const std::string_view body = lines.rest();
-  if (header.encoding == Encoding::text)
-    expect_all(header, TextNumbers(lines), name);
-  else
-    expect_all(header, BinaryNumbers(body, header.encoding, name), name);
-  return plain.append(body);
+  const ply::Header header = ply::parse_header(lines);
+  const ply::MeshProperties wanted = ply::mesh_properties(header, name);
+  if (header.encoding == ply::Encoding::text)
+    return to_mesh(ItemReader(wanted, TextNumbers(lines), name).read(header.elements), name);
+  const BinaryNumbers numbers(lines.rest(), header.encoding, name);
+  return to_mesh(ItemReader(wanted, numbers, name).read(header.elements), name);
 }
 
 }  // namespace nearmiss

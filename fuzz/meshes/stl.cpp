@@ -6,13 +6,38 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 
+#include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
-#include "fuzz/meshes/plain.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+/// The mesh of triangles that come as three points each. Equal points become one.
+class TriangleSoup {
+ public:
+  using Corner = std::array<double, 3>;
+
+  void add(const std::array<Corner, 3>& triangle) {
+    mesh_.triangles.push_back({point(triangle[0]), point(triangle[1]), point(triangle[2])});
+  }
+  [[nodiscard]] Mesh mesh(std::string_view name) && {
+    expect_points(mesh_.points.size(), name);
+    return std::move(mesh_);
+  }
+
+ private:
+  int point(const Corner& corner) {
+    const auto [found, is_new] = points_.try_emplace(corner, static_cast<int>(mesh_.points.size()));
+    if (is_new) mesh_.points.emplace_back(corner[0], corner[1], corner[2]);
+    return found->second;
+  }
+
+  Mesh mesh_;
+  std::map<Corner, int> points_;  // 0 and -0 are equal here
+};
 
 std::string lower_case(std::string_view word) {
   std::string lower(word);
@@ -21,6 +46,8 @@ std::string lower_case(std::string_view word) {
   return lower;
 }
 
+// --- text -------------------------------------------------------------------------------------------------
+
 void expect_words(Lines& lines, std::initializer_list<std::string_view> expected) {
   for (const std::string_view word : expected) {
     const std::string_view found = lines.next_word();
@@ -28,74 +55,81 @@ void expect_words(Lines& lines, std::initializer_list<std::string_view> expected
   }
 }
 
-/// A facet behind the word "facet". The normal may be anything: exporters write nan for a degenerate one.
-void add_facet(Lines& lines, std::string& plain) {
+double read_coordinate(Lines& lines) {
+  const std::string_view word = lines.next_word();
+  if (word.empty()) throw lines.error(shown(word), "a coordinate");
+  return parse_decimal(word, lines);
+}
+
+/// Reads a facet after the word "facet". The normal may be anything: exporters write nan for a degenerate facet.
+std::array<TriangleSoup::Corner, 3> read_facet(Lines& lines) {
   expect_words(lines, {"normal"});
   for (int i = 0; i < 3; ++i) lines.next_word();
   expect_words(lines, {"outer", "loop"});
-  plain += "facet\n";
-  for (int i = 0; i < 3; ++i) {
+  std::array<TriangleSoup::Corner, 3> triangle{};
+  for (auto& corner : triangle) {
     expect_words(lines, {"vertex"});
-    plain += "vertex";
-    for (int j = 0; j < 3; ++j) {
-      const std::string_view coordinate = lines.next_word();
-      if (coordinate.empty()) throw lines.error(shown(coordinate), "a coordinate");
-      expect_decimal(coordinate, lines);
-      plain.append(" ").append(coordinate);
-    }
-    plain += '\n';
+    for (double& c : corner) c = read_coordinate(lines);
   }
-  plain += "endfacet\n";
   expect_words(lines, {"endloop", "endfacet"});
+  return triangle;
 }
 
-std::string plain_text(std::string_view text, std::string_view name) {
+Mesh parse_text(std::string_view text, std::string_view name) {
   Lines lines(text, name, Lines::Comments::none);
-  std::string plain = "solid\n";
+  TriangleSoup soup;
   while (lines.next()) {  // several solids become one
     expect_words(lines, {"solid"});
     lines.skip_line();  // its name
     std::string_view word = lines.next_word();
-    for (; lower_case(word) == "facet"; word = lines.next_word()) add_facet(lines, plain);
+    for (; lower_case(word) == "facet"; word = lines.next_word()) soup.add(read_facet(lines));
     if (lower_case(word) != "endsolid") throw lines.error(shown(word), "'facet' or 'endsolid'");
   }
-  return plain + "endsolid\n";
+  return std::move(soup).mesh(name);
 }
 
-constexpr std::size_t header = 80;
-constexpr std::size_t facet = 50;  ///< normal, three vertices, each of three floats; two bytes
+// --- bytes ------------------------------------------------------------------------------------------------
 
-/// How many bytes a binary file has that starts like this.
+constexpr std::size_t header_bytes = 80;
+constexpr std::size_t facet_bytes = 50;  ///< normal and three vertices, each of three floats; two bytes
+
+/// The size of a binary file that starts with these bytes.
 std::size_t promised_size(std::string_view bytes) {
   std::uint32_t facets = 0;
-  if (bytes.size() < header + sizeof facets) return header + sizeof facets;
-  std::memcpy(&facets, bytes.data() + header, sizeof facets);
-  return header + sizeof facets + facets * facet;
+  if (bytes.size() < header_bytes + sizeof facets) return header_bytes + sizeof facets;
+  std::memcpy(&facets, bytes.data() + header_bytes, sizeof facets);
+  return header_bytes + sizeof facets + facets * facet_bytes;
 }
 
-std::string plain_binary(std::string_view bytes, std::string_view name) {
+Mesh parse_binary(std::string_view bytes, std::string_view name) {
   if (bytes.size() != promised_size(bytes))
     throw Error(
         fmt::format("{}: found {} bytes, expected {} of a binary STL file, or text that starts with 'solid'",
                     name, bytes.size(), promised_size(bytes)));
-  for (std::size_t at = header + 4; at < bytes.size(); at += facet) {
+  TriangleSoup soup;
+  const std::string_view facets = bytes.substr(header_bytes + sizeof(std::uint32_t));
+  for (std::size_t at = 0; at < facets.size(); at += facet_bytes) {
     std::array<float, 12> numbers{};
-    std::memcpy(numbers.data(), bytes.data() + at, sizeof numbers);
+    std::memcpy(numbers.data(), facets.data() + at, sizeof numbers);
     const auto bad =
         std::find_if(numbers.begin() + 3, numbers.end(), [](float c) { return !std::isfinite(c); });
     if (bad != numbers.end())
       throw Error(fmt::format("{}: found {} in facet {}, expected a finite number", name, *bad,
-                              (at - header - 4) / facet + 1));
+                              at / facet_bytes + 1));
+    std::array<TriangleSoup::Corner, 3> triangle{};
+    for (std::size_t i = 0; i < 9; ++i) triangle[i / 3][i % 3] = numbers[3 + i];
+    soup.add(triangle);
   }
-  return std::string(header, '\0').append(bytes.substr(header));
+  return std::move(soup).mesh(name);
 }
 
 }  // namespace
 
-std::string plain_stl(std::string_view text, std::string_view name) {
-  const std::string_view start = text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  const bool is_text = lower_case(start.substr(0, 5)) == "solid" && text.size() != promised_size(text);
-  return is_text ? plain_text(text, name) : plain_binary(text, name);
+Mesh parse_stl(std::istream& in, const std::string& name) {
+  const std::string text = read_all(in, name);
+  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const bool is_text = lower_case(text.substr(start, 5)) == "solid" && text.size() != promised_size(text);
+  return is_text ? parse_text(text, name) : parse_binary(text, name);
 }
 
 }  // namespace nearmiss

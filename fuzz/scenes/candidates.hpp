@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,15 +21,18 @@ struct Candidate {
   auto operator<=>(const Candidate&) const = default;
 };
 
-/// Takes a pair whose primitives have no vertex in common.
+/// The query of a candidate.
+Query make_query(const MovingMesh& mesh, const Candidate& candidate);
+
+/// Takes a pair of primitives without a common vertex.
 using CandidateSink = std::function<void(const Candidate&)>;
 
-/// Whether to end early.
+/// Says whether to end early.
 using Stop = std::function<bool()>;
 
-/// The pairs of a kind whose swept boxes meet (closed boxes: touching counts), in parts that can be found
-/// each by itself, in any order and by any thread. The mesh, which alone says what the parts are, must
-/// outlive this.
+/// Finds the pairs of a kind whose swept boxes meet (closed boxes: touching counts). The search is divided into
+/// parts, each of which can be searched alone, in any order and by any thread. The parts depend on nothing but the
+/// mesh, which must outlive this.
 class CandidateFinder {
  public:
   CandidateFinder(const MovingMesh& mesh, Kind kind);
@@ -38,8 +42,8 @@ class CandidateFinder {
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes on once each pair of a part without a common vertex; how many have one. Nothing is kept, so that
-  /// a scene of any size can be streamed. `stop` is asked now and then, and ends it.
+  /// Passes on each pair of a part without a common vertex once, and returns the number of pairs that have one.
+  /// Nothing is kept, so a scene of any size can be streamed. `stop` is asked now and then, and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const Stop& stop) const;
 
  private:
@@ -47,26 +51,23 @@ class CandidateFinder {
   std::unique_ptr<const Boxes> boxes_;
 };
 
-/// All of a kind, part by part.
+/// All candidates of a kind, part by part. Returns the number of pairs with a common vertex.
 std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop);
 
-/// Of both kinds, vertex-triangle pairs first.
+/// All candidates of both kinds, vertex-triangle pairs first.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
 
-/// The same as find_candidates in another way, which shares no code but the sink: primitives in the order of
-/// their boxes along one axis, each compared with those that begin before it ends.
+/// Does the same as find_candidates by another search, which shares no code with it except the test for a common
+/// vertex: boxes are sorted along one axis, and each is compared with those that begin before it ends.
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
                                        const Stop& stop);
 
-/// All pairs of a kind, wherever they are, come in rows: those of one vertex, or of one edge with all behind
-/// it.
+/// All pairs of a kind, whether their boxes meet or not, come in rows: the pairs of one vertex with all triangles,
+/// or of one edge with all edges after it.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes on each pair of a row without a common vertex; how many have one.
+/// Passes on each pair of a row without a common vertex, and returns the number of pairs that have one.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const Stop& stop);
-
-/// The query of a candidate.
-Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 
 }  // namespace nearmiss

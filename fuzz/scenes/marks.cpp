@@ -16,16 +16,17 @@ namespace {
 constexpr std::size_t most_primitives = 8000;  // with a mark, and as many without
 constexpr std::size_t most_subjects = 15;      // bits of a mark: 1 + 2 * 15
 
-template <class Primitive>
-std::uint32_t mark_of(const std::map<Primitive, std::uint32_t>& marks, const Primitive& primitive) {
+/// The mark of a primitive, which is named by its vertices.
+template <class Key>
+std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& primitive) {
   const auto found = marks.find(primitive);
   return found == marks.end() ? 0 : found->second;
 }
 
 std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A text of numbers with blanks between them.
-class Numbers {
+/// Numbers as text, separated by blanks.
+class NumberList {
  public:
   void add(std::int64_t number) {
     fmt::format_to(std::back_inserter(text_), "{}{}", text_.empty() ? "" : " ", number);
@@ -36,10 +37,10 @@ class Numbers {
   std::string text_;
 };
 
-/// Numbers the points that are shown, and gives their coordinates as integers.
-class Points {
+/// Numbers the points that are shown, and lists their coordinates as integers from 0 to 9999.
+class ShownPoints {
  public:
-  explicit Points(const MovingMesh& mesh) : mesh_(mesh), numbers_(mesh.start.size(), -1) {
+  explicit ShownPoints(const MovingMesh& mesh) : mesh_(mesh), numbers_(mesh.start.size(), -1) {
     for (const auto* points : {&mesh.start, &mesh.end})
       for (const auto& p : *points) {
         lo_ = lo_.cwiseMin(p);
@@ -49,12 +50,12 @@ class Points {
     scale_ = (hi_ / 2 - lo_ / 2).maxCoeff();
   }
 
-  /// Adds a primitive to a list: the numbers of its points, and its mark.
-  void show(Numbers& list, const std::vector<int>& vertices, std::uint32_t mark) {
+  /// Adds a primitive to a list: the numbers of its points, then its mark.
+  void show(NumberList& list, const std::vector<int>& vertices, std::uint32_t mark) {
     for (const int vertex : vertices) list.add(number(vertex));
     list.add(mark);
   }
-  [[nodiscard]] const Numbers& coordinates() const { return coordinates_; }
+  [[nodiscard]] const NumberList& coordinates() const { return coordinates_; }
 
  private:
   int number(int vertex) {
@@ -76,10 +77,10 @@ class Points {
   double scale_ = 0;
   std::vector<int> numbers_;
   int count_ = 0;
-  Numbers coordinates_;
+  NumberList coordinates_;
 };
 
-/// Evenly, at most so many of the things of a list.
+/// At most `most` elements of a list, evenly spread.
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   std::vector<T> some;
@@ -120,14 +121,17 @@ void Marks::merge(const Marks& other) {
   for (const auto& [point, mark] : other.points_) points_[point] |= mark;
 }
 
-ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
-                            const std::vector<std::string>& subjects) const {
-  std::vector<Marked> marked;
-  std::vector<Marked> others;
-  const auto add_primitive = [&](std::vector<int> vertices, Mark mark) {
+/// The primitives of a mesh with a mark, and those without.
+struct Marks::Primitives {
+  std::vector<Marked> marked, others;
+
+  void add(std::vector<int> vertices, Mark mark) {
     (mark != 0 ? marked : others).push_back({std::move(vertices), mark});
-  };
-  std::vector<bool> in_primitive(mesh.start.size());
+  }
+};
+
+/// Adds the triangles, each with the marks of its edges, then the edges that are in no triangle.
+void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
   std::vector<std::array<int, 2>> of_triangles;
   for (const auto& t : mesh.triangles) {
     Mark mark = mark_of(triangles_, t);
@@ -135,27 +139,41 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
       mark |= mark_of(edges_, side);
       of_triangles.push_back(side);
     }
-    add_primitive({t.begin(), t.end()}, mark);
-    for (const int vertex : t) in_primitive[static_cast<std::size_t>(vertex)] = true;
+    primitives.add({t.begin(), t.end()}, mark);
   }
   std::ranges::sort(of_triangles);
-  for (const auto& e : mesh.edges) {
-    if (!std::ranges::binary_search(of_triangles, e)) add_primitive({e.begin(), e.end()}, mark_of(edges_, e));
+  for (const auto& e : mesh.edges)
+    if (!std::ranges::binary_search(of_triangles, e))
+      primitives.add({e.begin(), e.end()}, mark_of(edges_, e));
+}
+
+/// Adds the points with a mark, and those in no primitive.
+void Marks::add_points(const MovingMesh& mesh, Primitives& primitives) const {
+  std::vector<bool> in_primitive(mesh.start.size());
+  for (const auto& t : mesh.triangles)
+    for (const int vertex : t) in_primitive[static_cast<std::size_t>(vertex)] = true;
+  for (const auto& e : mesh.edges)
     for (const int vertex : e) in_primitive[static_cast<std::size_t>(vertex)] = true;
-  }
   for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)
     if (const Mark mark = mark_of(points_, v); mark != 0 || !in_primitive[static_cast<std::size_t>(v)])
-      add_primitive({v}, mark);
+      primitives.add({v}, mark);
+}
 
+ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
+                            const std::vector<std::string>& subjects) const {
+  Primitives primitives;
+  add_surfaces(mesh, primitives);
+  add_points(mesh, primitives);
   nlohmann::json json;
-  json["primitives"] = marked.size() + others.size();
+  json["primitives"] = primitives.marked.size() + primitives.others.size();
   json["meanings"] = {"collides"};
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
-  std::array<Numbers, 3> lists;  // by the number of points
-  Points points(mesh);
-  for (const std::vector<Marked>& some : {thinned(others, most_primitives), thinned(marked, most_primitives)})
+  std::array<NumberList, 3> lists;  // of points, lines and triangles
+  ShownPoints points(mesh);
+  for (const auto& some :
+       {thinned(primitives.others, most_primitives), thinned(primitives.marked, most_primitives)})
     for (const Marked& each : some) points.show(lists[each.vertices.size() - 1], each.vertices, each.mark);
   json["points"] = points.coordinates().text();
   json["dots"] = lists[0].text();

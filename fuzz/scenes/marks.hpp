@@ -1,4 +1,4 @@
-// What is said of the primitives of a step, and a picture of it.
+// Marks on the primitives of a step, and a picture of them.
 #pragma once
 
 #include <array>
@@ -14,26 +14,30 @@
 
 namespace nearmiss {
 
-/// Primitives in pairs that collide, or of which a subject says so falsely, or misses that they do.
+/// Marks primitives of pairs that collide, that a subject reports falsely, or that a subject misses.
 class Marks {
  public:
   void add_collision(const Candidate& candidate) { add(candidate, 1); }
-  /// What a subject said, by its place among the subjects; from the 16th on nothing is noted.
+  /// Marks by the outcome of one subject, given by its place among the subjects. The 16th and later subjects leave no
+  /// mark.
   void add(const Candidate& candidate, std::size_t subject, const Outcome& outcome);
   void merge(const Marks& other);
 
-  /// How many primitives are marked.
+  /// The number of marked primitives.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
-  /// Of a step; `subjects` are the names. Triangles have the marks of their edges too. Of primitives with a
-  /// mark, and of those without, as many are shown as a page can bear.
+  /// The picture of a step; `subjects` are their names. Triangles also have the marks of their edges. At most 8,000
+  /// primitives with a mark are shown, and as many without.
   [[nodiscard]] ScenePicture picture(const std::string& step, const MovingMesh& mesh,
                                      const std::vector<std::string>& subjects) const;
 
  private:
   using Mark = std::uint32_t;
+  struct Primitives;
 
   void add(const Candidate& candidate, Mark mark);
+  void add_surfaces(const MovingMesh& mesh, Primitives& primitives) const;
+  void add_points(const MovingMesh& mesh, Primitives& primitives) const;
 
   std::map<std::array<int, 3>, Mark> triangles_;
   std::map<std::array<int, 2>, Mark> edges_;

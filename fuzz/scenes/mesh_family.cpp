@@ -17,36 +17,33 @@ namespace {
 
 using Vector = Vector3<double>;
 
-using Vertices = decltype(Candidate::vertices);
-
-/// A sample of the candidates of a kind: those with the smallest random numbers, which are a function of the
-/// vertices alone, so that the order in which they come does not matter.
-class Sample {
+/// A sample of candidates: those with the smallest random numbers. The number is a function of the vertices alone,
+/// so the order in which candidates come does not matter.
+class CandidateSample {
  public:
-  Sample(Kind kind, std::size_t most) : kind_(kind), most_(most) {}
+  explicit CandidateSample(std::size_t most) : most_(most) {}
 
-  void add(const Vertices& vertices) {
-    const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(vertices[i]); };
+  void add(const Candidate& candidate) {
+    const auto vertex = [&](std::size_t i) { return static_cast<std::uint64_t>(candidate.vertices[i]); };
     Random random(vertex(0), vertex(1), vertex(2) << 32 | vertex(3));
-    kept_.emplace_back(random.bits(), vertices);
+    kept_.emplace_back(random.bits(), candidate);
     std::push_heap(kept_.begin(), kept_.end());
     if (kept_.size() <= most_) return;
     std::pop_heap(kept_.begin(), kept_.end());
     kept_.pop_back();
   }
 
-  /// In an order of their own.
+  /// The queries in the order of their random numbers.
   [[nodiscard]] std::vector<Query> queries(const MovingMesh& mesh) && {
     std::sort_heap(kept_.begin(), kept_.end());
     std::vector<Query> made;
-    for (const auto& [number, vertices] : kept_) made.push_back(make_query(mesh, {kind_, vertices}));
+    for (const auto& [number, candidate] : kept_) made.push_back(make_query(mesh, candidate));
     return made;
   }
 
  private:
-  Kind kind_;
   std::size_t most_;
-  std::vector<std::pair<std::uint64_t, Vertices>> kept_;  ///< a heap
+  std::vector<std::pair<std::uint64_t, Candidate>> kept_;  ///< a heap
 };
 
 Query perturbed(Random& random, Query query, double size) {
@@ -54,7 +51,8 @@ Query perturbed(Random& random, Query query, double size) {
   return query;
 }
 
-/// Moves the first primitive, over the whole step alike, so that it touches the second one where the aim says.
+/// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second one at
+/// the time and place of the aim.
 Query touching(Query query, const Aim& aim) {
   const double alpha = aim.alpha;
   const double beta = aim.beta;
@@ -89,9 +87,9 @@ Query changed(Random& random, const Query& pair, double size) {
 }  // namespace
 
 Family mesh_family(const MovingMesh& mesh, std::size_t most) {
-  std::array samples{Sample(kinds[0], most), Sample(kinds[1], most)};
+  std::array samples{CandidateSample(most), CandidateSample(most)};
   const auto number = [](Kind kind) { return static_cast<std::size_t>(kind); };
-  find_candidates(mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each.vertices); });
+  find_candidates(mesh, [&](const Candidate& each) { samples[number(each.kind)].add(each); });
 
   auto pairs = std::make_shared<std::array<std::vector<Query>, kinds.size()>>();
   for (const Kind kind : kinds) {

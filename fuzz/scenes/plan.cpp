@@ -22,31 +22,31 @@ std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
-/// Takes the pairs of one part, and deals with them when there are enough for a batch.
-class Dealer {
+/// Takes the pairs of one part, and decides their fates batch by batch.
+class FateTeller {
  public:
-  Dealer(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
-         const DecidedSink& decided)
+  FateTeller(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
+             const DecidedSink& decided)
       : mesh_(mesh), leave_out_(leave_out), ask_(ask), decided_(decided) {
     asked_.kind = kind;
   }
 
   void take(const Candidate& candidate) {
     found_.push_back(candidate);
-    if (found_.size() == batch_pairs) deal();
+    if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time that this took, which is not that of finding.
+  /// The time that this took, with that of `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
-    deal();
+    tell_fates();
     return funnel_;
   }
 
  private:
   static constexpr std::size_t batch_pairs = 1000;
 
-  void deal() {
+  void tell_fates() {
     const auto start = Clock::now();
     for (const Candidate& candidate : found_) {
       const Query query = make_query(mesh_, candidate);
@@ -74,7 +74,7 @@ class Dealer {
   const AskSink& ask_;
   const DecidedSink& decided_;
   std::vector<Candidate> found_;
-  Pairs asked_;
+  AskedPairs asked_;
   Funnel funnel_;
   std::uint64_t nanoseconds_ = 0;
 };
@@ -103,14 +103,14 @@ Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out) : mesh_(mesh), leave_out_
 Funnels Plan::follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                      const Stop& stop) const {
   const auto [kind, number] = parts_[part];
-  Dealer dealer(mesh_, kind, leave_out_, ask, decided);
-  const CandidateSink take = [&](const Candidate& candidate) { dealer.take(candidate); };
+  FateTeller teller(mesh_, kind, leave_out_, ask, decided);
+  const CandidateSink take = [&](const Candidate& candidate) { teller.take(candidate); };
   const auto start = Clock::now();
   const std::uint64_t sharing = leave_out_ == LeaveOut::nothing
                                     ? for_pairs_of_row(mesh_, kind, number, take, stop)
                                     : finders_.at(kind).find(number, take, stop);
-  const std::uint64_t finding_ns = since(start) - dealer.nanoseconds();
-  Funnel funnel = dealer.finish();
+  const std::uint64_t finding_ns = since(start) - teller.nanoseconds();
+  Funnel funnel = teller.finish();
   funnel[PairFate::share_vertex] = sharing;
   funnel.finding_ns = finding_ns;
   return {{kind, funnel}};

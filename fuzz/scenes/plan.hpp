@@ -1,4 +1,4 @@
-// The plan of a step: what its pairs need, and what is left out because they do not need it.
+// The plan of a step: which pairs subjects are asked about, and which need no subject.
 #pragma once
 
 #include <cstdint>
@@ -12,34 +12,34 @@
 
 namespace nearmiss {
 
-/// How much is left out.
+/// Which pairs are left out.
 enum class LeaveOut : std::uint8_t {
-  nothing,  ///< all pairs without a common vertex are asked
-  boxes,    ///< pairs whose swept boxes do not meet are not
-  all,      ///< nor are those at relative rest or in relative translation
+  nothing,  ///< none: all pairs without a common vertex are asked
+  boxes,    ///< pairs whose swept boxes do not meet
+  all,      ///< these, and pairs at relative rest or in relative translation
 };
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// Where swept boxes meet, what becomes of a pair if all is left out that can be, and whether it collides if
-/// it is not asked.
+/// What becomes of a pair whose swept boxes meet under LeaveOut::all, and, if it is not asked, whether it
+/// collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
-/// Some pairs of one kind.
-struct Pairs {
+/// Pairs of one kind that are asked.
+struct AskedPairs {
   Kind kind{};
   std::vector<Candidate> candidates;
   std::vector<Query> queries;  ///< of each candidate
 };
 
-/// Takes pairs that are asked.
-using AskSink = std::function<void(const Pairs&)>;
+/// Takes some pairs at a time, at least one.
+using AskSink = std::function<void(const AskedPairs&)>;
 
-/// Takes a pair that is left out after its boxes met, and whether it collides.
+/// Takes a pair that is left out although its boxes meet, and whether it collides.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
-/// Goes through the pairs of a step, in parts that can be gone through each by itself, in any order and by
-/// any thread. What the parts are does not depend on threads.
+/// Divides the pairs of a step into parts, each of which can be followed alone, in any order and by any thread.
+/// The parts do not depend on the number of threads.
 class Plan {
  public:
   /// The mesh must outlive this.
@@ -48,24 +48,24 @@ class Plan {
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
-  /// Passes on the pairs of a part: those that remain to `ask`, some hundred at a time, those that are
-  /// decided without a subject to `decided` where it is given. Nothing is kept. Pairs whose boxes do not meet
-  /// are in no part. `stop` is asked now and then, and ends it.
+  /// Passes on the pairs of a part: to `ask` those that a subject must decide, at most 1,000 at a time; to
+  /// `decided`, if it is given, those that are decided without a subject. Nothing is kept. Pairs whose boxes do not
+  /// meet are in no part. `stop` is asked now and then, and ends the part.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided, const Stop& stop) const;
 
-  /// What is in no part, told from the sum of all parts: pairs whose boxes do not meet, and the time that it
-  /// took to make the parts.
+  /// What is in no part, from the sum of all parts: the pairs whose boxes do not meet, and the time that it took
+  /// to make the parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:
   const MovingMesh& mesh_;
   LeaveOut leave_out_;
-  std::map<Kind, CandidateFinder> finders_;          ///< where boxes are looked at
-  std::map<Kind, std::uint64_t> making_ns_;          ///< these
-  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders, or rows of all pairs
+  std::map<Kind, CandidateFinder> finders_;          ///< empty if nothing is left out
+  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that it took to make them
+  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< a part of a finder, or a row of all pairs
 };
 
-/// Follows a plan through all of its parts, one after the other.
+/// Follows all parts of a plan, one after the other.
 Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const Stop& stop);
 
 }  // namespace nearmiss

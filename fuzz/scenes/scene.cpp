@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "fuzz/meshes/formats.hpp"
 
 namespace nearmiss {
 
@@ -20,14 +21,14 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// Cuts the number off the front of a text, without zeros in front.
+/// Cuts the number off the front of a text; the result has no leading zeros.
 std::string_view cut_number(std::string_view& text) {
   const std::string_view all = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
   text.remove_prefix(all.size());
   return all.substr(std::min(all.find_first_not_of('0'), all.size()));
 }
 
-/// Whether a name comes before another one: numbers in them by their values, all else by characters.
+/// Whether a name comes before another one. Numbers are compared by their values, everything else by characters.
 bool comes_before(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a;
   const std::string_view whole_b = b;
@@ -47,7 +48,7 @@ bool comes_before(std::string_view a, std::string_view b) {
   return whole_a < whole_b;  // 1 and 01
 }
 
-/// The mesh files of a folder, in their order.
+/// The mesh files of a folder, in the order of their names.
 std::vector<fs::path> mesh_files(const fs::path& folder) {
   const auto is_frame = [](const fs::directory_entry& entry) {
     return entry.is_regular_file() && !mesh_ending(entry).empty() &&
@@ -66,12 +67,12 @@ std::vector<fs::path> mesh_files(const fs::path& folder) {
   return files;
 }
 
-/// Also where the path ends in a slash or a dot.
+/// The name of a folder, even if the path ends in a slash or a dot.
 std::string folder_name(const fs::path& folder) {
   return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
 }
 
-/// Of each point the first one in the same place.
+/// For each point the first one in the same place.
 std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
   const auto in_order = [&](std::size_t a, std::size_t b) {
     for (int i = 0; i < 3; ++i)
@@ -89,7 +90,7 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
   return first;
 }
 
-/// The points that are the first ones in their places. Throws Error where others are elsewhere.
+/// The points that are the first ones in their places. Throws Error if another point has left its first one.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

@@ -10,12 +10,12 @@
 
 namespace nearmiss {
 
-/// A mesh that moves: step i goes from frame i to frame i + 1.
+/// A mesh that moves. Step i goes from frame i to frame i + 1.
 struct Scene {
   std::string name;        ///< without folder and ending
   std::size_t frames = 2;  ///< at least 2
   Mesh mesh;               ///< at frame 0
-  /// The points of a frame, read or made when asked for. Throws Error where the frame does not have the same
+  /// The points of a frame, read or computed on demand. Throws Error if the frame does not have the same
   /// primitives as the others.
   std::function<std::vector<Vector3<double>>(std::size_t frame)> points;
 
@@ -25,23 +25,22 @@ struct Scene {
 /// One step of a scene.
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 
-/// What a step's pairs are counted under: "scene:NAME", or "scene:NAME#STEP" where there are several. No
-/// family of random queries has such a name.
+/// The name under which the pairs of a step are counted: "scene:NAME", or "scene:NAME#STEP" if there are several
+/// steps. No family of random queries has such a name.
 std::string step_name(const Scene& scene, std::size_t step);
 
-/// The same mesh at t = 0 and at t = 1, from two files. Throws Error.
+/// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error.
 Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::path& end);
 
-/// The frames are the mesh files of a folder, by name, where numbers count as such: frame 2 comes before
-/// frame 10. What has no ending of a mesh (pictures, notes), is hidden (".frame.obj") or is a folder is
-/// passed over. Throws Error where there are fewer than two, or meshes with several endings, since nobody
-/// knows which are meant.
+/// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are compared
+/// by their values: frame 2 comes before frame 10. Files without an ending of a mesh (pictures, notes), hidden files
+/// (".frame.obj") and folders are skipped. Throws Error if there are fewer than two meshes, or meshes with several
+/// endings, since nobody knows which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene with points that are in one place at frame 0 (0 and -0 are equal) made one, and the primitives
-/// renumbered: files repeat points at seams, and neighbours that share none would be tested for collision. A
-/// triangle may become one that has a vertex twice. `points` throws Error for a frame that tears such points
-/// apart.
+/// The scene with points that coincide at frame 0 (0 and -0 are equal) merged, and the primitives renumbered. Files
+/// repeat points at seams, and neighbours that share no vertex would be tested for collision. A triangle may become
+/// one that has a vertex twice. `points` throws Error for a frame in which merged points are apart.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

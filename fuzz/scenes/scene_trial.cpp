@@ -14,12 +14,12 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_o
                       const std::function<void(double)>& progress) {
   const std::string name = step_name(scene_, step);
   const Plan plan(mesh, leave_out);
-  Part sum;
+  PartResult sum;
   for (std::size_t first = 0; first < plan.parts() && !trials_.stop();) {
-    std::vector<Part> parts(std::min(trials_.at_once(), plan.parts() - first));
+    std::vector<PartResult> parts(std::min(trials_.at_once(), plan.parts() - first));
     sink_(trials_.hold(parts.size(),
                        [&](std::size_t i) { return hold_part(name, plan, first + i, parts[i]); }));
-    for (const Part& part : parts) {
+    for (const PartResult& part : parts) {
       for (const auto& [kind, funnel] : part.funnels) sum.funnels[kind].merge(funnel);
       sum.marks.merge(part.marks);
     }
@@ -44,9 +44,9 @@ std::optional<ScenePicture> SceneTrial::picture() const {
 }
 
 TrialResult SceneTrial::hold_part(const std::string& name, const Plan& plan, std::size_t number,
-                                  Part& part) const {
+                                  PartResult& part) const {
   TrialResult result;
-  const auto ask = [&](const Pairs& pairs) {
+  const auto ask = [&](const AskedPairs& pairs) {
     const Batch batch{
         .kind = pairs.kind,
         .family = name,

@@ -14,37 +14,38 @@
 
 namespace nearmiss {
 
-/// Holds trials over the steps of a scene and passes the results on as they come. Only what a few parts of a
-/// step found is held at any time.
+/// Holds trials over the steps of a scene and passes the results on as they come. It holds the results of only a
+/// few parts of a step at a time.
 class SceneTrial {
  public:
-  /// Takes the result of some parts of a step, in order.
-  using Sink = std::function<void(TrialResult&&)>;
+  /// Takes the result of some parts of a step. The parts come in order.
+  using ResultSink = std::function<void(TrialResult&&)>;
 
-  SceneTrial(const Scene& scene, SiftedTrials& trials, Sink sink)
+  SceneTrial(const Scene& scene, SiftedTrials& trials, ResultSink sink)
       : scene_(scene), trials_(trials), sink_(std::move(sink)) {}
 
-  /// Asks about all pairs that the plan of a step, whose mesh this is, leaves. `progress` takes the part that
-  /// is done.
+  /// Asks about all pairs of a step that its plan leaves. `mesh` is that of the step; `progress` takes the share
+  /// that is done, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
             const std::function<void(double)>& progress);
 
-  /// Of the step so far with the most primitives that collide, or are reported falsely; nothing where there is
-  /// none.
+  /// The picture of the step with the most marked primitives so far; nothing if no primitive is marked.
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 
  private:
-  struct Part {
+  /// What a part gives beside the result of its trials.
+  struct PartResult {
     Funnels funnels;
     Marks marks;
   };
 
-  /// Asks about one part of a plan and notes in `part` what there was.
-  TrialResult hold_part(const std::string& name, const Plan& plan, std::size_t number, Part& part) const;
+  /// Asks about one part of a plan, and counts and marks its pairs in `part`.
+  TrialResult hold_part(const std::string& name, const Plan& plan, std::size_t number,
+                        PartResult& part) const;
 
   const Scene& scene_;
   SiftedTrials& trials_;
-  Sink sink_;
+  ResultSink sink_;
   std::size_t most_marked_ = 0;  ///< the step of `marks_`
   Marks marks_;
 };

@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-/// A set of pairs, whatever their order: how many, and the sum of a hash of each.
+/// Identifies a set of pairs in any order: their number, and the sum of their hashes.
 struct Fingerprint {
   std::uint64_t count = 0;
   std::uint64_t sum = 0;
@@ -34,8 +34,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks about those of some pairs that are left out.
-Verification verify(const Pairs& pairs, const Subjects& subjects) {
+/// Asks about the pairs that a plan leaves out.
+Verification verify(const AskedPairs& pairs, const Subjects& subjects) {
   std::vector<Query> queries;
   std::vector<bool> expected;
   for (const Query& query : pairs.queries) {
@@ -93,7 +93,7 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
     if (stop) return;
     Verification found;
     everything.follow(
-        part, [&](const Pairs& pairs) { found.merge(verify(pairs, subjects)); }, {},
+        part, [&](const AskedPairs& pairs) { found.merge(verify(pairs, subjects)); }, {},
         [&] { return stop.load(); });
     const std::lock_guard lock(mutex);
     sum.merge(found);

@@ -1,4 +1,4 @@
-// Whether what a plan leaves out may be left out.
+// Verifies a plan: the oracle decides every pair that it leaves out.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 namespace nearmiss {
 
 struct Verification {
-  std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out: all were decided
-  std::uint64_t wrong = 0;     ///< of these the oracle says otherwise than the plan
-  std::uint64_t different_searches =
-      0;  ///< for candidates, by box intersection and by sweep: not the same pairs
-  std::map<std::string, std::uint64_t> spared;  ///< false positives that subjects have on pairs left out
-  double seconds = 0;                           ///< to ask oracle and subjects about all of them
+  std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all were decided
+  std::uint64_t wrong = 0;     ///< those for which the oracle contradicts the plan
+  /// Kinds for which box intersection and sweep do not find the same pairs, over all steps.
+  std::uint64_t different_searches = 0;
+  std::map<std::string, std::uint64_t> spared;  ///< false positives of each subject on pairs left out
+  double seconds = 0;                           ///< to ask the oracle and the subjects about all of them
 
   [[nodiscard]] bool fine() const { return wrong == 0 && different_searches == 0; }
   void merge(const Verification& other);
 };
 
-/// Asks subjects and the oracle about every pair of a step that the plan leaves out: of boxes that do not
-/// meet it must say that there is no collision, of rest and translation the same as the plan. Finds the
-/// candidates in two ways. `progress` takes the part that is done and says whether to go on.
+/// Asks the subjects and the oracle about every pair of a step that the plan leaves out. For boxes that do not meet
+/// the oracle must say that there is no collision, for rest and translation the same as the plan. The candidates
+/// are found by two searches. `progress` takes the share that is done, and says whether to go on.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 

@@ -1,5 +1,5 @@
 // Scenes made by formula, and what they are made of.
-#include "fuzz/scenes/built_in.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,21 +12,21 @@
 #include <numeric>
 
 #include "ccd/error.hpp"
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
+#include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"
-#include "fuzz/scenes/shapes.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
 /// How a parameter is printed in a test's name.
-void PrintTo(const BuiltIn& scene, std::ostream* out) { *out << scene.name; }
+void PrintTo(const BuiltInScene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
 
 using ::testing::ThrowsMessage;
 
-class EveryScene : public ::testing::TestWithParam<BuiltIn> {
+class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
  protected:
   static Scene of_size(int size) {
     return built_in_scene(GetParam().name + "@" + std::to_string(std::max(size, GetParam().smallest)));
@@ -35,7 +35,7 @@ class EveryScene : public ::testing::TestWithParam<BuiltIn> {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scenes()),
                          [](const auto& each) { return each.param.name; });
 
-/// Of the first, a middle and the last frame, and of the primitives.
+/// A hash of the first, a middle and the last frame, and of the primitives.
 std::uint64_t fingerprint(const Scene& scene) {
   std::uint64_t hash = 0;
   const auto add = [&](std::uint64_t bits) { hash = std::rotl((hash ^ bits) * 0x100000001b3, 29); };
@@ -49,7 +49,7 @@ std::uint64_t fingerprint(const Scene& scene) {
   return hash;
 }
 
-// On every machine, by every compiler.
+// The same on every machine, by every compiler.
 TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
   const std::map<std::string, std::uint64_t> recorded{
       {"spikes", 0x8d7e972405206fac},   {"sheets", 0x4fd2649ab8e8d0bd}, {"points", 0x0b33ff0c26f7bae3},
@@ -62,7 +62,7 @@ TEST_P(EveryScene, FramesAreMadeInAnyOrder) {
   const Scene scene = of_size(300);
   EXPECT_GE(scene.frames, 10);
   EXPECT_LE(scene.frames, 40);
-  const Points last = scene.points(scene.frames - 1);
+  const PointList last = scene.points(scene.frames - 1);
   EXPECT_EQ(scene.points(0), scene.mesh.points);
   EXPECT_EQ(scene.points(scene.frames - 1), last);
   EXPECT_NE(scene.points(1), scene.mesh.points);
@@ -90,7 +90,7 @@ TEST_P(EveryScene, IsFiniteAndPrimitivesJoinItsPoints) {
     const Scene scene = of_size(size);
     const auto count = static_cast<int>(scene.mesh.points.size());
     for (std::size_t frame = 0; frame < scene.frames; ++frame) {
-      const Points points = scene.points(frame);
+      const PointList points = scene.points(frame);
       ASSERT_EQ(points.size(), scene.mesh.points.size());
       ASSERT_TRUE(std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }));
     }
@@ -159,7 +159,7 @@ std::map<PairFate, std::uint64_t> fates(const Scene& scene) {
   for (std::size_t step = 0; step < scene.steps(); ++step) {
     const MovingMesh mesh = moving_mesh(scene, step);
     for (const auto& [kind, funnel] : follow_plan(
-             Plan(mesh, LeaveOut::all), [](const Pairs&) {}, {}, [] { return false; }))
+             Plan(mesh, LeaveOut::all), [](const AskedPairs&) {}, {}, [] { return false; }))
       for (const PairFate fate : {PairFate::at_rest, PairFate::in_translation, PairFate::asked})
         found[fate] += funnel[fate];
   }
@@ -183,7 +183,7 @@ TEST(Tumbling, BodiesAreRigid) {
   const Scene scene = built_in_scene("tumbling@1000");
   const MovingMesh mesh = moving_mesh(scene, 7);
   for (const auto& [a, b] : mesh.edges) {
-    const auto length_in = [a = a, b = b](const Points& points) {
+    const auto length_in = [a = a, b = b](const PointList& points) {
       return (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(b)]).norm();
     };
     EXPECT_NEAR(length_in(mesh.start), length_in(mesh.end), 1e-13);
@@ -215,20 +215,20 @@ TEST(BuiltInScenes, RefuseBadSizes) {
     expect_refused(std::string("spikes@") + word, std::string("'") + word + "'");
 }
 
-TEST(Formulas, DirectionsAreThoseOfTheLibraryNearly) {
+TEST(Formulas, CosineAndSineAreCorrectTo4e16) {
   for (int i = -4000; i <= 4000; ++i) {
     const double turns = i / 997.0;
-    const Direction found = direction(turns);
+    const CosSin found = cos_sin(turns);
     const auto angle = 2 * std::numbers::pi_v<long double> * static_cast<long double>(turns);
     ASSERT_NEAR(found.cos, static_cast<double>(std::cos(angle)), 4e-16) << turns;
     ASSERT_NEAR(found.sin, static_cast<double>(std::sin(angle)), 4e-16) << turns;
   }
   for (const double turns : {-1.0, 0.0, 5.0}) {
-    EXPECT_EQ(direction(turns).cos, 1);
-    EXPECT_EQ(direction(turns + 0.25).sin, 1);
-    EXPECT_EQ(direction(turns + 0.5).cos, -1);
-    EXPECT_EQ(direction(turns + 0.75).sin, -1);
-    EXPECT_EQ(direction(turns).sin, 0);
+    EXPECT_EQ(cos_sin(turns).cos, 1);
+    EXPECT_EQ(cos_sin(turns + 0.25).sin, 1);
+    EXPECT_EQ(cos_sin(turns + 0.5).cos, -1);
+    EXPECT_EQ(cos_sin(turns + 0.75).sin, -1);
+    EXPECT_EQ(cos_sin(turns).sin, 0);
   }
 }
 
@@ -261,7 +261,7 @@ bool is_closed(const Mesh& mesh) {
   });
 }
 
-/// Of what a closed surface has inside.
+/// The volume inside a closed surface.
 double volume(const Mesh& mesh) {
   const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
   return std::accumulate(mesh.triangles.begin(), mesh.triangles.end(), 0.0, [&](double sum, const auto& t) {

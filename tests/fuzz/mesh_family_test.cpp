@@ -38,23 +38,23 @@ MovingMesh falling_sheet() {
   return make_moving_mesh({start, triangles, {}}, end);
 }
 
-using Coordinates = std::array<double, 24>;
+using QueryCoordinates = std::array<double, 24>;
 
-std::set<Coordinates> pairs_of(const MovingMesh& mesh) {
-  std::set<Coordinates> pairs;
+std::set<QueryCoordinates> pairs_of(const MovingMesh& mesh) {
+  std::set<QueryCoordinates> pairs;
   find_candidates(mesh, [&](const Candidate& candidate) { pairs.insert(make_query(mesh, candidate).x); });
   return pairs;
 }
 
-/// The pairs of the mesh that are among the family's queries as they are.
-std::set<Coordinates> pairs_among(const Family& family, const std::set<Coordinates>& pairs) {
-  std::set<Coordinates> found;
+/// The pairs of the mesh that are among the family's queries unchanged.
+std::set<QueryCoordinates> pairs_among(const Family& family, const std::set<QueryCoordinates>& pairs) {
+  std::set<QueryCoordinates> found;
   for (std::uint64_t i = 0; i < 2000; ++i)
     if (const Query query = make_query(family, 1, i); pairs.contains(query.x)) found.insert(query.x);
   return found;
 }
 
-TEST(MeshFamily, HasPairsOfTheMeshAsTheyAre) {
+TEST(MeshFamily, HasUnchangedPairsOfTheMesh) {
   const MovingMesh mesh = falling_sheet();
   const auto pairs = pairs_of(mesh);
   EXPECT_GT(pairs_among(mesh_family(mesh), pairs).size(), 100);

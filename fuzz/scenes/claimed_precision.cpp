@@ -1,4 +1,4 @@
-#include "fuzz/scenes/precision.hpp"
+#include "fuzz/scenes/claimed_precision.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t timed_pairs = 20000;
-constexpr int timings = 5;  // of which the quickest counts: what disturbs only adds
+constexpr int timings = 5;  // the quickest counts, since disturbances only add time
 
 double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {
   using Clock = std::chrono::steady_clock;
@@ -26,12 +26,13 @@ double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {
 
 }  // namespace
 
-std::vector<Precision> precisions(const Scene& scene, LeaveOut leave_out, const Subjects& subjects,
-                                  const std::function<bool()>& stop) {
-  std::vector<Precision> found;
+std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
+                                                 const Subjects& subjects,
+                                                 const std::function<bool()>& stop) {
+  std::vector<ClaimedPrecision> found;
   for (const auto& subject : subjects) found.push_back({.subject = subject->name()});
   std::vector<Query> sample;
-  const auto look = [&](const Pairs& pairs) {
+  const auto look = [&](const AskedPairs& pairs) {
     for (const Query& query : pairs.queries) {
       if (sample.size() < timed_pairs) sample.push_back(query);
       for (std::size_t i = 0; i < subjects.size(); ++i)
@@ -47,9 +48,9 @@ std::vector<Precision> precisions(const Scene& scene, LeaveOut leave_out, const 
   return found;
 }
 
-const Precision* cheapest_within(const std::vector<Precision>& precisions, double thickness) {
-  const Precision* best = nullptr;
-  for (const Precision& each : precisions)
+const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness) {
+  const ClaimedPrecision* best = nullptr;
+  for (const ClaimedPrecision& each : all)
     if (each.claimed <= thickness && (best == nullptr || each.ns_per_query < best->ns_per_query))
       best = &each;
   return best;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fuzz/random.hpp"
-#include "fuzz/scenes/built_in_themes.hpp"
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
+#include "fuzz/scenes/built_in/themes.hpp"
 
 namespace nearmiss {
 
@@ -13,13 +13,13 @@ namespace {
 /// The streams of random numbers.
 enum : std::uint64_t { tumbling_motion = 301, flying_shapes, flying_places };
 
-/// Where a body is.
+/// The place and orientation of a body.
 struct Pose {
   Rotation rotation;
   Vector3<double> place;
 };
 
-/// Bodies that take turns in having one of these shapes.
+/// Bodies that have these shapes in turn.
 Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int count,
                       const std::function<Pose(int body, double frame)>& pose) {
   const auto shape = [shapes](int body) -> const Mesh& {
@@ -32,7 +32,7 @@ Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int c
     first += static_cast<int>(shape(body).points.size());
   }
   return scene_of_formula(frames, std::move(primitives), [=](double frame) {
-    Points points;
+    PointList points;
     points.reserve(static_cast<std::size_t>(first));
     for (int body = 0; body < count; ++body) {
       const Pose there = pose(body, frame);
@@ -42,13 +42,13 @@ Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int c
   });
 }
 
-/// Rotated by any angle about any axis.
+/// A rotation about a random axis.
 Rotation any_rotation(Random& random, double turns) {
   const Vector3<double> way = random.vector(1);
   return {way / length(way), turns};
 }
 
-/// A cube, a ball and a slab, and how many of them make a scene of a size.
+/// A cube, a ball and a slab, and the number of bodies that a scene of a size consists of.
 struct Pieces {
   Pieces(int size, int half_a_side)
       : half(half_a_side),
@@ -58,18 +58,18 @@ struct Pieces {
     count = nearest(size / (triangles / static_cast<double>(shapes.size())));
     while (row * row * row < count) ++row;
   }
-  /// The place of a body in a cube of them, by layers.
+  /// The cell of a body in a cube of bodies, which is filled layer by layer.
   [[nodiscard]] std::array<int, 3> cell(int body) const {
     return {body % row, body / row % row, body / row / row};
   }
 
-  int half;  ///< of a cube's side
+  int half;  ///< half the side of the cube
   std::vector<Mesh> shapes;
   int count = 0;
   int row = 1;  ///< bodies in a side of the cube
 };
 
-/// Bodies turn about axes of their own, and swing to and fro so that they hit each other.
+/// Bodies turn about their own axes, and swing to and fro so that they hit each other.
 Scene tumbling(int size) {
   const Pieces pieces(size, size < 800 ? 1 : 2);
   return scene_of_bodies(25, pieces.shapes, pieces.count, [=](int body, double frame) {
@@ -81,21 +81,21 @@ Scene tumbling(int size) {
     for (int i = 0; i < 3; ++i) {
       const double phase = random.uniform();
       place[i] = 3.3 * pieces.half * pieces.cell(body)[static_cast<std::size_t>(i)] +
-                 0.6 * pieces.half * direction(phase + 0.04 * frame).sin;
+                 0.6 * pieces.half * cos_sin(phase + 0.04 * frame).sin;
     }
     return Pose{rotation, place};
   });
 }
 
-/// The nearest multiple of 2^-20: sums of these are exact.
+/// The nearest multiples of 2^-20: their sums are exact.
 Vector3<double> on_grid(const Vector3<double>& p) {
   const auto rounded = [](double x) { return std::floor(x * 0x1p20 + 0.5) * 0x1p-20; };
   return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
 }
 
-/// Layers of bodies pass by each other, each in its own direction; nothing turns. All coordinates are
-/// multiples of 2^-20, so that the points of a layer move by exactly the same vector in each step: pairs are
-/// in relative rest or translation.
+/// Layers of bodies pass by each other, each in its own direction; nothing turns. All coordinates are multiples of
+/// 2^-20, so all points of a layer move by exactly the same vector in a step, and every pair is in relative rest or
+/// translation.
 Scene flying(int size) {
   const Pieces pieces(size, 1);
   std::vector<Mesh> shapes;
@@ -110,13 +110,13 @@ Scene flying(int size) {
     Random random(0, flying_places, static_cast<std::uint64_t>(body));
     const auto cell = pieces.cell(body);
     const Vector3<double> start(3.6 * cell[0], 3.6 * cell[1], 2.7 * cell[2]);
-    const Direction way = direction(0.31 * cell[2]);
+    const CosSin way = cos_sin(0.31 * cell[2]);
     const Vector3<double> velocity = on_grid({0.4 * way.cos, 0.4 * way.sin, 0});
     return Pose{{}, on_grid(start + random.vector(0.3)) + velocity * frame};
   });
 }
 
-/// A wall of bricks, 1/32 apart, of which one is pulled out. All others are at rest.
+/// One brick is pulled out of a wall of bricks, 1/32 apart. All others are at rest.
 Scene resting(int size) {
   const Mesh brick = box({4, 2, 2});
   const int count = nearest(size / static_cast<double>(brick.triangles.size()));
@@ -133,7 +133,7 @@ Scene resting(int size) {
 
 }  // namespace
 
-std::vector<BuiltIn> body_scenes() {
+std::vector<BuiltInScene> body_scenes() {
   constexpr int largest = 4'000'000;
   return {{"tumbling", "rigid bodies turn and hit each other", 5000, 100, largest, tumbling},
           {"flying", "bodies pass by each other, without turning", 5000, 100, largest, flying},

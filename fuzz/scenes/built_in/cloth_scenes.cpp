@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fuzz/random.hpp"
-#include "fuzz/scenes/built_in_themes.hpp"
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
+#include "fuzz/scenes/built_in/themes.hpp"
 
 namespace nearmiss {
 
@@ -17,11 +17,10 @@ enum : std::uint64_t { spikes_gaps = 101, spikes_waves, sheets_waves, points_pla
 
 constexpr int spike_sides = 12, spike_rings = 4;
 constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
-constexpr double pitch = 10;  // from spike to spike: 200 triangles of cloth for each one
+constexpr double pitch = 10;  // the distance between spikes: 200 triangles of cloth for each
 constexpr double tip = 5;     // the height of a spike
 
-/// The height of a spike, or of the cloth that lies on it, at a distance from its axis: a cone, round at its
-/// tip.
+/// The height of a spike, or of the cloth on it, at a distance from its axis: a cone with a round tip.
 double spike_height(double distance) { return tip - 1.5 * (std::sqrt(distance * distance + 1) - 1); }
 
 void add_spike(Mesh& mesh, int first) {
@@ -30,61 +29,78 @@ void add_spike(Mesh& mesh, int first) {
   add_surface(mesh, first + 1, spike_rings, spike_sides, true);
 }
 
-void add_spike_points(Points& points, double x, double y) {
+void add_spike_points(PointList& points, double x, double y) {
   points.emplace_back(x, y, spike_height(0));
   for (int ring = 1; ring <= spike_rings; ++ring)
     for (int i = 0; i < spike_sides; ++i) {
-      const Direction around = direction(static_cast<double>(i) / spike_sides);
+      const CosSin around = cos_sin(static_cast<double>(i) / spike_sides);
       points.emplace_back(x + ring * around.cos, y + ring * around.sin, spike_height(ring));
     }
 }
 
-/// A square of spikes, and the cloth that falls on them: by 0.2 in a step, from above the tips to half their
-/// height; it is held up where a spike is, by as much above it as is drawn for each, too little for some.
-/// Spikes are no larger or farther apart where the scene is, there are more of them; so a primitive has as many
-/// others near it in all sizes.
+/// Rows of spikes around the origin, and above each spike the gap that it keeps to the cloth.
+class SpikeField {
+ public:
+  explicit SpikeField(int row) : row_(row) {
+    for (int i = 0; i < row * row; ++i)
+      gaps_.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
+  }
+
+  /// The x of the spikes of a column, or the y of those of a row.
+  [[nodiscard]] double place(int i) const { return (i - middle_) * pitch; }
+
+  /// The height at which the nearest spike holds up the cloth.
+  [[nodiscard]] double held_height(double x, double y) const {
+    const int i = nearest_spike(x);
+    const int j = nearest_spike(y);
+    const double dx = x - place(i);
+    const double dy = y - place(j);
+    return spike_height(std::sqrt(dx * dx + dy * dy)) + gaps_[static_cast<std::size_t>(j * row_ + i)];
+  }
+
+ private:
+  [[nodiscard]] int nearest_spike(double at) const {
+    return std::clamp(nearest(at / pitch + middle_), 0, row_ - 1);
+  }
+
+  int row_;
+  double middle_ = (row_ - 1) / 2.0;
+  std::vector<double> gaps_;
+};
+
+/// A cloth falls on a square of spikes: by 0.2 in each step, from above the tips to half their height. Each spike
+/// holds it up with a random gap, which is too small for some. A larger scene has more spikes of the same size at the
+/// same distance, so the number of candidates for each primitive does not depend on the size.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));
   const int squares = nearest(std::sqrt((size - row * row * spike_triangles) / 2.0));
-  const double middle = (row - 1) / 2.0;
-  std::vector<double> gaps;
-  for (int i = 0; i < row * row; ++i)
-    gaps.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
-  const auto cloth = [=, waves = Waves(spikes_waves, 0, 0.02)](double x, double y, double frame) {
-    const auto nearest_spike = [&](double at) {
-      return std::clamp(nearest(at / pitch + middle), 0, row - 1);
-    };
-    const int i = nearest_spike(x);
-    const int j = nearest_spike(y);
-    const double dx = x - (i - middle) * pitch;
-    const double dy = y - (j - middle) * pitch;
-    const double held =
-        spike_height(std::sqrt(dx * dx + dy * dy)) + gaps[static_cast<std::size_t>(j * row + i)];
+  const auto cloth = [field = SpikeField(row), waves = Waves(spikes_waves, 0, 0.02)](double x, double y,
+                                                                                     double frame) {
     const double falling = tip + 0.6 - 0.2 * frame;
-    return Vector3<double>(x, y, smooth_max(falling, held, 0.5) + waves.at(x, y, frame));
+    return Vector3<double>(x, y, smooth_max(falling, field.held_height(x, y), 0.5) + waves.at(x, y, frame));
   };
 
   Mesh primitives;
   add_surface(primitives, 0, squares + 1, squares + 1);
   const int in_cloth = (squares + 1) * (squares + 1);
   for (int i = 0; i < row * row; ++i) add_spike(primitives, in_cloth + i * (1 + spike_rings * spike_sides));
-  return scene_of_formula(21, std::move(primitives), [=](double frame) {
-    // So that the cloth's edges are not along the rows of spikes.
+  return scene_of_formula(21, std::move(primitives), [=, field = SpikeField(row)](double frame) {
+    // So that the cloth's edges are not parallel to the rows of spikes.
     const Rotation turned({0, 0, 1}, 0.02);
-    Points points = sheet_points(squares, [&](double x, double y) {
+    PointList points = sheet_points(squares, [&](double x, double y) {
       const Vector3<double> p = turned({x, y, 0});
       return cloth(p[0] + 0.06 * frame, p[1] + 0.03 * frame, frame);
     });
     for (int j = 0; j < row; ++j)
-      for (int i = 0; i < row; ++i) add_spike_points(points, (i - middle) * pitch, (j - middle) * pitch);
+      for (int i = 0; i < row; ++i) add_spike_points(points, field.place(i), field.place(j));
     return points;
   });
 }
 
 // --- sheets -----------------------------------------------------------------------------------------------
 
-/// Five sheets, 0.5 above each other, wave in their own ways, by up to 0.36, and slide in all directions.
+/// Five sheets, 0.5 apart, slide in different directions. Each waves in its own way, by up to 0.36.
 Scene sheets(int size) {
   constexpr int count = 5;
   const int squares = nearest(std::sqrt(size / (2.0 * count)));
@@ -92,12 +108,12 @@ Scene sheets(int size) {
   Mesh primitives;
   for (int i = 0; i < count; ++i) add_surface(primitives, i * in_sheet, squares + 1, squares + 1);
   return scene_of_formula(25, std::move(primitives), [=](double frame) {
-    Points points;
+    PointList points;
     points.reserve(static_cast<std::size_t>(count * in_sheet));
     for (int i = 0; i < count; ++i) {
       const Waves waves(sheets_waves, static_cast<std::uint64_t>(i), 0.12);
       const Rotation turned({0, 0, 1}, 0.03 * i);
-      const Direction slide = direction(0.4 * i);
+      const CosSin slide = cos_sin(0.4 * i);
       const auto place = [&](double x, double y) {
         Vector3<double> p = turned({x, y, 0});
         p[0] += 0.15 * slide.cos * frame;
@@ -105,7 +121,7 @@ Scene sheets(int size) {
         p[2] = 0.5 * i + waves.at(p[0], p[1], frame);
         return p;
       };
-      const Points sheet = sheet_points(squares, place);
+      const PointList sheet = sheet_points(squares, place);
       points.insert(points.end(), sheet.begin(), sheet.end());
     }
     return points;
@@ -114,14 +130,14 @@ Scene sheets(int size) {
 
 // --- points -----------------------------------------------------------------------------------------------
 
-/// Points fall, each at its own speed, through a surface that waves, of about as many triangles.
+/// Points fall, each at its own speed, through a waving surface with about as many triangles.
 Scene points(int size) {
   const int squares = nearest(std::sqrt(size / 2.0));
   Mesh primitives;
   add_surface(primitives, 0, squares + 1, squares + 1);
   return scene_of_formula(21, std::move(primitives), [=](double frame) {
     const Waves waves(points_waves, 0, 0.4);
-    Points all = sheet_points(
+    PointList all = sheet_points(
         squares, [&](double x, double y) { return Vector3<double>(x, y, waves.at(x, y, frame)); });
     for (int i = 0; i < size; ++i) {
       Random random(0, points_places, static_cast<std::uint64_t>(i));
@@ -136,7 +152,7 @@ Scene points(int size) {
 
 }  // namespace
 
-std::vector<BuiltIn> cloth_scenes() {
+std::vector<BuiltInScene> cloth_scenes() {
   constexpr int largest = 4'000'000;
   return {{"spikes", "a cloth falls on a square of spikes", 4000, 100, largest, spikes},
           {"sheets", "five wrinkled sheets slide over each other", 5000, 100, largest, sheets},

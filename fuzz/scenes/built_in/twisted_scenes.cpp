@@ -1,10 +1,10 @@
-// Scenes of what is twisted or tied: a knot, hair, a mat.
+// Scenes of things that are twisted or tied: a knot, hair, a mat.
 #include <algorithm>
 #include <cmath>
 
 #include "fuzz/random.hpp"
-#include "fuzz/scenes/built_in_themes.hpp"
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
+#include "fuzz/scenes/built_in/themes.hpp"
 
 namespace nearmiss {
 
@@ -15,9 +15,8 @@ enum : std::uint64_t { hair_places = 201, mat_waves };
 
 // --- knot -------------------------------------------------------------------------------------------------
 
-/// The centre line of an overhand knot, by its length from the middle: a trefoil, cut open at the outer end
-/// of a lobe, with straight ends. Its strands come as near as 1.415 to each other; it bends with a radius of
-/// 1.1 or more.
+/// The centre line of an overhand knot, by arc length from its middle: a trefoil, cut open at the outer end of a lobe,
+/// with straight ends. The smallest distance of its strands is 1.415, its smallest radius of curvature 1.1.
 class KnotLine {
  public:
   KnotLine() {
@@ -25,15 +24,15 @@ class KnotLine {
     constexpr double cut = 0.095;  // of a turn, on both sides
     for (int i = 0; i <= pieces; ++i) {
       const double turns = 0.5 + cut + (1 - 2 * cut) * i / pieces;
-      const Direction once = direction(turns);
-      const Direction twice = direction(2 * turns);
+      const CosSin once = cos_sin(turns);
+      const CosSin twice = cos_sin(2 * turns);
       points_.emplace_back(once.sin + 2 * twice.sin, once.cos - 2 * twice.cos,
-                           -1.35 * direction(3 * turns).sin);
+                           -1.35 * cos_sin(3 * turns).sin);
       lengths_.push_back(i == 0 ? 0 : lengths_.back() + length(points_.back() - points_[points_.size() - 2]));
     }
   }
 
-  /// From end to end, without the straight ones.
+  /// The length of the knot without the straight ends.
   [[nodiscard]] double knotted() const { return lengths_.back(); }
 
   [[nodiscard]] Vector3<double> at(double from_middle) const {
@@ -46,14 +45,14 @@ class KnotLine {
   }
 
  private:
-  Points points_;
+  PointList points_;
   std::vector<double> lengths_;
 };
 
-/// Points of a tube around a line, in rings; from ring to ring its first point turns no more than the line
-/// does.
-Points tube(const Points& line, double radius, int sides) {
-  Points points;
+/// The points of a tube around a line, in rings. The first points of the rings are aligned: from ring to ring they
+/// turn no more than the line does.
+PointList tube(const PointList& line, double radius, int sides) {
+  PointList points;
   Vector3<double> normal(0.6, 0, 0.8);
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vector3<double> along = line[std::min(i + 1, line.size() - 1)] - line[i == 0 ? 0 : i - 1];
@@ -66,9 +65,8 @@ Points tube(const Points& line, double radius, int sides) {
   return points;
 }
 
-/// A tube is tied and its ends are pulled: the knot becomes smaller, the tube slides through, neither longer
-/// nor thinner. In the last frame its strands have 0.3 less room than they need. A step moves the ends by
-/// about half an edge.
+/// The ends of a knotted tube are pulled. The knot becomes smaller as the tube slides through; the tube keeps its
+/// length and radius. In the last frame its strands overlap by 0.3. A step moves the ends by about half an edge.
 Scene knot(int size) {
   constexpr int steps = 25;
   constexpr double radii_long = 52;  // of the tube: length / radius
@@ -81,7 +79,7 @@ Scene knot(int size) {
   return scene_of_formula(steps + 1, std::move(primitives), [=, knot_line = KnotLine()](double frame) {
     const double scale = (2 * radius - 0.3) / 1.415 + 0.05 * (steps - frame);
     const double edge = radii_long * radius / rings;
-    Points line;
+    PointList line;
     for (int i = 0; i <= rings; ++i) line.push_back(scale * knot_line.at((i - rings / 2.0) * edge / scale));
     return tube(line, radius, sides);
   });
@@ -89,9 +87,8 @@ Scene knot(int size) {
 
 // --- hair -------------------------------------------------------------------------------------------------
 
-/// A bundle of hair, four times as many lines long as the root of the number of hairs, is twisted by its ends
-/// and drawn together in the middle. Each hair is as far from its neighbours as its lines are long, and
-/// curled.
+/// A bundle of curled hair is twisted by its ends and drawn together in the middle. n hairs have 4 sqrt(n) lines each;
+/// neighbouring hairs are about as far apart as a line is long.
 Scene hair(int size) {
   int hairs = 9;
   const auto lines_of = [](int count) { return nearest(4 * std::sqrt(static_cast<double>(count))); };
@@ -104,18 +101,18 @@ Scene hair(int size) {
     const double widest = 0.56 * std::sqrt(static_cast<double>(hairs));
     const double turns = 0.2 + 0.12 / widest * frame;
     const double drawn = 0.25 + std::min(0.012, 0.1 / widest) * frame;
-    Points points;
+    PointList points;
     for (int i = 0; i < hairs; ++i) {
       Random random(0, hair_places, static_cast<std::uint64_t>(i));
       const double curl_phase = random.uniform();
       const double curl_length = random.uniform(5, 9);
       const double curled = random.uniform(0.15, 0.35);
       const double away = 0.56 * std::sqrt(i + 0.5);
-      const Direction place = direction(golden * i);
+      const CosSin place = cos_sin(golden * i);
       for (int j = 0; j <= lines; ++j) {
         const double height = static_cast<double>(j) / lines - 0.5;
         const double narrow = 1 - drawn * (1 - 4 * height * height);
-        const Direction curl = direction(curl_phase + j / curl_length);
+        const CosSin curl = cos_sin(curl_phase + j / curl_length);
         const Vector3<double> p(away * place.cos * narrow + curled * curl.cos,
                                 away * place.sin * narrow + curled * curl.sin, height * lines);
         points.push_back(Rotation({0, 0, 1}, turns * height)(p));
@@ -127,21 +124,20 @@ Scene hair(int size) {
 
 // --- mat --------------------------------------------------------------------------------------------------
 
-/// Where a cross-section of the rolled mat is, a point for each of its columns: two spirals from the middle,
-/// whose arms come nearer to each other with `tightness`: they are pi / (2 tightness) apart. The distance
-/// from the axis of a point that was s away from it is s / sqrt(1 + tightness s), and the spiral is as long
-/// as the mat is wide.
-Points rolled(int squares, double tightness) {
+/// A cross-section of the rolled mat, with a point for each of its columns: two spirals from the middle, whose arms are
+/// pi / (2 tightness) apart. A point that was at distance s from the axis is then at s / sqrt(1 + tightness s), and the
+/// spirals together are as long as the mat is wide.
+PointList rolled(int squares, double tightness) {
   constexpr int substeps = 16;
   constexpr double turns_of_a_radian = 0.15915494309189535;
   const auto radius = [&](double s) { return s / std::sqrt(1 + tightness * s); };
-  Points section(static_cast<std::size_t>(squares) + 1);
-  // Half edges from the middle: of an even number of squares the even ones are points, of an odd number the
-  // odd ones.
+  PointList section(static_cast<std::size_t>(squares) + 1);
+  // In half edges from the middle: if the number of squares is even, the points are at even numbers of half edges,
+  // otherwise at odd ones.
   double turns = 0;
   for (int half = 0; half <= squares; ++half) {
     if (half % 2 == squares % 2) {
-      const Direction angle = direction(turns);
+      const CosSin angle = cos_sin(turns);
       const Vector3<double> p(radius(half / 2.0) * angle.cos, radius(half / 2.0) * angle.sin, 0);
       section[static_cast<std::size_t>((squares + half) / 2)] = p;
       section[static_cast<std::size_t>((squares - half) / 2)] = -p;
@@ -157,9 +153,9 @@ Points rolled(int squares, double tightness) {
   return section;
 }
 
-/// A mat, three times as long as wide, is twisted about its long axis by its ends, rolls up as it is, and
-/// waves a little. A step moves the outermost points by about an edge; so a mat that is many edges wide is
-/// nearly rolled up at first.
+/// A mat, three times as long as it is wide, is twisted about its long axis by its ends. It rolls up meanwhile, and
+/// waves a little. A step moves the outermost points by about an edge, so a mat of many edges' width is nearly rolled
+/// up in the first frame.
 Scene mat(int size) {
   constexpr int steps = 39;
   constexpr double tightest = 4;
@@ -171,12 +167,13 @@ Scene mat(int size) {
   return scene_of_formula(steps + 1, std::move(primitives), [=](double frame) {
     double tightness = tightest;
     for (int i = steps; i > static_cast<int>(frame); --i) tightness *= 1 - std::min(0.06, 1.4 / squares);
-    const Points section = rolled(squares, tightness);
+    const PointList section = rolled(squares, tightness);
     const double turns = (0.1 * length - 0.07 * (steps - frame)) / outermost;
-    const double slope = 3.14 * turns / length * outermost;  // half way out
+    const double slope =
+        3.14 * turns / length * outermost;  // half-way between the axis and the outermost points
     const double shortened = 1 / std::sqrt(1 + slope * slope);
     const Waves waves(mat_waves, 0, 0.13 / outermost);
-    Points points;
+    PointList points;
     points.reserve(section.size() * static_cast<std::size_t>(length + 1));
     for (int row = 0; row <= length; ++row) {
       const Rotation twist({0, 0, 1}, turns * (static_cast<double>(row) / length - 0.5));
@@ -192,7 +189,7 @@ Scene mat(int size) {
 
 }  // namespace
 
-std::vector<BuiltIn> twisted_scenes() {
+std::vector<BuiltInScene> twisted_scenes() {
   constexpr int largest = 4'000'000;
   return {{"knot", "a tube with an overhand knot, which is pulled tight", 5000, 300, largest, knot},
           {"mat", "a mat is twisted by its ends until it rolls up", 5000, 100, largest, mat},

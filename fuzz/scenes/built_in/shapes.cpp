@@ -1,12 +1,12 @@
-#include "fuzz/scenes/shapes.hpp"
+#include "fuzz/scenes/built_in/shapes.hpp"
 
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-/// Two triangles with the corners a b c d, in this order around a square.
+/// Two triangles with the corners a, b, c, d in this order around a square.
 void add_square(Mesh& mesh, int a, int b, int c, int d, bool other_diagonal) {
   if (other_diagonal) {
     mesh.triangles.push_back({a, b, d});
@@ -35,8 +35,8 @@ void add_triangles(Mesh& mesh, const Mesh& part, int first) {
   for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
-Points sheet_points(int squares, const std::function<Vector3<double>(double x, double y)>& place) {
-  Points points;
+PointList sheet_points(int squares, const std::function<Vector3<double>(double x, double y)>& place) {
+  PointList points;
   points.reserve(static_cast<std::size_t>(squares + 1) * static_cast<std::size_t>(squares + 1));
   const double middle = squares / 2.0;
   for (int row = 0; row <= squares; ++row)
@@ -49,7 +49,7 @@ Mesh box(const std::array<int, 3>& edges) {
   const auto in_row = static_cast<std::size_t>(edges[0] + 1);
   const auto in_layer = in_row * static_cast<std::size_t>(edges[1] + 1);
   std::vector<int> number(in_layer * static_cast<std::size_t>(edges[2] + 1), -1);
-  // The point at a place of the surface, added where it is not there yet.
+  // The number of the point at a place of the surface. The point is added if it does not exist yet.
   const auto point = [&](const std::array<int, 3>& at) {
     int& found = number[static_cast<std::size_t>(at[2]) * in_layer +
                         static_cast<std::size_t>(at[1]) * in_row + static_cast<std::size_t>(at[0])];
@@ -81,7 +81,7 @@ Mesh box(const std::array<int, 3>& edges) {
 
 Mesh ball(int squares) {
   Mesh mesh = box({squares, squares, squares});
-  const double radius = squares * 0.64;  // four sides are squares long each, and the ball is as far around
+  const double radius = squares * 0.64;  // the circumference is about 4 squares, that of the cube
   for (auto& p : mesh.points) p = p * (radius / length(p));
   return mesh;
 }

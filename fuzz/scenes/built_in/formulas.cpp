@@ -1,4 +1,4 @@
-#include "fuzz/scenes/formulas.hpp"
+#include "fuzz/scenes/built_in/formulas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-Direction direction(double turns) {
+CosSin cos_sin(double turns) {
   constexpr double radians_of_a_turn = 6.283185307179586;
   const double quarters = std::floor(4 * turns + 0.5);
   const double x = (turns - quarters / 4) * radians_of_a_turn;
@@ -45,8 +45,8 @@ double dot(const Vector3<double>& a, const Vector3<double>& b) {
 double length(const Vector3<double>& a) { return std::sqrt(dot(a, a)); }
 
 Rotation::Rotation(const Vector3<double>& axis, double turns) {
-  const Direction angle = direction(turns);
-  for (int i = 0; i < 3; ++i) {  // Rodrigues: where the unit vectors go
+  const CosSin angle = cos_sin(turns);
+  for (int i = 0; i < 3; ++i) {  // Rodrigues' formula: the images of the unit vectors
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
     auto& column = columns_[static_cast<std::size_t>(i)];
@@ -64,7 +64,7 @@ Vector3<double> Rotation::operator()(const Vector3<double>& p) const {
 Waves::Waves(std::uint64_t stream, std::uint64_t index, double height) : height_(height) {
   Random random(0, stream, index);
   for (Wave& wave : waves_) {
-    const Direction way = direction(random.uniform());
+    const CosSin way = cos_sin(random.uniform());
     const double edges = random.uniform(6, 12);
     wave.along_x = way.cos / edges;
     wave.along_y = way.sin / edges;
@@ -76,7 +76,7 @@ Waves::Waves(std::uint64_t stream, std::uint64_t index, double height) : height_
 double Waves::at(double x, double y, double frame) const {
   double sum = 0;
   for (const Wave& wave : waves_)
-    sum += direction(wave.along_x * x + wave.along_y * y + wave.by_frame * frame + wave.phase).sin;
+    sum += cos_sin(wave.along_x * x + wave.along_y * y + wave.by_frame * frame + wave.phase).sin;
   return height_ * sum;
 }
 

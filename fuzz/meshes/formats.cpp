@@ -1,0 +1,45 @@
+#include "fuzz/meshes/formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <map>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Reader = Mesh (*)(std::istream&, const std::string&);
+
+const std::map<std::string, Reader>& readers() {
+  static const std::map<std::string, Reader> by_ending{
+      {".obj", parse_obj}, {".off", parse_off}, {".ply", parse_ply}, {".stl", parse_stl}};
+  return by_ending;
+}
+
+}  // namespace
+
+std::string mesh_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return readers().contains(ending) ? ending : "";
+}
+
+Mesh read_mesh(const fs::path& file) {
+  const auto reader = readers().find(mesh_ending(file));
+  if (reader == readers().end())
+    throw Error(fmt::format("{}: found the ending '{}', expected .obj, .off, .ply or .stl", file.string(),
+                            file.extension().string()));
+  std::ifstream in(file, std::ios::binary);
+  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
+  return reader->second(in, file.string());
+}
+
+}  // namespace nearmiss

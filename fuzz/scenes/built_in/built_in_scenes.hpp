@@ -1,0 +1,37 @@
+// Scenes that need no file: the classic ones of the field, made by formula in any size. They are not simulated, but
+// move like simulations: nearly all pairs are near each other, few collide, and a step moves no point by much more
+// than the length of an edge.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fuzz/scenes/scene.hpp"
+
+namespace nearmiss {
+
+/// An entry of the list of scenes. Each frame is a pure function of the size and its number, with the same bits on
+/// every machine, and is computed on demand. Edges are about 1 long in all sizes: a larger scene has more primitives
+/// of the same size, so the number of candidates grows in proportion to the number of primitives.
+struct BuiltInScene {
+  std::string name;
+  std::string description;
+  int default_size = 0;
+  int smallest = 0, largest = 0;
+  /// The scene of a size in this range, without a name. The size is the approximate number of triangles, or of
+  /// lines or points if the scene is made of these.
+  std::function<Scene(int size)> make;
+};
+
+/// All built-in scenes, in the order in which they are listed.
+const std::vector<BuiltInScene>& built_in_scenes();
+
+/// Whether a text names a built-in scene, as NAME or NAME@SIZE; the size is not checked.
+bool is_built_in_scene(const std::string& text);
+
+/// The scene NAME of its default size, or NAME@SIZE; the text becomes its name. Throws Error if there is no such
+/// scene, and for a size that is not an integer or is out of range.
+Scene built_in_scene(const std::string& text);
+
+}  // namespace nearmiss

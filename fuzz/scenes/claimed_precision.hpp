@@ -1,0 +1,31 @@
+// What subjects claim for a scene, and which is the cheapest that is precise enough.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fuzz/scenes/plan.hpp"
+#include "fuzz/scenes/scene.hpp"
+#include "fuzz/trial/trial.hpp"
+
+namespace nearmiss {
+
+/// What a subject claims for a scene, and what it costs there.
+struct ClaimedPrecision {
+  std::string subject;
+  /// The largest distance claimed for a false positive, over all pairs that are asked, in the scene's unit of
+  /// length; infinity if the subject claims nothing.
+  double claimed = 0;
+  double ns_per_query = 0;  ///< measured over the first 20,000 pairs that are asked
+};
+
+/// One for each subject, in the same order. `stop` ends the measurement early.
+std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
+                                                 const Subjects& subjects, const std::function<bool()>& stop);
+
+/// The cheapest that claims no more than the thickness of contact; null if there is none.
+const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
+
+}  // namespace nearmiss

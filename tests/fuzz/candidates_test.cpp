@@ -1,0 +1,131 @@
+// The pairs of a moving mesh whose swept boxes meet.
+#include "fuzz/scenes/candidates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "fuzz/random.hpp"
+#include "oracle/box.hpp"
+
+namespace nearmiss {
+namespace {
+
+MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
+  Random random(seed, 0, 0);
+  std::vector<Vector3<double>> start;
+  std::vector<Vector3<double>> end;
+  std::vector<std::array<int, 3>> faces;
+  for (int i = 0; i < points; ++i) {
+    start.push_back(random.integer_vector(6));
+    end.push_back(start.back() + random.integer_vector(1));
+  }
+  for (int i = 0; i < triangles; ++i) {
+    const int a = random.integer(0, points - 4);
+    faces.push_back({a, a + 1, a + random.integer(2, 3)});
+  }
+  return make_moving_mesh({start, faces, {}}, end);
+}
+
+/// All pairs, one by one.
+std::multiset<Candidate> by_brute_force(const MovingMesh& mesh) {
+  std::multiset<Candidate> found;
+  const auto add = [&](const Candidate& candidate) {
+    std::array<int, 4> sorted = candidate.vertices;
+    std::sort(sorted.begin(), sorted.end());
+    const auto middle = candidate.vertices.begin() + split(candidate.kind);
+    const bool shared =
+        std::find_first_of(candidate.vertices.begin(), middle, middle, candidate.vertices.end()) != middle;
+    if (!shared && boxes_meet(make_query(mesh, candidate))) found.insert(candidate);
+  };
+  for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)
+    for (const auto& t : mesh.triangles) add({Kind::vertex_triangle, {v, t[0], t[1], t[2]}});
+  for (auto e = mesh.edges.begin(); e != mesh.edges.end(); ++e)
+    for (auto f = e + 1; f != mesh.edges.end(); ++f)
+      add({Kind::edge_edge, {(*e)[0], (*e)[1], (*f)[0], (*f)[1]}});
+  return found;
+}
+
+// Integer coordinates: many boxes only touch.
+TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeet) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const MovingMesh mesh = random_mesh(seed, 60, 80);
+    std::multiset<Candidate> found;
+    find_candidates(mesh, [&](const Candidate& candidate) { found.insert(candidate); });
+    const auto expected = by_brute_force(mesh);
+    EXPECT_GT(expected.size(), 100);
+    EXPECT_TRUE(found == expected) << "seed " << seed << ": " << found.size() << " instead of "
+                                   << expected.size();
+  }
+}
+
+TEST(Candidates, TheSweepFindsTheSamePairs) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const MovingMesh mesh = random_mesh(seed, 60, 80);
+    for (const Kind kind : kinds) {
+      std::multiset<Candidate> by_boxes;
+      std::multiset<Candidate> by_sweep;
+      const auto never = [] { return false; };
+      const auto sharing = find_candidates(
+          mesh, kind, [&](const Candidate& each) { by_boxes.insert(each); }, never);
+      EXPECT_EQ(find_candidates_by_sweep(
+                    mesh, kind, [&](const Candidate& each) { by_sweep.insert(each); }, never),
+                sharing);
+      EXPECT_TRUE(by_boxes == by_sweep) << "seed " << seed;
+    }
+  }
+}
+
+/// The candidates of a kind; `finder` is find_candidates or find_candidates_by_sweep.
+template <class Finder>
+std::multiset<Candidate> candidates(const MovingMesh& mesh, Kind kind, const Finder& finder) {
+  std::multiset<Candidate> found;
+  finder(
+      mesh, kind, [&](const Candidate& each) { found.insert(each); }, [] { return false; });
+  return found;
+}
+
+std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop) {
+  return find_candidates(mesh, kind, sink, stop);
+}
+
+TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const MovingMesh mesh = random_mesh(seed, 300, 600);
+    for (const Kind kind : kinds) {
+      ASSERT_GT(CandidateFinder(mesh, kind).parts(), 3);
+      EXPECT_TRUE(candidates(mesh, kind, boxes) == candidates(mesh, kind, find_candidates_by_sweep))
+          << "seed " << seed << ' ' << short_name(kind);
+    }
+  }
+}
+
+/// A vertex at rest at a height above, beside or before a triangle at rest whose box is the unit cube.
+MovingMesh vertex_beside_triangle(int axis, double height) {
+  Vector3<double> vertex(0.5, 0.5, 0.5);
+  vertex[axis] = height;
+  const std::vector<Vector3<double>> points{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, vertex};
+  return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
+}
+
+// To the last bit, on all sides.
+TEST(Candidates, BoxesThatTouchMeet) {
+  const Kind kind = Kind::vertex_triangle;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const auto& [height, expected] :
+         {std::pair(0.0, 1), {1.0, 1}, {-0x1p-1074, 0}, {1 + 0x1p-52, 0}, {0x1p-1074, 1}, {1 - 0x1p-53, 1}}) {
+      const MovingMesh mesh = vertex_beside_triangle(axis, height);
+      EXPECT_EQ(candidates(mesh, kind, boxes).size(), expected) << axis << ' ' << height;
+      EXPECT_EQ(candidates(mesh, kind, find_candidates_by_sweep).size(), expected) << axis << ' ' << height;
+    }
+}
+
+TEST(Candidates, AMeshOfOneTriangleHasNoPair) {
+  const MovingMesh mesh = make_moving_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}},
+                                           {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  find_candidates(mesh, [](const Candidate&) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,56 @@
+// Moving meshes for tests of plans and trials.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fuzz/meshes/mesh.hpp"
+#include "fuzz/random.hpp"
+
+namespace nearmiss {
+
+/// Thirty small tetrahedra with integer coordinates. In turn they rest, move as a whole, or bend.
+inline MovingMesh tetrahedra(std::uint64_t seed) {
+  Random random(seed, 0, 0);
+  Mesh mesh;
+  std::vector<Vector3<double>> end;
+  for (int body = 0; body < 30; ++body) {
+    const int first = static_cast<int>(mesh.points.size());
+    const Vector3<double> place = random.integer_vector(4);
+    const Vector3<double> velocity = body % 3 == 0 ? Vector3<double>(0, 0, 0) : random.integer_vector(3);
+    for (int i = 0; i < 4; ++i) {
+      mesh.points.push_back(place + random.integer_vector(2));
+      end.push_back(mesh.points.back() + velocity);
+      if (body % 3 == 2) end.back() += random.integer_vector(1);
+    }
+    for (const auto& t : {std::array{0, 1, 2}, std::array{0, 1, 3}, std::array{0, 2, 3}, std::array{1, 2, 3}})
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return make_moving_mesh(std::move(mesh), std::move(end));
+}
+
+/// Two square grids of n by n squares; the upper one falls through the lower one.
+inline MovingMesh grids(int n) {
+  Mesh mesh;
+  std::vector<Vector3<double>> end;
+  Random random(1, 0, 0);
+  for (const double height : {0.0, 0.25}) {
+    const int first = static_cast<int>(mesh.points.size());
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        mesh.points.emplace_back(i, j, height + random.uniform(-0.125, 0.125));
+        end.emplace_back(i, j, random.uniform(-0.125, 0.125) - height);
+      }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const int corner = first + i * (n + 1) + j;
+        mesh.triangles.push_back({corner, corner + 1, corner + n + 1});
+        mesh.triangles.push_back({corner + 1, corner + n + 2, corner + n + 1});
+      }
+  }
+  return make_moving_mesh(std::move(mesh), std::move(end));
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,99 @@
+// Trials over the pairs of a scene.
+#include "fuzz/scenes/scene_trial.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "fuzz/subjects/subjects.hpp"
+#include "tests/fuzz/moving_meshes.hpp"
+#include "tests/fuzz/plan_outcome.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// What the trial of a step gives.
+struct Held {
+  TrialResult result;
+  std::optional<ScenePicture> picture;
+};
+
+Held hold(const MovingMesh& mesh, int jobs) {
+  Subjects subjects;
+  for (const char* name : {"basic", "wang", "defect:lambda2*0.1"}) subjects.push_back(make_any_subject(name));
+  const std::atomic<bool> stop = false;
+  Held held;
+  const Scene scene{.name = "grids",
+                    .mesh = {mesh.start, mesh.triangles, mesh.edges},
+                    .points = [&](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
+  SiftedTrials trials(subjects, {.one_in = 16}, jobs, stop);
+  SceneTrial trial(scene, trials, [&](TrialResult&& result) { held.result.merge(std::move(result)); });
+  double done = 0;
+  trial.hold(0, mesh, LeaveOut::all, [&](double part) {
+    EXPECT_GT(part, done);
+    done = part;
+  });
+  EXPECT_EQ(done, 1);
+  held.picture = trial.picture();
+  for (auto& [key, counts] : held.result.statistics.counts) counts.times = {};
+  for (auto& [key, funnel] : held.result.statistics.funnels) funnel.finding_ns = funnel.deciding_ns = 0;
+  return held;
+}
+
+// One thread holds the trials of four parts at a time, three threads those of all parts.
+TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
+  const MovingMesh mesh = grids(12);
+  const std::size_t parts = Plan(mesh, LeaveOut::all).parts();
+  ASSERT_GT(parts, 4);
+  ASSERT_LE(parts, 12);
+  const Held one = hold(mesh, 1);
+  const Held three = hold(mesh, 3);
+  EXPECT_EQ(one.result.statistics, three.result.statistics);
+  EXPECT_FALSE(one.result.findings.empty());
+  EXPECT_EQ(one.result.findings, three.result.findings);
+  ASSERT_TRUE(one.picture.has_value());
+  EXPECT_EQ(one.picture, three.picture);
+}
+
+TEST(SceneTrial, CountsWhatThePlanLeaves) {
+  const MovingMesh mesh = grids(12);
+  const Held held = hold(mesh, 2);
+  const PlanOutcome expected = follow(mesh, LeaveOut::all);
+  std::uint64_t collisions = 0;
+  for (const Kind kind : kinds) {
+    const Funnel& funnel = held.result.statistics.funnels.at({"scene:grids", kind});
+    EXPECT_EQ(funnel.pairs, expected.funnels.at(kind).pairs);
+    const Counts& counts = held.result.statistics.counts.at({"wang", kind, "scene:grids"});
+    EXPECT_EQ(counts.queries, funnel[PairFate::asked]);
+    EXPECT_EQ(counts.false_negatives, 0);
+    collisions += counts.collisions + funnel.touching;
+  }
+  EXPECT_EQ(collisions, expected.colliding.size());
+}
+
+TEST(SceneTrial, ThePictureMarksWhatCollides) {
+  Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {8, 8, 8}}, {{0, 1, 2}}, {{3, 4}}};
+  const MovingMesh moving =
+      make_moving_mesh(std::move(mesh), {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {8, 8, 8}});
+  const auto picture = hold(moving, 1).picture;
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->step, "scene:grids");
+  const auto json = nlohmann::json::parse(picture->json);
+  EXPECT_EQ(json["meanings"].size(), 7);
+  EXPECT_EQ(json["primitives"], 3);  // triangle, line, and the vertex that falls
+  const auto numbers = [&](const char* name) {
+    std::istringstream text(json[name].get<std::string>());
+    return std::vector(std::istream_iterator<int>(text), {});
+  };
+  EXPECT_EQ(numbers("lines"), (std::vector{0, 1, 0}));
+  EXPECT_EQ(numbers("triangles"), (std::vector{2, 3, 4, 1}));
+  EXPECT_EQ(numbers("dots"), (std::vector{0, 1}));
+  const std::vector<int> points = numbers("points");
+  ASSERT_EQ(points.size(), 6 * 5);
+  EXPECT_EQ(points[6], 8888);  // x = 8 of the far end, where all is within 9
+}
+
+}  // namespace
+}  // namespace nearmiss
