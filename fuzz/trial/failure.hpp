@@ -7,7 +7,7 @@
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
 #include "oracle/agreement.hpp"
-#include "reports/statistics.hpp"
+#include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 

@@ -116,7 +116,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
 
 /// Decides a batch. If its time counts, the subject is timed over the whole batch; and in one batch of 16, over each
 /// query that it answered.
-std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Times& times) {
+std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
   if (!batch.timed) {
     subject.decide(batch.queries, verdicts);
@@ -157,7 +157,6 @@ TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Compa
   std::vector<Counts*> counts;
   for (const auto& subject : subjects) {
     counts.push_back(&result.statistics.counts[{subject->name(), batch.kind, batch.family}]);
-    counts.back()->is_sample = is_random(batch.family);
     answers.push_back(decide_all(*subject, batch, counts.back()->times));
   }
 
