@@ -1,5 +1,5 @@
-// The subjects basic and wang as plug-ins, with a defect that the environment plants: one answer in NEARMISS_PLANTED is
-// wrong, chosen by the bits of the coordinates; none if that is 0 or not set.
+// The subjects basic and wang as plug-ins with a planted defect: one answer in NEARMISS_PLANTED (an environment variable) is
+// wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is wrong.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// How often a report with a baseline raises an alarm: over pairs of equal campaigns, where it is false, and over pairs between
-// which a defect of one query in 3,000 was planted, in a clean subject and in one that fails anyway.
+// Counts how often a report with a baseline raises an alarm: over pairs of equal campaigns, where every alarm is false, and
+// over pairs between which a defect of one query in 3,000 was planted, in a clean subject and in a subject that fails anyway.
 //
 //     node tests/alarms/run.mjs NEARMISS PLUGINS [PAIRS [CASES [equal|wang|basic]]]
 import { execFileSync, spawnSync } from "node:child_process";
@@ -17,7 +17,7 @@ function night(name, seed, subjects, planted) {
   if (status !== 0 && status !== 1) throw new Error(`fuzz ended with ${status}: ${stderr}`);
 }
 
-/** What is worse since the baseline: new ways to fail, and worse rates. */
+/** New ways to fail and worse rates since the baseline. */
 function alarms() {
   spawnSync(resolve(nearmiss), ["report", "now.db", "--baseline", "before.db", "-o", "report"], { cwd: folder });
   const { baseline } = JSON.parse(readFileSync(join(folder, "report", "report.json")));
