@@ -1,15 +1,22 @@
 #include "reports/csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "corpus/query_text.hpp"
-#include "reports/confidence.hpp"
+#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/family.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-/// A text field: in quotes where it needs them.
+/// A text field, in quotes if it needs them.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -17,40 +24,110 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
+/// A column of statistics.csv: its heading, and its field in the row of a subject, kind and family.
+struct CsvColumn {
+  std::string heading;
+  std::function<std::string(const CountsKey&, const Counts&)> field;
+};
+using CsvColumns = std::vector<CsvColumn>;
+
+/// Adds a column of numbers; `number` computes one from the counters.
+template <class Number>
+void add_column(CsvColumns& columns, std::string heading, const Number& number) {
+  columns.push_back({std::move(heading), [number](const CountsKey& /*key*/, const Counts& counts) {
+                       return fmt::format("{}", std::invoke(number, counts));
+                     }});
+}
+
+/// Adds the two columns of a range; `range` computes its ends from the counters.
+template <class Range>
+void add_range(CsvColumns& columns, const std::string& name, const Range& range) {
+  add_column(columns, name + "_from", [range](const Counts& counts) { return range(counts).first; });
+  add_column(columns, name + "_to", [range](const Counts& counts) { return range(counts).second; });
+}
+
+void add_quantile(CsvColumns& columns, const std::string& name, double part) {
+  add_range(columns, name + "_fp_distance_over_bound", [part](const Counts& counts) {
+    const Bin bin = counts.ratio_quantile(part);
+    return std::pair(bin.from, bin.to);
+  });
+}
+
+std::string upper_bound_of_misses(const CountsKey& key, const Counts& counts) {
+  if (!is_random(key.family)) return "";
+  return fmt::format("{}", clopper_pearson_upper(counts.false_negatives, counts.collisions));
+}
+
+/// Adds the columns that are computed from this counter.
+void add_computed(CsvColumns& columns, std::uint64_t Counts::*counter) {
+  if (counter == &Counts::false_negatives)
+    columns.push_back({"false_negative_rate_upper_95", upper_bound_of_misses});
+  if (counter == &Counts::false_positives) {
+    add_column(columns, "false_positive_rate", &Counts::false_positive_rate);
+    add_range(columns, "false_positive_rate", [](const Counts& c) {
+      const ConfidenceInterval interval = clopper_pearson(c.false_positives, c.others());
+      return std::pair(interval.lo, interval.hi);
+    });
+  }
+  if (counter == &Counts::refuted_bounds) {
+    add_quantile(columns, "median", 0.5);
+    add_quantile(columns, "q99", 0.99);
+    add_column(columns, "max_fp_distance_over_bound", &Counts::max_ratio);
+    columns.push_back({"ns_per_query", [](const CountsKey& /*key*/, const Counts& counts) {
+                         const auto ns = counts.times.ns_per_query();
+                         return ns ? fmt::format("{}", *ns) : "";
+                       }});
+  }
+}
+
+void add_counter(CsvColumns& columns, const Counter<Counts, std::uint64_t>& counter) {
+  add_column(columns, std::string(counter.name), counter.member);
+  add_computed(columns, counter.member);
+}
+
+template <std::size_t size>
+void add_counter(CsvColumns& columns, const NamedCounts<Counts, size>& counter) {
+  for (std::size_t i = counter.first; i < size; ++i)
+    add_column(columns, fmt::format("{}_{}", counter.csv_prefix, counter.names[i]),
+               [member = counter.member, i](const Counts& c) { return (c.*member)[i]; });
+}
+
+void add_time_quantile(CsvColumns& columns, std::string heading, double part) {
+  columns.push_back({std::move(heading), [part](const CountsKey& /*key*/, const Counts& counts) {
+                       const auto time = counts.times.each.quantile(part);
+                       return time ? fmt::format("{:.0f}", *time) : "";
+                     }});
+}
+
+void add_counter(CsvColumns& columns, const Counter<Counts, SubjectTimes>& /*counter*/) {
+  add_time_quantile(columns, "median_ns", 0.5);
+  add_time_quantile(columns, "q99_ns", 0.99);
+}
+
+/// distances.csv has the histogram; the farthest false positives are case files.
+template <class Member>
+void add_counter(CsvColumns& /*columns*/, const Counter<Counts, Member>& /*counter*/) {}
+
+CsvColumns statistics_columns() {
+  CsvColumns columns{
+      {"subject", [](const CountsKey& key, const Counts& /*counts*/) { return field(key.subject); }},
+      {"kind",
+       [](const CountsKey& key, const Counts& /*counts*/) { return std::string(short_name(key.kind)); }},
+      {"family", [](const CountsKey& key, const Counts& /*counts*/) { return field(key.family); }}};
+  for_each_counter<Counts>([&](const auto& counter) { add_counter(columns, counter); });
+  return columns;
+}
+
 }  // namespace
 
 std::string statistics_csv(const Statistics& statistics) {
-  std::string text =
-      "subject,kind,family,queries,collisions,positives,false_negatives,false_negative_rate_upper_95,"
-      "false_positives,false_positive_rate,false_positive_rate_from,false_positive_rate_to,refuted_bounds,"
-      "median_fp_distance_over_bound_from,median_fp_distance_over_bound_to,"
-      "q99_fp_distance_over_bound_from,q99_fp_distance_over_bound_to,max_fp_distance_over_bound,ns_per_query";
-  for (const auto fault : fault_names)
-    if (fault != "none") text += fmt::format(",fault_{}", fault);
-  text += ",median_ns,q99_ns";
-  for (const auto stage : stage_names) text += fmt::format(",true_by_{}", stage);
-  for (const auto stage : stage_names) text += fmt::format(",false_by_{}", stage);
-  for (const auto rejection : rejection_names) text += fmt::format(",rejected_by_{}", rejection);
-  text += '\n';
-  for (const auto& [key, c] : statistics.counts) {
-    const Interval rate = clopper_pearson(c.false_positives, c.others());
-    const std::string upper =
-        c.is_sample ? fmt::format("{}", clopper_pearson_upper(c.false_negatives, c.collisions)) : "";
-    text += fmt::format("{},{},{},{},{},{},{},{},", field(key.subject), short_name(key.kind),
-                        field(key.family), c.queries, c.collisions, c.positives, c.false_negatives, upper);
-    const Bin median = c.ratio_quantile(0.5);
-    const Bin q99 = c.ratio_quantile(0.99);
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{}", c.false_positives, c.false_positive_rate(), rate.lo,
-                    rate.hi, c.refuted_bounds, median.from, median.to, q99.from, q99.to, c.max_ratio(),
-                    c.times.queries() == 0 ? "" : fmt::format("{}", c.times.ns_per_query()));
-    for (std::size_t i = 1; i < fault_count; ++i) text += fmt::format(",{}", c.faults[i]);
-    for (const double part : {0.5, 0.99})
-      text += c.times.each.total() == 0 ? "," : fmt::format(",{:.0f}", c.times.each.quantile(part));
-    for (const auto count : c.true_by_stage) text += fmt::format(",{}", count);
-    for (const auto count : c.false_by_stage) text += fmt::format(",{}", count);
-    for (const auto count : c.rejected_by) text += fmt::format(",{}", count);
-    text += '\n';
+  const CsvColumns columns = statistics_columns();
+  std::vector<std::string> fields;
+  for (const CsvColumn& column : columns) fields.push_back(column.heading);
+  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+  for (const auto& [key, counts] : statistics.counts) {
+    for (std::size_t i = 0; i < columns.size(); ++i) fields[i] = columns[i].field(key, counts);
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
   return text;
 }

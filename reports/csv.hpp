@@ -3,18 +3,18 @@
 
 #include <string>
 
-#include "reports/campaign.hpp"
+#include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
 
 /// A row for each subject, kind and family.
 std::string statistics_csv(const Statistics& statistics);
 
-/// A row for each bin of the distance histograms that is not empty.
+/// A row for each non-empty bin of the distance histograms.
 std::string distances_csv(const Statistics& statistics);
 
-/// A row for each finding; shrunk and query are 24 hex floats each, as in a query file; seen counts all
-/// findings with its signature.
+/// A row for each finding. "shrunk" and "query" are 24 hex floats each, as in a query file; "seen" is the number of times
+/// that its signature was seen.
 std::string findings_csv(const Campaign& campaign);
 
 }  // namespace nearmiss

@@ -10,17 +10,18 @@
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/oracle.hpp"
-#include "reports/baseline.hpp"
 #include "reports/csv.hpp"
-#include "reports/decider_table.hpp"
-#include "reports/family.hpp"
-#include "reports/headline.hpp"
 #include "reports/json.hpp"
-#include "reports/ladder.hpp"
-#include "reports/page.hpp"
-#include "reports/shown.hpp"
-#include "reports/summary.hpp"
-#include "reports/trade_off.hpp"
+#include "reports/page/page.hpp"
+#include "reports/sections/baseline.hpp"
+#include "reports/sections/counts_json.hpp"
+#include "reports/sections/decider_table.hpp"
+#include "reports/sections/headline.hpp"
+#include "reports/sections/ladder.hpp"
+#include "reports/sections/shown.hpp"
+#include "reports/sections/summary.hpp"
+#include "reports/sections/trade_off.hpp"
+#include "reports/statistics/family.hpp"
 
 namespace nearmiss {
 
@@ -29,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// When to show a query: at its first contact, or where there is none when it is closest to one.
+/// The moment at which the page shows a query: its first contact, or without contact when it is closest to one.
 double moment(const Query& query) {
   const auto contact = earliest_time(query, 1e-6);
   return contact ? contact->enclosure.lo : closest_time(query);
@@ -66,19 +67,107 @@ ordered_json farthest_json(const ShownFarthest& each) {
           {"file", "farthest/" + each.exported.file}};
 }
 
-/// How each subject and kind did in the baseline and does now.
+/// The rates of each subject and kind in the baseline and now.
 ordered_json before_and_now(const Statistics& now, const Statistics& before) {
   ordered_json json = ordered_json::array();
   const auto earlier = before.by_subject_and_kind();
-  for (const auto& [key, counts] : now.by_subject_and_kind()) {
+  const auto rates = [](const CountsSum& sum) { return rates_json(sum.counts, sum.is_sample); };
+  for (const auto& [key, sum] : now.by_subject_and_kind()) {
     const auto same = earlier.find(key);
     json.push_back({{"subject", key.subject},
                     {"kind", short_name(key.kind)},
-                    {"now", rates_json(counts)},
-                    {"before", same == earlier.end() ? ordered_json() : rates_json(same->second)}});
+                    {"now", rates(sum)},
+                    {"before", same == earlier.end() ? ordered_json() : rates(same->second)}});
   }
   return json;
 }
+
+ordered_json verdicts_json(const Statistics& statistics) {
+  ordered_json json = ordered_json::array();
+  for (const SubjectVerdict& each : subject_verdicts(statistics)) {
+    const LadderPlace place = place_of(each.subject);
+    json.push_back({{"subject", each.subject},
+                    {"clean", each.clean},
+                    {"text", each.text},
+                    {"algorithm", place.algorithm},
+                    {"scalar", place.scalar},
+                    {"epsilon", std::exp2(place.epsilon_exponent)}});
+  }
+  return json;
+}
+
+/// The lower borders of all bins; the last bin has no upper border.
+ordered_json borders_json() {
+  ordered_json json = ordered_json::array();
+  for (std::size_t i = 0; i < Histogram::bin_count; ++i) json.push_back(Histogram::border(i));
+  return json;
+}
+
+/// The stages that accept a pair, in order.
+ordered_json stages_json() {
+  ordered_json json = ordered_json::array();
+  for (const std::string_view each : stage_names)
+    if (each != stage_names[static_cast<std::size_t>(Stage::none)]) json.push_back(each);
+  return json;
+}
+
+ordered_json findings_json(const Campaign& campaign, const std::optional<Changes>& since) {
+  ordered_json json = ordered_json::array();
+  for (const ShownFinding& each : shown_findings(campaign)) {
+    const bool is_new = since && std::binary_search(since->new_signatures.begin(),
+                                                    since->new_signatures.end(), signature_of(each.finding));
+    json.push_back(finding_json(campaign, each, is_new));
+  }
+  return json;
+}
+
+void add_pictures(ordered_json& json, const Campaign& campaign) {
+  for (const Run& run : campaign.runs)
+    for (const ScenePicture& picture : run.pictures) {
+      json["pictures"].push_back({{"step", picture.step}});
+      json["pictures"].back().update(ordered_json::parse(picture.json));
+    }
+}
+
+/// Results of other commands, and the comparison with the baseline.
+void add_context(ordered_json& json, const Campaign& campaign, const ReportContext& context,
+                 const std::optional<Changes>& since) {
+  if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
+  if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
+  if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
+  if (!since) return;
+  json["baseline"] = changes_json(*since);
+  json["baseline"]["runs"] = runs_json(context.baseline->runs);
+  json["baseline"]["subjects"] = before_and_now(campaign.statistics, context.baseline->statistics);
+}
+
+}  // namespace
+
+ordered_json report_json(const Campaign& campaign, const ReportContext& context) {
+  const Statistics& statistics = campaign.statistics;
+  ordered_json json = summary_json({campaign.runs, by_shown_family(statistics)});
+  std::optional<Changes> since;
+  if (context.baseline) since = changes(campaign, *context.baseline);
+  const Headline line = headline(statistics, since);
+  json["headline"] = {{"clean", line.clean}, {"text", line.text}};
+  json["verdicts"] = verdicts_json(statistics);
+  json["oracle"]["complaint"] = oracle_complaint(statistics);
+  json["error_against_time"] = trade_offs_json(statistics);
+  json["histogram_borders"] = borders_json();
+  json["stages"] = stages_json();
+  json["findings_total"] = campaign.findings().size();
+  json["findings"] = findings_json(campaign, since);
+  json["farthest"] = ordered_json::array();
+  for (const ShownFarthest& each : farthest_cases(statistics))
+    json["farthest"].push_back(farthest_json(each));
+  if (auto rows = deciders_json(statistics); !rows.empty()) json["deciders"] = std::move(rows);
+  if (const auto ladder = ladder_json(statistics)) json["ladder"] = *ladder;
+  add_pictures(json, campaign);
+  add_context(json, campaign, context, since);
+  return json;
+}
+
+namespace {
 
 void fill_folder(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
   fs::create_directories(folder / "cases");
@@ -97,55 +186,6 @@ void fill_folder(const Campaign& campaign, const ReportContext& context, const f
 }
 
 }  // namespace
-
-ordered_json report_json(const Campaign& campaign, const ReportContext& context) {
-  ordered_json json = summary_json({campaign.runs, by_shown_family(campaign.statistics)});
-  std::optional<Changes> since;
-  if (context.baseline) since = changes(campaign, *context.baseline);
-  const Headline line = headline(campaign.statistics, since);
-  json["headline"] = {{"clean", line.clean}, {"text", line.text}};
-  json["verdicts"] = ordered_json::array();
-  for (const SubjectVerdict& each : subject_verdicts(campaign.statistics)) {
-    const LadderPlace place = place_of(each.subject);
-    json["verdicts"].push_back({{"subject", each.subject},
-                                {"clean", each.clean},
-                                {"text", each.text},
-                                {"algorithm", place.algorithm},
-                                {"scalar", place.scalar},
-                                {"epsilon", std::exp2(place.epsilon_exponent)}});
-  }
-  json["oracle"]["complaint"] = oracle_complaint(campaign.statistics);
-  json["error_against_time"] = trade_offs_json(campaign.statistics);
-  json["histogram_borders"] = ordered_json::array();
-  for (std::size_t i = 0; i < Histogram::bin_count; ++i)
-    json["histogram_borders"].push_back(Histogram::border(i));  // the last bin has no upper one
-  json["findings_total"] = campaign.findings().size();
-  json["findings"] = ordered_json::array();
-  for (const ShownFinding& each : shown_findings(campaign)) {
-    const bool is_new = since && std::binary_search(since->new_signatures.begin(),
-                                                    since->new_signatures.end(), signature_of(each.finding));
-    json["findings"].push_back(finding_json(campaign, each, is_new));
-  }
-  json["farthest"] = ordered_json::array();
-  for (const ShownFarthest& each : farthest_cases(campaign.statistics))
-    json["farthest"].push_back(farthest_json(each));
-  if (auto rows = deciders_json(campaign.statistics); !rows.empty()) json["deciders"] = std::move(rows);
-  if (const auto ladder = ladder_json(campaign.statistics)) json["ladder"] = *ladder;
-  for (const Run& run : campaign.runs)
-    for (const ScenePicture& picture : run.pictures) {
-      json["pictures"].push_back({{"step", picture.step}});
-      json["pictures"].back().update(ordered_json::parse(picture.json));
-    }
-  if (!context.audit.empty()) json["audit"] = ordered_json::parse(context.audit);
-  if (!context.hunts.empty()) json["power"] = hunts_json(context.hunts);
-  if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
-  if (since) {
-    json["baseline"] = changes_json(*since);
-    json["baseline"]["runs"] = runs_json(context.baseline->runs);
-    json["baseline"]["subjects"] = before_and_now(campaign.statistics, context.baseline->statistics);
-  }
-  return json;
-}
 
 void write_report(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
   const fs::path whole = folder.has_filename() ? folder : folder.parent_path();

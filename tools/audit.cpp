@@ -7,7 +7,7 @@
 #include "corpus/file.hpp"
 #include "fuzz/studies/audit/audit.hpp"
 #include "fuzz/studies/audit/tolerance_table.hpp"
-#include "reports/text.hpp"
+#include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {

@@ -7,8 +7,8 @@
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/trial/campaign.hpp"
-#include "reports/shell.hpp"
-#include "reports/text.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
@@ -124,7 +124,7 @@ int run(const Options& options) {
 
   Record record(
       options.record, info_of(options, plan),
-      {.shard = plan.shard, .shards = plan.shards, .environment = options.trial.plugin_paths(subjects)});
+      {.index = plan.shard, .count = plan.shards, .environment = options.trial.plugin_paths(subjects)});
   plan.rounds_before = record.part().rounds;
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0;

@@ -1,8 +1,8 @@
 // nearmiss merge: several stores into one.
 #include <fmt/format.h>
 
-#include "reports/store.hpp"
-#include "reports/summary.hpp"
+#include "reports/sections/summary.hpp"
+#include "reports/store/store.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -21,7 +21,7 @@ void add_merge(CLI::App& app, int& /*exit_code*/) {
     write_campaign(merged, options->out);
     fmt::print("{}", summary_table(merged.statistics));
     for (const Run& run : merged.runs)
-      if (const std::string missing = missing_parts(run); !missing.empty())
+      if (const std::string missing = missing_shards(run); !missing.empty())
         fmt::print("{}: {}\n", run.info.at("command"), missing);
   });
 }

@@ -10,11 +10,12 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
-#include "reports/decider_table.hpp"
 #include "reports/json.hpp"
-#include "reports/ladder.hpp"
-#include "reports/summary.hpp"
-#include "reports/sweep.hpp"
+#include "reports/sections/decider_table.hpp"
+#include "reports/sections/funnel_table.hpp"
+#include "reports/sections/ladder.hpp"
+#include "reports/sections/summary.hpp"
+#include "reports/sections/sweep.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
@@ -48,7 +49,7 @@ void RecordOptions::add_to(CLI::App& command) {
 
 RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }
 
-Record::Record(RecordOptions options, RunInfo info, const Part& part)
+Record::Record(RecordOptions options, RunInfo info, const Shard& part)
     : options_(std::move(options)), info_(std::move(info)), part_(part) {
   const auto folder = options_.json.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
@@ -82,9 +83,9 @@ void Record::go_on() {
   for (const RunInfo* each : {&info_, &run.info})
     for (const auto& [name, value] : *each)
       if (name != "again") expect(name, run.info[name], info_[name]);  // repeats the others
-  const auto shard = [](const Part& part) { return fmt::format("{}/{}", part.shard, part.shards); };
-  expect("shard", shard(run.parts.at(0)), shard(part_));
-  part_ = run.parts.at(0);
+  const auto shard = [](const Shard& part) { return fmt::format("{}/{}", part.index, part.count); };
+  expect("shard", shard(run.shards.at(0)), shard(part_));
+  part_ = run.shards.at(0);
   seconds_before_ = part_.seconds;
   statistics_ = std::move(before.statistics);
   findings_ = std::move(run.findings);

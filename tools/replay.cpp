@@ -3,8 +3,8 @@
 
 #include "corpus/readers.hpp"
 #include "fuzz/trial/trial_stream.hpp"
-#include "reports/shell.hpp"
-#include "reports/text.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"

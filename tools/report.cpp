@@ -3,61 +3,63 @@
 
 #include <fmt/format.h>
 
-#include "reports/audit_table.hpp"
-#include "reports/baseline.hpp"
-#include "reports/store.hpp"
-#include "reports/summary.hpp"
+#include "reports/sections/audit_table.hpp"
+#include "reports/sections/baseline.hpp"
+#include "reports/sections/summary.hpp"
+#include "reports/store/store.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
 
+namespace {
+
+struct Options {
+  std::vector<std::filesystem::path> stores;
+  std::filesystem::path folder, baseline, power, audit, environments;
+};
+
+/// Writes the report; its exit code.
+int run(const Options& options) {
+  const Campaign campaign = load_campaigns(options.stores);
+  ReportContext context;
+  if (!options.baseline.empty()) context.baseline = load_campaign(options.baseline);
+  if (!options.power.empty()) context.hunts = load_hunts(options.power);
+  if (!options.audit.empty()) context.audit = load_audit(options.audit);
+  if (!options.environments.empty()) context.environments = load_environments(options.environments);
+  write_report(campaign, context, options.folder);
+  fmt::print("{}\n", summary_table(campaign.statistics));
+  int exit_code = exit_fine;
+  if (context.baseline) {
+    const Changes since = changes(campaign, *context.baseline);
+    fmt::print("{}", describe(since));
+    if (since.for_the_worse()) exit_code = exit_found;
+  }
+  fmt::print("report: {}\n",
+             std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
+  return exit_code;
+}
+
+}  // namespace
+
 void add_report(CLI::App& app, int& exit_code) {
-  struct Options {
-    std::vector<std::filesystem::path> stores;
-    std::filesystem::path folder, baseline, power, audit, environments;
-  };
   auto options = std::make_shared<Options>();
   auto* command =
       app.add_subcommand("report", "Write a report of stores: index.html, report.json, CSV files, cases");
-  command->add_option("DB", options->stores, "Stores, added up")->required()->type_name("DB...");
-  command->add_option("-o,--output", options->folder, "The report's folder; an earlier report is replaced")
+  command->add_option("DB", options->stores, "Stores to add up")->required()->type_name("DB...");
+  command->add_option("-o,--output", options->folder, "Folder of the report; replaces an earlier report")
       ->required()
       ->type_name("DIR");
-  command
-      ->add_option(
-          "--baseline", options->baseline,
-          "Show what changed since this store; exit code 1 where there is a new way to fail or a rate is "
-          "worse")
+  const auto add_file = [&](const char* name, std::filesystem::path& file, const char* help) {
+    return command->add_option(name, file, help)->type_name("FILE");
+  };
+  add_file("--baseline", options->baseline,
+           "Show changes since this store; exit code 1 if there is a new way to fail or a rate is worse")
       ->type_name("DB");
-  command
-      ->add_option("--power", options->power,
-                   "Show the power of detection, as nearmiss power --json keeps it")
-      ->type_name("FILE");
-  command
-      ->add_option("--audit", options->audit,
-                   "Show the audit of rounding constants, as nearmiss audit --json keeps it")
-      ->type_name("FILE");
-  command
-      ->add_option("--environments", options->environments,
-                   "Show which compilers, flags and modes keep the guarantee, as tools/environments found")
-      ->type_name("FILE");
-  command->callback([options, &exit_code] {
-    const Campaign campaign = load_campaigns(options->stores);
-    ReportContext context;
-    if (!options->baseline.empty()) context.baseline = load_campaign(options->baseline);
-    if (!options->power.empty()) context.hunts = load_hunts(options->power);
-    if (!options->audit.empty()) context.audit = load_audit(options->audit);
-    if (!options->environments.empty()) context.environments = load_environments(options->environments);
-    write_report(campaign, context, options->folder);
-    fmt::print("{}\n", summary_table(campaign.statistics));
-    if (context.baseline) {
-      const Changes since = changes(campaign, *context.baseline);
-      fmt::print("{}", describe(since));
-      if (since.for_the_worse()) exit_code = exit_found;
-    }
-    fmt::print("report: {}\n",
-               std::filesystem::absolute(options->folder / "index.html").lexically_normal().string());
-  });
+  add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");
+  add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");
+  add_file("--environments", options->environments,
+           "Show which compilers, flags and modes keep the guarantee, from tools/environments");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace nearmiss::tools

@@ -11,7 +11,7 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/text.hpp"
+#include "reports/text/text.hpp"
 #include "tools/terminal.hpp"
 
 namespace nearmiss::tools {

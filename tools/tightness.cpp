@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "fuzz/studies/tightness.hpp"
-#include "reports/text.hpp"
+#include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/record.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "ccd/plugin.hpp"
-#include "reports/shell.hpp"
+#include "reports/text/shell.hpp"
 #include "tools/record.hpp"
 
 namespace nearmiss::tools {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/campaign.hpp"
+#include "reports/campaign/campaign.hpp"
 #include "tools/arguments.hpp"
 
 namespace nearmiss::tools {

@@ -10,7 +10,7 @@
 
 #include "fuzz/families/contacts.hpp"
 #include "oracle/oracle.hpp"
-#include "reports/family.hpp"
+#include "reports/statistics/family.hpp"
 
 namespace nearmiss {
 

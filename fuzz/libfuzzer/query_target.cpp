@@ -18,7 +18,7 @@
 #include "fuzz/families/mutation.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/finding_case.hpp"
+#include "reports/campaign/finding_case.hpp"
 
 namespace nearmiss::libfuzzer {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fuzz/scenes/candidates.hpp"
-#include "reports/scene_picture.hpp"
-#include "reports/statistics.hpp"
+#include "reports/campaign/scene_picture.hpp"
+#include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 

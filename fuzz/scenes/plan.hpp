@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fuzz/scenes/candidates.hpp"
-#include "reports/funnel.hpp"
+#include "reports/statistics/funnel.hpp"
 
 namespace nearmiss {
 

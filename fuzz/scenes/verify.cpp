@@ -11,7 +11,7 @@
 #include "oracle/box.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/translation.hpp"
-#include "reports/text.hpp"
+#include "reports/text/text.hpp"
 
 namespace nearmiss {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
-#include "reports/extreme.hpp"
+#include "reports/statistics/extreme.hpp"
 
 namespace nearmiss {
 

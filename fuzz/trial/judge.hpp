@@ -8,7 +8,7 @@
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
 #include "fuzz/trial/truth.hpp"
-#include "reports/statistics.hpp"
+#include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 

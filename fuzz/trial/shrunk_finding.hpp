@@ -3,7 +3,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
-#include "reports/statistics.hpp"
+#include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 

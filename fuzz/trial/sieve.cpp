@@ -4,7 +4,6 @@
 
 #include "fuzz/parallel.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
-#include "reports/campaign.hpp"
 
 namespace nearmiss {
 
@@ -15,11 +14,11 @@ const Subject* Sieve::subject_of(const Finding& finding) const {
 }
 
 void Sieve::know(std::span<const Finding> kept) {
-  for (const Finding& finding : kept) ++kept_[signature_of(finding)];
+  for (const Finding& finding : kept) first_.take(finding);
 }
 
 void Sieve::sift(std::vector<Finding>& findings) {
-  std::erase_if(findings, [&](const Finding& f) { return ++kept_[signature_of(f)] > findings_kept; });
+  std::erase_if(findings, [&](const Finding& f) { return !first_.take(f); });
   in_parallel(jobs_, findings.size(), [&](std::size_t i) {
     if (!stop_) findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]));
   });

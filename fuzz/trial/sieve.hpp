@@ -2,11 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <map>
 #include <span>
 #include <vector>
 
 #include "fuzz/trial/trial.hpp"
+#include "reports/statistics/finding.hpp"
 
 namespace nearmiss {
 
@@ -30,7 +30,7 @@ class Sieve {
   const Subjects& subjects_;
   int jobs_;
   const std::atomic<bool>& stop_;
-  std::map<Signature, std::size_t> kept_;
+  FirstFindings first_;
 };
 
 }  // namespace nearmiss

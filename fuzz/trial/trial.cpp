@@ -48,7 +48,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
 
 /// Decides a batch. If its time counts, the subject is timed over the whole batch, and in one batch of 16 also over each
 /// query that it answered.
-std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Times& times) {
+std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
   if (!batch.timed) {
     subject.decide(batch.queries, verdicts);
@@ -92,7 +92,6 @@ class Trial {
   TrialResult run() {
     check_coordinates();
     for (std::size_t s = 0; s < subjects_.size(); ++s) {
-      counts_[s]->is_sample = is_random(batch_.family);
       answers_.push_back(decide_all(*subjects_[s], batch_, counts_[s]->times));
     }
     decide(batch_.queries, decisions_);

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "fuzz/trial/signatures.hpp"
-#include "reports/statistics.hpp"
+#include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 

@@ -1,4 +1,4 @@
-// Charts: what each shows is in report.json; here is how it looks.
+// Charts of the numbers in report.json.
 "use strict";
 
 const style = getComputedStyle(document.documentElement);
@@ -10,20 +10,20 @@ const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transpar
 
 const drawn = {};
 
-/** Draws a chart, in place of an earlier one; no code is made of strings, so that the strictest content policy allows it. */
+/** Draws a chart in place of an earlier one. No code is made from strings, so that the strictest content policy allows it. */
 async function draw(id, description, spec) {
   const node = element(id);
-  node.style.minHeight = `${node.offsetHeight}px`; // what is below does not jump
+  node.style.minHeight = `${node.offsetHeight}px`; // keeps the page below from jumping
   drawn[id]?.finalize();
   drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
     { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
   node.style.minHeight = "";
 }
 
-/** Two panels go beside each other where there is room for them and their labels. */
+/** The width of each of two panels side by side, with room for their labels. */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 
-/** Colours of algorithms, which subjects over many scalars share. */
+/** Colours of algorithms; subjects of one algorithm over different scalars share its colour. */
 const algorithmNames = [...new Set([...Object.values(report.error_against_time.subjects), ...(report.ladder?.rungs ?? [])]
   .map((row) => row.algorithm))];
 const colorOfAlgorithm = (name) => palette[algorithmNames.indexOf(name) % palette.length];
@@ -36,7 +36,7 @@ const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 
-/** A logarithmic axis for values of which some may be 0 or infinite: these stand at its ends, which say so. `at` is the place of one. */
+/** A logarithmic axis with places for 0 and infinity at its ends, labelled so. `at` gives the place of a value. */
 function logAxis(values) {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
   const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
@@ -52,7 +52,7 @@ function logAxis(values) {
     axis: { values: ticks, labelExpr: label } };
 }
 
-/** Rates of random families, but of no sweep; cases and scenes are no samples. */
+/** Rates of random families except sweeps; cases and scenes are no samples. */
 function rateRows() {
   const isShownElsewhere = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isShownElsewhere(row.family))
@@ -66,7 +66,7 @@ function drawRates() {
   const names = chosenNames();
   const families = [...new Set(all.map((row) => row.family))].sort();
   const lowest = 10 ** Math.floor(Math.log10(Math.min(...all.map((row) => row.lo))));
-  // However many there are the chart stays below 2,400 pixels, as long as there is room for the names of families.
+  // The chart is at most about 2,400 pixels high, unless the names of the families need more.
   const rowsOfSubjects = hasPicker ? names.length + 1 : 1.25 * names.length;
   const step = Math.max(11 / rowsOfSubjects, Math.min(Math.max(4, 12 / names.length), 2300 / (families.length * rowsOfSubjects)));
   const hue = chosenColor();
@@ -76,7 +76,7 @@ function drawRates() {
   const yOffset = { field: "subject", scale: { domain: names, ...(hasPicker ? { padding: 1 } : {}) } };
   const decades = [];
   for (let decade = 1; decade >= 0.99 * lowest; decade /= 10) decades.push(decade);
-  const rate = (field) => ({ field, type: "quantitative", title: "false positives, of all that is no collision",
+  const rate = (field) => ({ field, type: "quantitative", title: "false positives, among non-collisions",
     scale: { type: "log", domain: [lowest, 1], nice: false }, axis: { values: decades, labelExpr: "format(datum.value * 100, '.3~g') + ' %'" } });
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "false_positives", title: "false positives" },
     { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", format: ".3~%" },
@@ -159,12 +159,11 @@ function stageValues() {
   return values;
 }
 
-/** Plug-ins do not say what accepts. */
+/** Plug-ins do not report the stage that accepts. */
 const hasStages = () => stageValues().some(({ stage, count }) => count > 0 && stage !== "unspecified");
 
 function drawStages() {
   const values = stageValues().filter(isChosen);
-  const order = ["proximity", "ve-end", "ve-minimum", "ve-equal", "ve-zero", "vv", "filter", "exact", "unspecified"];
   return draw("stages", "For each subject and kind the share of the true and of the false positives that each test accepted.", {
     data: { values },
     facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
@@ -174,7 +173,7 @@ function drawStages() {
       encoding: {
         y: { field: "row", type: "nominal", title: null, axis: { labelLimit: 0 }, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
         x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
-        color: { field: "stage", type: "nominal", title: "accepted by", sort: order, scale: { domain: order, range: palette } },
+        color: { field: "stage", type: "nominal", title: "accepted by", sort: report.stages, scale: { domain: report.stages, range: palette } },
         order: { field: "stage", sort: "ascending" },
         tooltip: [{ field: "row", title: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
       },
@@ -211,9 +210,9 @@ function drawSweeps() {
     data: { values },
     resolve: { scale: { color: "independent" } },
     vconcat: [
-      { hconcat: [panel("false_negative_rate", "missed, of the collisions", "reds", "~g", true),
+      { hconcat: [panel("false_negative_rate", "missed, among collisions", "reds", "~g", true),
         panel("max_fp_distance_over_bound", "largest distance / bound", "blues", "~g", false)], resolve: { scale: { color: "independent" } } },
-      { hconcat: [panel("false_positive_rate", "false positives, of all else", "oranges", "~g", true),
+      { hconcat: [panel("false_positive_rate", "false positives, among non-collisions", "oranges", "~g", true),
         panel("ns_per_query", "ns a query", "purples", "~s", false)], resolve: { scale: { color: "independent" } } },
     ],
   });

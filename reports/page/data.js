@@ -1,4 +1,4 @@
-// The report's data, which the page has inside.
+// The report's data, which is part of the page.
 "use strict";
 
 /** The largest double stands for a distance over a bound of 0: JSON has no infinity. */

@@ -1,13 +1,13 @@
-// Error against run time: a mark for each subject, or lines where there are algorithms over many scalars.
+// Error against run time: a mark for each subject, or lines if there are algorithms over many scalars.
 "use strict";
 
 const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
-  { field: "false_negatives", title: "missed" }, { field: "collisions", title: "of collisions" },
+  { field: "false_negatives", title: "missed" }, { field: "collisions", title: "collisions" },
   { field: "false_positive_rate", title: "false positives", format: ".3~%" }];
 
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
-/** A mark for each subject; of many only the chosen ones have a colour and a shape of their own. */
+/** A mark for each subject; only chosen subjects have a colour and a shape of their own. */
 function drawErrorTimeOfEach() {
   const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, name: isChosen({ subject }) ? subject : "others", ...each,
@@ -50,7 +50,7 @@ function drawErrorTimeOfEach() {
     hconcat: [
       panel("distance / bound of false positives", "max_fp_distance_over_bound",
         ["median", "q99"], front_by_distance),
-      panel("false positives, of all that is no collision", "false_positive_rate", [], front_by_rate),
+      panel("false positives, among non-collisions", "false_positive_rate", [], front_by_rate),
     ],
   });
 }
@@ -58,7 +58,7 @@ function drawErrorTimeOfEach() {
 const labelSize = 10;
 const isEmulated = (row) => /^p\d/.test(row.scalar);
 
-/** Numbers those of an algorithm whose scalars are of one sort, of the machine or emulated, from few digits to many. */
+/** Orders the points of each line from few digits to many: one algorithm, with scalars of the machine or emulated ones. */
 function makeStrands(rows) {
   const strands = new Map();
   for (const row of rows) {
@@ -72,8 +72,8 @@ function makeStrands(rows) {
 }
 
 /**
- * Finds places for labels beside their points where they hide neither each other nor a point; what has no place is left out.
- * @param points [{at: [x, y] in pixels, label, rank: lower ones first; infinite ones have no label}]
+ * Finds places for labels beside their points, without overlaps among labels and points; a label without a place is left out.
+ * @param points [{at: [x, y] in pixels, label, rank: lower ranks choose first; an infinite rank means no label}]
  */
 function placedLabels(points, [width, height]) {
   const pen = made("canvas").getContext("2d");
@@ -96,7 +96,7 @@ function placedLabels(points, [width, height]) {
   return placed;
 }
 
-/** A line for each algorithm and sort of scalars; a few points are labelled by their scalars. */
+/** A line for each algorithm and sort of scalars; some points are labelled with their scalars. */
 function drawErrorTimeOfLadder() {
   const { subjects, ladder, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
@@ -153,7 +153,7 @@ function drawErrorTimeOfLadder() {
     hconcat: [
       panel("farthest false positive / B", "farthest_over_B", ladder.front_by_distance, [ladder.paper_bound],
         [{ name: "chosen", select: { type: "point", fields: ["algorithm"] }, bind: "legend" }]),
-      panel("false positives, of all that is no collision", "false_positive_rate", front_by_rate, [], []),
+      panel("false positives, among non-collisions", "false_positive_rate", front_by_rate, [], []),
     ],
   });
 }

@@ -1,4 +1,4 @@
-// The ladder of precisions, and the audit of the constants that it stands on.
+// The ladder of precisions, and the audit of the rounding constants.
 "use strict";
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
@@ -6,13 +6,13 @@ const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
 const partsOfClaimed = (fit) => `${fraction(fit.least_part_of_claimed)}–${fraction(fit.greatest_part_of_claimed)}`;
 const exponent = (fit) => `${fit.exponent.toFixed(4)} ± ${Number(fit.half_width_95.toPrecision(2))}`;
 
-/** Where the claimed distances are all but reached, a fit would only give their formula back. */
+/** If the claimed distances are almost reached, a fit would only restate their formula. */
 const fitText = (fit) => `${fit.algorithm}: ` + (fit.restates_the_bound
   ? `the farthest are at ${partsOfClaimed(fit)} of the claimed distance`
   : `the farthest distance goes as ε to the power of ${exponent(fit)} (95 % confidence), at ${partsOfClaimed(fit)} of the claimed distance`) +
   ` for ${fit.points} subjects with ${fit.precisions} precisions.`;
 
-/** The exponents of each family, or of what a directed search found, beside each other for each algorithm. */
+/** A table of exponents: a row for each origin of queries, columns for each algorithm. */
 function drawFits(fits) {
   const origins = [...new Set(fits.map((fit) => fit.origin))];
   if (origins.length < 2) return;

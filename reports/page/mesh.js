@@ -1,7 +1,7 @@
-// A picture of a scene's step: its mesh, with what collides and what is said of it; turned by mouse and keys.
+// A picture of a scene's step: its mesh, with collisions and wrong answers marked. Mouse and keys turn it.
 "use strict";
 
-/** What is drawn in a colour of its own, the first that holds: bits of a mark, and the name of a colour. */
+/** Colours of marked primitives: the bits of a mark, its meaning, and the name of the colour. The first match applies. */
 function markColours(meanings, subject) {
   const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
   return [
@@ -23,7 +23,7 @@ function primitivesOf(picture) {
   return [...cut(picture.triangles, 3), ...cut(picture.lines, 2), ...cut(picture.dots, 1)];
 }
 
-/** @param picture an entry of report.pictures, whose format reports/scene_picture.hpp says */
+/** @param picture an entry of report.pictures; reports/campaign/scene_picture.hpp describes its format */
 function drawMesh(picture) {
   const primitives = primitivesOf(picture);
   const marked = primitives.filter((primitive) => primitive.mark !== 0);
@@ -39,8 +39,8 @@ function drawMesh(picture) {
       }
     return (lo + hi) / 2;
   });
-  const said = (subject) => markColours(picture.meanings, subject).slice(0, 2).reduce((bits, each) => bits | each.bits, 0);
-  const wrong = subjects.find((subject) => primitives.some((primitive) => primitive.mark & said(subject)));
+  const wrongBits = (subject) => markColours(picture.meanings, subject).slice(0, 2).reduce((bits, each) => bits | each.bits, 0);
+  const wrong = subjects.find((subject) => primitives.some((primitive) => primitive.mark & wrongBits(subject)));
   const view = { yaw: -0.6, pitch: 0.45, zoom: 1, time: 1, subject: wrong ?? subjects[0] };
 
   const canvas = made("canvas", [], { class: "mesh", tabindex: "0", role: "img", "aria-label":
@@ -48,7 +48,7 @@ function drawMesh(picture) {
     "arrow keys turn the picture, + and - change its size" });
   const legend = made("div", [], { class: "mesh-legend" });
 
-  /** Where all points are seen at this time: across, up, and away from the eye. */
+  /** All points on the screen at the view's time: x, y, and depth away from the eye. */
   function seen(size) {
     const at = new Float64Array(3 * count);
     const scale = (view.zoom * size) / 13000;
@@ -125,7 +125,7 @@ function drawMesh(picture) {
     made("figcaption", [made("strong", picture.step.replace(/^scene:/, "")),
       primitives.length < picture.primitives ? `: ${integer(primitives.length)} of ${integer(picture.primitives)} primitives are shown` : ""]),
     canvas, legend,
-    made("div", [made("label", ["t ", time]), ...(subjects.length > 1 ? [made("label", [" said by ", which])] : []), " ",
+    made("div", [made("label", ["t ", time]), ...(subjects.length > 1 ? [made("label", [" answers of ", which])] : []), " ",
       button("larger", "+"), button("smaller", "-")], { class: "mesh-controls" }),
   ], { class: "scene-picture" });
 }

@@ -1,9 +1,9 @@
-// Draws the report: nothing here computes what report.json does not say.
+// Draws the report. All numbers are in report.json; nothing is computed here.
 "use strict";
 
 const element = (id) => document.getElementById(id);
 
-/** Shows a section, which is left out where there is nothing in it. */
+/** Shows a section; sections without data stay hidden. */
 const show = (id) => element(id).removeAttribute("hidden");
 
 // --- head -----------------------------------------------------------------------------------------
@@ -51,7 +51,7 @@ function drawBaseline() {
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
   if (baseline.unseen_signatures.length > 0)
     say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but as rare as chance explains ` +
-      `(about ${short(Math.round(baseline.expected_unseen))} were to be expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
+      `(about ${short(Math.round(baseline.expected_unseen))} were expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
   for (const way of ways(baseline.gone_signatures)) say(`Not seen any more: ${way}.`);
   say(baseline.changed_rates.length === 0
     ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (exact tests, ` +
@@ -76,12 +76,12 @@ function drawBaseline() {
   if (baseline.changed_facts.length > 0)
     element("changed-facts").textContent = "The runs differ in: " +
       baseline.changed_facts.map((fact) => `${fact.name} (${fact.before || "none"} → ${fact.now || "none"})`).join("; ") +
-      ". So counts differ, and rates are compared.";
+      ". Therefore rates are compared, not counts.";
 }
 
 // --- counts ---------------------------------------------------------------------------------------
 
-/** How often there was no answer, and why; empty columns are left out. */
+/** The number of queries without an answer. */
 const faults = (r) => Object.values(r.faults).reduce((a, b) => a + b, 0);
 const noAnswer = {
   title: "no answer", number: faults, bad: (r) => faults(r) > 0,
@@ -128,7 +128,7 @@ function drawSlowest() {
   ], rows);
 }
 
-/** What decided the queries of subjects that ask others than their own algorithm. */
+/** Which stage decided, for subjects that pass queries on. */
 function drawDeciders() {
   const rows = report.deciders;
   if (!rows) return;
@@ -162,7 +162,7 @@ function drawOracle() {
   fillTable(element("oracle"), [
     text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []), count("queries", "queries"), count("collisions", "collisions"),
     ...stages.map((stage) => count(stage, stage)), ...nearBounds, count("by all methods", "compared"),
-    count("of these collisions", "compared_collisions"), count("with even roots", "missed_by_parity"),
+    count("collisions among them", "compared_collisions"), count("with even roots", "missed_by_parity"),
   ], rows);
 }
 
@@ -199,10 +199,10 @@ function drawTightness() {
   const rows = Object.entries(report.tightness ?? {}).map(([name, extreme]) => ({ name, ...extreme }));
   if (rows.length === 0) return;
   show("tightness-section");
-  const says = { "accepting-tolerance": "missed with this factor or less", "keeping-tolerance": "missed with this factor or more",
+  const meanings = { "accepting-tolerance": "missed with this factor or less", "keeping-tolerance": "missed with this factor or more",
     distance: "distance / bound" };
   fillTable(element("tightness"), [
-    text("tolerance or tests", "name"), { title: "value", text: (r) => says[r.of] },
+    text("tolerance or tests", "name"), { title: "value", text: (r) => meanings[r.of] },
     { title: "value", number: (r) => r.value ?? 0, text: (r) => (r.value === null ? "none found" : short(r.value)) },
     count("queries", "queries"), { title: "from", text: (r) => r.provenance ?? "" },
   ], rows);
@@ -210,8 +210,8 @@ function drawTightness() {
 
 // --- cases ----------------------------------------------------------------------------------------
 
-/** What failed, how often, and where it was found. */
-function drawWhat(finding) {
+/** The failure, how often it was seen, and where it was found. */
+function drawFailure(finding) {
   const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio)}` : "");
   return made("div", [
     ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
@@ -220,7 +220,7 @@ function drawWhat(finding) {
   ]);
 }
 
-/** How to see it again, the shrunk query, and, when asked for, the query as it was found. */
+/** The command that replays it, the shrunk query, and a fold-out with the query that was found. */
 function drawShrunk(finding) {
   const original = made("details", [made("summary", finding.original_file), queryText(finding.original), copyQuery(finding.original)]);
   return made("div", [command(finding.again), queryText(finding.shrunk), copyQuery(finding.shrunk), original]);
@@ -235,16 +235,16 @@ function drawFindings() {
   const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
   element("findings-note").textContent = seen === 0
     ? "None: no false negative, no bound refuted, no disagreement."
-    : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. A few of each are kept, shrunk to the simplest query ` +
-      "that fails in the same way; they are in findings.csv and stand as case files in cases/, beside the queries as they " +
-      "were found. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
-      "Pictures show both primitives at contact, or where there is none when they are closest; pale at t = 0, pale and dashed at t = 1; " +
-      "mouse and arrow keys turn them.";
+    : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way are kept and shrunk to the ` +
+      "simplest query that fails in the same way. findings.csv lists them, and cases/ has a case file for each, beside the query " +
+      "that was found. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
+      "Pictures show both primitives at contact, or when they are closest if there is no contact; pale at t = 0, pale and dashed " +
+      "at t = 1. Mouse and arrow keys turn them.";
   if (seen === 0) return;
   const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));
   fillTable(element("findings"), [
     picture("shrunk"),
-    { title: "what", text: drawWhat }, { title: "the simplest query that fails in the same way", text: drawShrunk },
+    { title: "what", text: drawFailure }, { title: "the simplest query that fails in the same way", text: drawShrunk },
   ], newFirst);
 }
 
@@ -254,7 +254,7 @@ function drawFarthest() {
   show("farthest-section");
   fillTable(element("farthest"), [
     picture("query"),
-    { title: "of", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio)), made("div", `from ${r.provenance}`)]) },
+    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio)), made("div", `from ${r.provenance}`)]) },
     { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
   ], rows);
 }
@@ -264,7 +264,7 @@ function drawFarthest() {
 function drawHow() {
   for (const run of report.runs) {
     const { again, environments, seconds, cases_done, ...facts } = run;
-    const lines = [...Object.entries(facts), ["cases decided", integer(cases_done)], ["took, all parts together", duration(seconds)],
+    const lines = [...Object.entries(facts), ["cases decided", integer(cases_done)], ["run time of all shards", duration(seconds)],
       ...environments.flatMap((each) => Object.entries(each))].map(([name, value]) =>
       made("tr", [made("th", name, { scope: "row" }), made("td", value)]));
     if (again) lines.unshift(made("tr", [made("th", "the same again", { scope: "row" }), made("td", command(again))]));
@@ -303,7 +303,7 @@ const charts = [
 for (const [id] of charts) show(id);
 drawNavigation();
 
-/** Draws charts one after another with an earlier call's; the last call's choice of subjects is what remains. */
+/** Draws charts after those of an earlier call; a later call supersedes all earlier ones. */
 let calls = 0;
 let drawing = Promise.resolve();
 function drawCharts(some) {

@@ -1,4 +1,4 @@
-// Which subjects are in charts that have a row or a line for each: all, or where there are many those that one chooses.
+// The choice of subjects for charts with a row or a line for each: all subjects, or a selection if there are many.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);
@@ -6,19 +6,19 @@ const fewSubjects = 8;
 const hasPicker = subjectNames.length > fewSubjects;
 const isDark = matchMedia("screen and (prefers-color-scheme: dark)").matches;
 
-// Okabe and Ito's colours, which the colour-blind can tell apart.
+// Okabe and Ito's colours, which colour-blind people can distinguish.
 const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#999999", "#8b6f47",
   isDark ? "#9a7fe0" : "#5e3c99", isDark ? "#f2f2f2" : "#1b1b1b", "#a2b627", "#f28e8e"];
 
-/** Algorithms together, each from few digits to many; where there are few subjects in the order of their names. */
+/** Subjects in the order of their names; if there are many, grouped by algorithm and sorted from few digits to many. */
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
 
-/** So many of a list, with its ends. */
+/** `many` evenly spaced entries of a list, including its ends. */
 const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
-/** Those that failed; the Pareto fronts of error against run time; those that are over no other scalar; some of the others. */
+/** The failed subjects; the Pareto fronts of error against run time; subjects over double; and some of the others. */
 function firstChoice() {
   const { front_by_distance, front_by_rate, ladder } = report.error_against_time;
   const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate]);
@@ -29,10 +29,10 @@ function firstChoice() {
   return choice;
 }
 
-/** The colours of the chosen, as indices; they stay as long as a subject is chosen. */
+/** Indices of the colours of chosen subjects; a subject keeps its colour while it is chosen. */
 const chosenColors = new Map();
 
-/** Chooses these; of two that want the same colour one takes the first that is free. */
+/** Chooses these subjects. If the colour of a subject is taken, it gets the first free one. */
 function choose(choice) {
   for (const subject of chosenColors.keys()) if (!choice.has(subject)) chosenColors.delete(subject);
   const isFree = (index) => ![...chosenColors.values()].includes(index);
@@ -51,7 +51,7 @@ const paletteColor = (index) => palette[index % palette.length];
 const subjectColor = { field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjectNames, range: subjectNames.map((_, i) => paletteColor(i)) } };
 
-/** Colours of the chosen, in a legend as wide as there is room. @param others a colour for all others together, in a field "name" */
+/** Colours of the chosen subjects, with a legend. @param others the colour of all others together, in a field "name" */
 function chosenColor(others) {
   const names = chosenNames();
   const colors = names.map((name) => paletteColor(chosenColors.get(name)));
@@ -99,7 +99,7 @@ function drawPicker(redraw) {
   const group = (title, members, titleOf) => {
     const subjects = members.map((place) => place.subject);
     const toggle = () => changed(subjects, !subjects.every((subject) => chosenColors.has(subject)));
-    return made("fieldset", [made("legend", button(title, toggle, "all of them, or none")), ...members.map((place) => checkbox(place, titleOf(place)))]);
+    return made("fieldset", [made("legend", button(title, toggle, "all or none of them")), ...members.map((place) => checkbox(place, titleOf(place)))]);
   };
   const alone = places.filter((place) => place.isAlone);
   const algorithms = [...new Set(places.filter((place) => !place.isAlone).map((place) => place.algorithm))];

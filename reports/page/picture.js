@@ -1,4 +1,4 @@
-// A picture of a query: both primitives at t = 0, at the moment that matters and at t = 1, and the paths of their vertices.
+// A picture of a query: both primitives at t = 0, at contact or when closest, and at t = 1, with the paths of their vertices.
 "use strict";
 
 /** @param {string} kind "vt" or "ee" @param {number[]} x 24 numbers @param {number} time in [0, 1] */
@@ -11,7 +11,7 @@ function drawPicture(kind, x, time) {
   const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
   const moments = [[0, "start"], [1, "end"], [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
 
-  /** Points in [-1, 1], whatever the size and the place of the query. */
+  /** Points scaled and moved into [-1, 1]. */
   function fitted(points) {
     fitted.box ??= [0, 1, 2].map((k) => {
       const all = x.filter((_, i) => i % 3 === k).map((c) => c / 4); // no difference overflows
@@ -22,7 +22,7 @@ function drawPicture(kind, x, time) {
   }
 
   const turn = { yaw: -0.6, pitch: 0.5 };
-  /** Where a point is seen, from far away. */
+  /** The place of a point on the screen, in parallel projection. */
   function seen([px, py, pz]) {
     const across = Math.cos(turn.yaw) * px + Math.sin(turn.yaw) * py;
     const depth = -Math.sin(turn.yaw) * px + Math.cos(turn.yaw) * py;

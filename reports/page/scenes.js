@@ -1,4 +1,4 @@
-// Scenes: what became of their pairs, and how subjects did on those that they were asked about.
+// Scenes: what became of their pairs, and the subjects' answers for the pairs that they were asked about.
 "use strict";
 
 const isStep = (family) => family.startsWith("scene:");
@@ -24,7 +24,7 @@ const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofK
   Object.entries(ofKind).map(([kind, { times, ...funnel }]) =>
     ({ scene: sceneOf(step), step: stepNumber(step), kind, ...funnel, ...times })));
 
-/** What each subject did in each step and kind; "time" is of all its queries. */
+/** The counters of each subject in each step and kind; "time" is the sum over all its queries. */
 const askedRows = () => countRows(true).filter((row) => isStep(row.family)).map((row) => ({
   scene: sceneOf(row.family), step: stepNumber(row.family), subject: row.subject, kind: row.kind, queries: row.queries,
   collisions: row.collisions, false_negatives: row.false_negatives, false_positives: row.false_positives,
@@ -45,7 +45,7 @@ function drawScenes() {
   fillTable(element("scenes"), [
     text("scene", "scene"), ...steps, text("kind", "kind"), count("all pairs", "all"), share("boxes apart", "boxes_apart", "all"),
     share("share a vertex", "share_vertex", "all"), share("at rest", "at_rest", "all"), share("in translation", "in_translation", "all"),
-    count("of these collide", "touching"), share("asked", "asked", "all"),
+    count("static collisions", "touching"), share("asked", "asked", "all"),
     { title: "found in", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
   ], summed(all, by), true);
   const asked = summed(askedRows(), byStep ? ["scene", "step", "subject"] : ["scene", "subject"]);
@@ -55,7 +55,7 @@ function drawScenes() {
     { title: "rate", number: falsePositiveRate, text: (r) => percent(falsePositiveRate(r)) },
     { title: "farthest", number: (r) => r.farthest, text: (r) => fraction(r.farthest) },
     { title: "ns / query", number: (r) => r.time / r.queries, text: (r) => short(r.time / r.queries) },
-    { title: "in all", number: (r) => r.time, text: (r) => duration(1e-9 * r.time) },
+    { title: "total time", number: (r) => r.time, text: (r) => duration(1e-9 * r.time) },
     share("planes separate", "planes", "queries"), share("no root", "no-root", "queries"), share("VE culled", "culled", "queries"),
   ], asked, true);
 }
@@ -64,7 +64,7 @@ function drawScenePictures() {
   for (const picture of report.pictures ?? []) element("scene-pictures").append(drawMesh(picture));
 }
 
-/** By step: how many pairs, what subjects say of them, and how long it took. */
+/** Along the steps: the number of pairs, the subjects' answers, and the run time. */
 function drawSceneSteps() {
   const funnels = summed(funnelRows(), ["scene", "step"]);
   const rows = summed(askedRows(), ["scene", "step", "subject"]).map((r) => ({ ...r, ns_per_query: r.time / r.queries, rate: falsePositiveRate(r) }));

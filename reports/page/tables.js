@@ -4,7 +4,7 @@
 const integer = (n) => n.toLocaleString("en-US");
 const short = (x) =>
   x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
-/** Three digits, or as many as it takes to tell what is below 1 from 1; what is below all borders is known from above only. */
+/** Three digits, or more if a number below 1 would be rounded to 1. A number below all borders is known from above only. */
 function fraction(x) {
   const lowest = report.histogram_borders[1];
   if (x > 0 && x < lowest) return `below ${short(lowest)}`;
@@ -14,12 +14,12 @@ function fraction(x) {
 }
 const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fraction(x)} of the bound`);
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
-/** The range in which a number is known to be. */
+/** A column of ranges in which a number is known to be. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
   text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 
-/** A new element; `content` is text, a node, or a list of these. */
+/** A new element; `content` is text, a node, or a list of texts and nodes. */
 function made(tag, content = [], attributes = {}) {
   const node = document.createElement(tag);
   node.append(...[content].flat());
@@ -29,7 +29,7 @@ function made(tag, content = [], attributes = {}) {
 
 /**
  * Draws a table.
- * @param columns {title, text(row): text or node, number(row): by which it sorts, bad(row)}
+ * @param columns {title, text(row): text or node, number(row): the key to sort by, bad(row): whether it is marked}
  * @param sortable whether a click on a heading sorts
  */
 function fillTable(table, columns, rows, sortable = false) {
@@ -85,10 +85,10 @@ function copyButton(content) {
 /** A command, and a button that copies it. */
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
-/** A query as a line of 24 numbers, for nearmiss oracle and verdict; to copy. */
+/** A button that copies a query as a line of 24 numbers, for nearmiss oracle and verdict. */
 const copyQuery = (x) => copyButton(x.join(" "));
 
-/** A vertex a line: where it is at t = 0, and where it is at t = 1 if it moves. */
+/** A line for each vertex: its place at t = 0, and its place at t = 1 if it moves. */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
   const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);

@@ -1,12 +1,12 @@
-// How a primitive is turned by mouse and keys.
+// Turning a picture with mouse and keys.
 "use strict";
 
 /**
- * @param node what is drawn on
- * @param view its yaw and pitch are changed
- * @param slowness pixels that the mouse moves for a radian
- * @param draw draws it anew
- * @param others {key: what else it does}
+ * @param node the element that shows the picture
+ * @param view an object whose yaw and pitch are changed
+ * @param slowness pixels of mouse movement per radian
+ * @param draw redraws the picture
+ * @param others {key: function} for further keys
  */
 function makeTurnable(node, view, slowness, draw, others = {}) {
   function turn(yaw, pitch) {

@@ -17,7 +17,7 @@ function night(name, seed, subjects, planted) {
   if (status !== 0 && status !== 1) throw new Error(`fuzz ended with ${status}: ${stderr}`);
 }
 
-/** What is worse since the baseline: new ways to fail, and worse rates. */
+/** New ways to fail and worse rates since the baseline. */
 function alarms() {
   spawnSync(resolve(nearmiss), ["report", "now.db", "--baseline", "before.db", "-o", "report"], { cwd: folder });
   const { baseline } = JSON.parse(readFileSync(join(folder, "report", "report.json")));

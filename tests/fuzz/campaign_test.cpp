@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "reports/campaign.hpp"
+#include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
 namespace {

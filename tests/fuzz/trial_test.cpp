@@ -7,7 +7,7 @@
 #include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/trial_stream.hpp"
-#include "reports/campaign.hpp"
+#include "reports/campaign/campaign.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -76,7 +76,7 @@ TEST(Trial, RunTimesCountOnlyIfTheBatchSaysSo) {
   EXPECT_EQ(counts_of(hold_trial(wang, batch())).times.queries(), batch().queries.size());
   const Counts counts = counts_of(hold_trial(wang, untimed));
   EXPECT_EQ(counts.queries, batch().queries.size());
-  EXPECT_EQ(counts.times, Times());
+  EXPECT_EQ(counts.times, SubjectTimes());
 }
 
 TEST(Trial, ASubjectThatNeverReportsMisses) {

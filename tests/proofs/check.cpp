@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "reports/text.hpp"
+#include "reports/text/text.hpp"
 
 namespace nearmiss::proofs {
 

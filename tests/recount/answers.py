@@ -54,7 +54,7 @@ class Answers:
         return sorted(set(self.family[kind]))
 
     def place(self, kind, provenance):
-        """Which query "family:seed:number" is; None where there is no such query."""
+        """Which query "family:seed:number" is; None if there is no such query."""
         family, seed, number = provenance.rsplit(':', 2)
         if seed != str(self.seed):
             return None

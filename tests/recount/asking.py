@@ -12,7 +12,7 @@ KINDS = ('vt', 'ee')
 
 @dataclass
 class Report:
-    """What a campaign and its report say: parsed JSON, and text."""
+    """Output of a campaign and its report: parsed JSON, and text."""
 
     folder: Path
     fuzz_json: dict
@@ -108,7 +108,7 @@ class Verdicts:
     """A subject's answers, one a query."""
 
     hit: np.ndarray  # bool
-    stage: np.ndarray  # names of the accepting stages, 'none' where there is no hit
+    stage: np.ndarray  # names of the accepting stages, 'none' without a hit
     bound: np.ndarray  # that measures false positives' distances, in the queries' unit of length
     claims: bool  # whether the subject claims this bound
     rounded: list  # the queries that it is judged by, as lines

@@ -1,4 +1,4 @@
-"""Changes values of reports, and says whether a check finds that."""
+"""Changes values of reports, and finds out whether a check notices."""
 
 import contextlib
 

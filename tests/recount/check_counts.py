@@ -34,7 +34,7 @@ def check_statistics(comparison, where, json, answers):
 
 
 def check_counts(comparison, where, found, tally):
-    """Everything that is told of one subject over some queries, but for times."""
+    """All counters of one subject over some queries, except times."""
     check_rates(comparison, where, found, tally)
     comparison.same('counters', f'{where} positives', found['positives'], tally.positives)
     comparison.same('counters', f'{where} faults', found['faults'], {})

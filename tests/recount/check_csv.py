@@ -17,7 +17,7 @@ def read(folder, name):
 
 
 def number(text):
-    """A whole number as such, and any other as a float; text that is none as it is."""
+    """An int if the text is a whole number, a float for other numbers, or else the text."""
     for kind in (int, float):
         try:
             return kind(text)
@@ -36,9 +36,12 @@ def keys(answers):
     ]
 
 
-def check_statistics_csv(comparison, _where, folder, answers):
-    """Counters, rates and quantiles."""
+def check_statistics_csv(comparison, _where, folder, answers, report):
+    """Counters, rates and quantiles. The columns by stage give the names in report.json."""
     statistics = read(folder, 'statistics.csv')
+    by_stage = [name for name in statistics[0] if name.startswith('true_by_')]
+    expected = ['true_by_none', *(f'true_by_{stage}' for stage in report['stages'])]
+    comparison.same('CSV', 'stages of report.json', by_stage, expected)
     found = [(row['subject'], row['kind'], row['family']) for row in statistics]
     comparison.same('CSV', 'statistics.csv rows', found, keys(answers))
     for row in statistics:
@@ -88,7 +91,7 @@ def _check_statistics(comparison, row, answers):
 
 
 def check_distances_csv(comparison, _where, folder, answers):
-    """The histograms' bins that are not empty."""
+    """The non-empty bins of the histograms."""
     lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
     bins = {key: [0] * BINS for key in keys(answers)}
     for row in read(folder, 'distances.csv'):
@@ -104,7 +107,7 @@ def check_distances_csv(comparison, _where, folder, answers):
 
 
 def check_findings_csv(comparison, _where, folder, answers, report):
-    """Every finding is a query that was found so."""
+    """Every finding is a query that fails in the recorded way."""
     rows = read(folder, 'findings.csv')
     comparison.same('CSV', 'findings.csv rows', len(rows), report['findings_total'])
     seen = {

@@ -1,7 +1,7 @@
-"""The section "deciders" of report.json: what decided the queries of subjects that ask others.
+"""The section "deciders" of report.json: which stage decided, for subjects that pass queries on.
 
-It adds up counts by the accepting stage, and by what told that there is no collision. The latter
-is known to a campaign alone, so the sums here are of the section "subjects", checked elsewhere."""
+It adds up counts by the accepting stage and by the rejection. Only a campaign knows the rejection,
+so the sums here are of the section "subjects", which is checked elsewhere."""
 
 from asking import KINDS
 
@@ -24,7 +24,7 @@ def check_deciders(comparison, where, report, answers):
 
 
 def _row(subject, family):
-    """How many queries of both kinds each decider has."""
+    """The number of queries of both kinds that each decider decided."""
     deciders = {'algorithm': 0, 'filter': 0, 'finer': 0, 'exact': 0}
     for kind in KINDS:
         counts = subject[kind]['families'].get(family) if family else subject[kind]

@@ -1,4 +1,4 @@
-"""The page of a report: its data, of which scripts draw everything."""
+"""The page of a report: its data, from which scripts draw everything."""
 
 import html.parser
 import json

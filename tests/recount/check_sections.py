@@ -10,8 +10,8 @@ from check_counts import ROUNDING, SOLVED, check_false_positive, check_query, ch
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
 from tally import BORDERS, Tally, reported
 
-TIME = 'ns_per_query'  # by which subjects stand on a front
-COARSEST, FINEST = -23, -127  # exponents of epsilon that a fit takes
+TIME = 'ns_per_query'  # the time that a front compares
+COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
 
 
 def check_borders(comparison, where, found):
@@ -31,7 +31,7 @@ def check_places(comparison, where, found, subject):
 
 
 def slack(subject):
-    """Relative: a claim may be this much larger, for the rounding of B in the subject's scalar."""
+    """Relative error of a claim from the rounding of B in the subject's scalar."""
     return 65 * 2.0 ** place(subject)[2] + ROUNDING
 
 
@@ -80,18 +80,23 @@ def check_trade_offs(comparison, where, found, answers, units):
 
 
 def front(subjects, error):
-    """The names, fastest first, of those of which no other is as fast with less error."""
+    """Names, fastest first: no other subject is at least as fast with at most the same error.
+
+    Of subjects with equal times and errors, the first name is on the front."""
     chosen = [
         name
-        for name, own in subjects.items()
-        if not any(_dominates(other, own, error) for other in subjects.values())
+        for name in subjects
+        if not any(_beats(other, name, subjects, error) for other in subjects)
     ]
     return sorted(chosen, key=lambda name: subjects[name][TIME])
 
 
-def _dominates(a, b, error):
-    costs = [(each[TIME], each[error]) for each in (a, b)]
-    return costs[0] != costs[1] and costs[0][0] <= costs[1][0] and costs[0][1] <= costs[1][1]
+def _beats(other, name, subjects, error):
+    """Whether the other subject keeps this one off the front."""
+    costs, own = ((subjects[each][TIME], subjects[each][error]) for each in (other, name))
+    if costs == own:
+        return other < name
+    return costs[0] <= own[0] and costs[1] <= own[1]
 
 
 def check_ladder(comparison, where, report, answers, units):
@@ -110,30 +115,30 @@ def check_ladder(comparison, where, report, answers, units):
     if not is_ladder or 'ladder' not in report:
         return
     found = report['ladder']
-    comparison.same(
-        'names', where, [rung['subject'] for rung in found['rungs']], [rung[0] for rung in rungs]
-    )
+    names = [rung['subject'] for rung in found['rungs']]
+    comparison.same('names', where, names, [rung[0] for rung in rungs])
     for rung in found['rungs']:
-        own = f'{where} {rung["subject"]}'
-        check_places(comparison, where, rung, rung['subject'])
-        check_rates(comparison, own, rung, Tally.of(answers, rung['subject'], KINDS))
-        comparison.near(
-            'ladder',
-            f'{own} claimed',
-            rung['claimed'],
-            units.claimed(rung['subject']),
-            slack(rung['subject']),
-        )
-        farthest = rung['claimed'] * rung['max_fp_distance_over_bound']
-        comparison.near('ladder', f'{own} farthest', rung['farthest'], farthest, ROUNDING)
-    expected = fits(report)
-    comparison.same(
-        'names',
-        f'{where} fits',
-        [(fit['algorithm'], fit['origin']) for fit in found['fits']],
-        [(fit['algorithm'], fit['origin']) for fit in expected],
-    )
-    for fit, line in zip(found['fits'], expected):
+        _check_rung(comparison, where, rung, answers, units)
+    _check_fits(comparison, where, found['fits'], fits(report))
+
+
+def _check_rung(comparison, where, rung, answers, units):
+    subject = rung['subject']
+    own = f'{where} {subject}'
+    check_places(comparison, where, rung, subject)
+    check_rates(comparison, own, rung, Tally.of(answers, subject, KINDS))
+    claimed = units.claimed(subject)
+    comparison.near('ladder', f'{own} claimed', rung['claimed'], claimed, slack(subject))
+    farthest = rung['claimed'] * rung['max_fp_distance_over_bound']
+    comparison.near('ladder', f'{own} farthest', rung['farthest'], farthest, ROUNDING)
+
+
+def _check_fits(comparison, where, found, expected):
+    names = [
+        [(fit['algorithm'], fit['origin']) for fit in fits_of] for fits_of in (found, expected)
+    ]
+    comparison.same('names', f'{where} fits', *names)
+    for fit, line in zip(found, expected):
         own = f'{where} {fit["algorithm"]} {fit["origin"]}'
         for name in ('points', 'precisions', 'restates_the_bound'):
             comparison.same('fits', f'{own} {name}', fit[name], line[name])
@@ -203,7 +208,7 @@ def _points(report, algorithm, origin):
 
 
 def check_findings(comparison, section, report, answers):
-    """Findings and farthest false positives name queries that were found so."""
+    """Findings and farthest false positives are queries that fail in the recorded way."""
     seen = {
         (each['what'], each['subject'], each['signature']): each['seen']
         for each in report['signatures']

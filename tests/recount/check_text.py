@@ -10,77 +10,67 @@ from tally import BORDERS, LARGEST
 
 
 def check_text(comparison, section, report, json_report):
-    """What is in the report, and what nearmiss fuzz and nearmiss report print."""
+    """Text in the report, and the output of nearmiss fuzz and nearmiss report."""
     verdicts = {
         subject: verdict(json_report['error_against_time']['subjects'][subject])
         for subject in json_report['subjects']
     }
-    comparison.same(
-        'text',
-        f'{section} headline',
-        json_report['headline']['text'],
-        headline(json_report, verdicts),
-    )
-    comparison.same(
-        'text',
-        f'{section} headline clean',
-        json_report['headline']['clean'],
-        all(clean for clean, _ in verdicts.values()),
-    )
-    comparison.same(
-        'text',
-        f'{section} verdicts',
-        [each['subject'] for each in json_report['verdicts']],
-        sorted(verdicts),
-    )
-    for each in json_report['verdicts']:
-        clean, text = verdicts.get(each['subject'], (None, None))
-        comparison.same('text', f'{section} verdict of {each["subject"]}', each['text'], text)
-        comparison.same(
-            'text', f'{section} verdict of {each["subject"]} clean', each['clean'], clean
-        )
-    comparison.same(
-        'text', f"{section} the oracle's complaint", json_report['oracle']['complaint'], ''
-    )
+    _check_headline(comparison, section, json_report, verdicts)
+    _check_verdicts(comparison, section, json_report, verdicts)
     for where, text in (
         ('nearmiss fuzz', report.fuzz_text),
         ('nearmiss report', report.report_text),
     ):
-        lines = text.splitlines()
-        expected = [
-            f'{" ok " if clean else "FAIL"} {subject}: {text}'
-            for subject, (clean, text) in verdicts.items()
-        ]
-        comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
-        _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
-        found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
-        comparison.same(
-            'text',
-            f'{where} oracle',
-            found and found[0],
-            oracle_line(json_report['oracle']['total']),
-        )
+        _check_output(comparison, where, text, json_report, verdicts)
     if 'ladder' in json_report:
-        _check_table(
-            comparison,
-            'nearmiss fuzz ladder',
-            report.fuzz_text.splitlines(),
-            ['subject', 'epsilon'],
-            ladder(json_report['ladder']),
-        )
-        lines = [
-            line for line in report.fuzz_text.splitlines() if ' of the claimed distance' in line
-        ]
-        comparison.same(
-            'text',
-            'nearmiss fuzz fits',
-            lines,
-            [fit(each) for each in json_report['ladder']['fits'] if not each['origin']],
-        )
+        _check_ladder(comparison, report.fuzz_text.splitlines(), json_report['ladder'])
+
+
+def _check_headline(comparison, section, json_report, verdicts):
+    found = json_report['headline']
+    expected = headline(json_report, verdicts)
+    comparison.same('text', f'{section} headline', found['text'], expected)
+    is_clean = all(clean for clean, _ in verdicts.values())
+    comparison.same('text', f'{section} headline clean', found['clean'], is_clean)
+
+
+def _check_verdicts(comparison, section, json_report, verdicts):
+    names = [each['subject'] for each in json_report['verdicts']]
+    comparison.same('text', f'{section} verdicts', names, sorted(verdicts))
+    for each in json_report['verdicts']:
+        clean, text = verdicts.get(each['subject'], (None, None))
+        where = f'{section} verdict of {each["subject"]}'
+        comparison.same('text', where, each['text'], text)
+        comparison.same('text', f'{where} clean', each['clean'], clean)
+    complaint = json_report['oracle']['complaint']
+    comparison.same('text', f"{section} the oracle's complaint", complaint, '')
+
+
+def _check_output(comparison, where, text, json_report, verdicts):
+    """The verdicts, the table of counters, and the oracle's lines of one command."""
+    lines = text.splitlines()
+    expected = [
+        f'{" ok " if clean else "FAIL"} {subject}: {said}'
+        for subject, (clean, said) in verdicts.items()
+    ]
+    comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
+    _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
+    found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
+    expected = oracle_line(json_report['oracle']['total'])
+    comparison.same('text', f'{where} oracle', found and found[0], expected)
+
+
+def _check_ladder(comparison, lines, found):
+    """The table and the fits that nearmiss fuzz prints."""
+    heading = ['subject', 'epsilon']
+    _check_table(comparison, 'nearmiss fuzz ladder', lines, heading, ladder(found))
+    fits = [line for line in lines if ' of the claimed distance' in line]
+    expected = [fit(each) for each in found['fits'] if not each['origin']]
+    comparison.same('text', 'nearmiss fuzz fits', fits, expected)
 
 
 def verdict(found):
-    """Whether a subject is clean, and what is said of it."""
+    """Whether a subject is clean, and the text of its verdict."""
     missed, refuted = found['false_negatives'], found['refuted_bounds']
     text = f'MISSED {missed:,} of ' if missed else 'no miss in '
     text += counted(found['collisions'], 'collision')
@@ -129,7 +119,7 @@ def general(number, digits):
 
 
 def fraction(ratio):
-    """Of a bound: three digits, or more where a ratio below 1 would seem to be 1."""
+    """A ratio with three digits, or more if a ratio below 1 would be rounded to 1."""
     if ratio == LARGEST:
         return 'inf'
     if 0 < ratio < BORDERS[0]:
@@ -142,7 +132,7 @@ def fraction(ratio):
 
 
 def summary(report):
-    """The rows of the summary's table, but for times."""
+    """The rows of the summary's table, without times."""
     rows = []
     for subject, own in report['subjects'].items():
         for kind in KINDS:
@@ -163,7 +153,7 @@ def summary(report):
 
 
 def ladder(found):
-    """The rows of the ladder's table, but for times."""
+    """The rows of the ladder's table, without times."""
     return [
         [
             rung['subject'],
@@ -184,7 +174,7 @@ def json_exponent(power_of_two):
 
 
 def fit(found):
-    """The line of a fit."""
+    """The line that describes a fit."""
     of = found['algorithm']
     subjects = f'{found["points"]} subjects with {found["precisions"]} precisions'
     ends = [fraction(found[f'{end}_part_of_claimed']) for end in ('least', 'greatest')]
@@ -196,7 +186,7 @@ def fit(found):
 
 
 def oracle_line(total):
-    """How queries were decided, in two lines."""
+    """The two lines on the oracle."""
     parts = [
         f'oracle: {total["queries"]:,} queries',
         f' {total["decided_by"]["undecided"]:,} left to exact arithmetic by the filters; '

@@ -1,4 +1,4 @@
-"""What was compared, and what differs."""
+"""Compared values, and their differences."""
 
 import math
 from dataclasses import dataclass, field
@@ -22,7 +22,7 @@ class Comparison:
         self._note(sort, where, found, expected, found == expected)
 
     def near(self, sort, where, found, expected, relative):
-        """Found must be the expected number but for a relative error; None only for None."""
+        """Found must be the expected number up to a relative error, or None if None is expected."""
         if found is None or expected is None:
             return self.same(sort, where, found, expected)
         is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)
@@ -40,7 +40,7 @@ class Comparison:
         self._note(sort, where, found, expected, False)
 
     def agree(self, sort, count):
-        """So many values were found as expected."""
+        """Adds values that were found as expected."""
         self.compared[sort] = self.compared.get(sort, 0) + count
 
     def section(self, check, where, *arguments):
@@ -51,7 +51,7 @@ class Comparison:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """So many values are allowed to be either way, because an enclosure holds a border."""
+        """Adds values that are allowed either way, because an enclosure holds a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):

@@ -24,7 +24,7 @@ from tally import Tally
 
 
 def counts_of(report):
-    """How many queries of each family there are, by what the report says of the oracle."""
+    """The number of queries of each family, from the oracle's counters in the report."""
     families = report['oracle']['families']
     return {
         name: sum(families[kind].get(name, {'queries': 0})['queries'] for kind in KINDS)
@@ -45,11 +45,11 @@ def check_report(comparison, report, answers, units):
 
 
 def check_all(comparison, report, answers, units):
-    """All that a campaign and its report say."""
+    """Everything in a campaign's output and its report."""
     json_report = report.json()
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
-    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers)
+    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers, json_report)
     comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
     comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
     comparison.section(check_text, 'report.json', report, json_report)
@@ -65,14 +65,14 @@ def check_cases(comparison, found, cases, counts, seed):
 
 
 def note_either_way(comparison, answers):
-    """How many enclosures leave open in which bin a ratio is, or whether it refutes a bound."""
+    """Counts enclosures that hold a border of bins, or the bound itself."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         first, last = tally.bins
         comparison.allow('distances that may be in either of two bins', int((first != last).sum()))
         least, most = tally.refuted()
         comparison.allow('distances that may or may not refute a bound', most - least)
-        comparison.allow('false positives in all', tally.false_positives)
+        comparison.allow('false positives', tally.false_positives)
 
 
 def recount(nearmiss, folder, cases, seed, subjects, families):
@@ -95,7 +95,7 @@ def main():
     )
     parser.add_argument('nearmiss', type=Path, help='the executable')
     parser.add_argument(
-        '--cases', type=int, default=4000, help='queries in all (default: %(default)s)'
+        '--cases', type=int, default=4000, help='total number of queries (default: %(default)s)'
     )
     parser.add_argument(
         '--seed', type=int, default=1, help='of the queries (default: %(default)s)'

@@ -1,4 +1,4 @@
-"""What the names of subjects say, and the distance bounds that they claim, in units of B."""
+"""Names of subjects: algorithm, scalar, and the claimed distance bound in units of B."""
 
 import math
 
@@ -10,14 +10,14 @@ AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-eps', 'wang-plain')
 
 
 def exponent(scalar):
-    """Of the machine epsilon, a power of two; None for what is no scalar."""
+    """Binary exponent of the machine epsilon; None if the name is no scalar."""
     if scalar.startswith('p') and scalar[1:].isdigit():
         return 1 - int(scalar[1:])
     return EPSILONS.get(scalar)
 
 
 def place(subject):
-    """Algorithm, scalar and exponent of epsilon; one over no scalar is an algorithm of its own."""
+    """Algorithm, scalar and exponent of epsilon; a name without scalar is its own algorithm."""
     algorithm, _, scalar = subject.partition(':')
     if exponent(scalar) is None:
         return subject, 'double', EPSILONS['double']
@@ -38,15 +38,15 @@ class Units:
         self._nearmiss, self._seed, self._known = nearmiss, seed, {}
 
     def claimed(self, subject):
-        """The bound that a subject claims; None where nothing is claimed in proportion to B.
+        """The bound that a subject claims; None if it claims none in proportion to B.
 
-        That is its quotient by the bound that wang claims of the same queries, times wang's."""
+        Computed as the quotient of its bound and wang's for the same queries, times wang's."""
         if subject not in self._known:
             self._known[subject] = self._measured(subject)
         return self._known[subject]
 
     def of_distances(self, subject):
-        """In which its distance / bound is given: the claimed bound, or for basic that of wang."""
+        """The bound in its ratios distance / bound: the claimed one, or wang's for basic."""
         algorithm, _, _ = place(subject)
         if algorithm in ('basic', 'basic-plain'):
             return paper_bound(2.0 ** EPSILONS['double'])

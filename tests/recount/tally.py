@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import betaincinv
 
-# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One bin lies below them,
+# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One bin lies below them
 # and one above.
 BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
 BINS = len(BORDERS) + 1
-FARTHEST = 5  # so many of the farthest false positives are kept
-PRECISION = 1.01e-3  # by which a largest ratio may be above the true one, relative to it
+FARTHEST = 5  # number of farthest false positives that are kept
+PRECISION = 1.01e-3  # relative error by which a reported largest ratio may exceed the true one
 LARGEST = np.finfo(float).max
 
 
@@ -33,7 +33,7 @@ class Tally:
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
-        """Over the queries of these kinds; of all families where none is named. Computed once."""
+        """Over the queries of these kinds, of one family or of all. Computed once."""
         key = subject, tuple(kinds), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
@@ -68,7 +68,7 @@ class Tally:
 
     @functools.cached_property
     def histogram(self):
-        """How many are certainly in each bin, and how many may be."""
+        """For each bin the number that is certainly in it, and the number that may be."""
         first, last = self.bins
         least = np.bincount(first[first == last], minlength=BINS)
         most = least.copy()
@@ -90,7 +90,7 @@ class Tally:
     def quantile_bins(self, part):
         """The first and the last bin that may hold the ratio which a part of all does not exceed.
 
-        None where there is no false positive."""
+        None without false positives."""
         if self.false_positives == 0:
             return None
         place = max(int(np.ceil(part * self.false_positives)), 1) - 1
@@ -111,7 +111,7 @@ def _by_name(stages):
 
 
 def reported(lo, hi):
-    """What may stand in a report for a ratio from lo to hi, since reports tell it from above.
+    """The range of a reported ratio whose true value is from lo to hi; reports round it up.
 
     Infinity is the largest double; what is below all borders is only known to be there."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
@@ -129,12 +129,12 @@ def stages(subject, counts):
 
 
 def denominators(tally):
-    """What false negatives and false positives are counted among."""
+    """The totals for the rates of false negatives and of false positives."""
     return tally.collisions, tally.queries - tally.collisions
 
 
 def rate(count, total):
-    """0 where there is nothing to count among."""
+    """0 if the total is 0."""
     return count / total if total else 0.0
 
 

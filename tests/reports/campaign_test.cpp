@@ -1,5 +1,5 @@
 // Campaigns: parts of a run come together, and give what one machine would have found.
-#include "reports/campaign.hpp"
+#include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
 /// Shard `shard` of three, with a finding in each of its rounds 0 .. 9: of signature "s", and of "t" from
 /// round 5 on.
 Campaign shard_of_three(std::uint64_t shard) {
-  Run run{info, {{.shard = shard, .shards = 3, .rounds = 4, .complete = true}}, {}};
+  Run run{info, {{.index = shard, .count = 3, .rounds = 4, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
     for (const char* signature : {"s", "t"})
       if (round >= 5 || *signature == 's')
@@ -70,11 +70,11 @@ TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
 }
 
 TEST(Campaign, SaysWhichShardsAreMissing) {
-  EXPECT_EQ(missing_parts(merged({0, 1, 2}).runs.front()), "");
-  EXPECT_EQ(missing_parts(merged({1}).runs.front()), "shards 0, 2 of 3 are missing");
-  EXPECT_EQ(missing_parts({{}, {{.shard = 0, .shards = 2}}, {}}),
+  EXPECT_EQ(missing_shards(merged({0, 1, 2}).runs.front()), "");
+  EXPECT_EQ(missing_shards(merged({1}).runs.front()), "shards 0, 2 of 3 are missing");
+  EXPECT_EQ(missing_shards({{}, {{.index = 0, .count = 2}}, {}}),
             "shards 1 of 2 are missing, shards 0 of 2 are not complete");
-  EXPECT_EQ(missing_parts({{}, {{}}, {}}), "not complete");
+  EXPECT_EQ(missing_shards({{}, {{}}, {}}), "not complete");
 }
 
 TEST(Campaign, AShardIsTakenOnce) {
@@ -87,7 +87,7 @@ TEST(Campaign, AShardIsTakenOnce) {
 
 TEST(Campaign, ARunIsCutInOneWay) {
   std::vector campaigns{shard_of_three(0), shard_of_three(1)};
-  campaigns[1].runs[0].parts[0].shards = 4;
+  campaigns[1].runs[0].shards[0].count = 4;
   const std::vector<std::string> names{"a.db", "b.db"};
   EXPECT_THAT([&] { merge_campaigns(campaigns, names); },
               ThrowsMessage<Error>(HasSubstr("b.db: found a shard of 4, and one of 3 in a.db")));

@@ -1,5 +1,5 @@
-// What decides the queries of a subject that asks others.
-#include "reports/decider_table.hpp"
+// Deciders of a subject that passes queries on.
+#include "reports/sections/decider_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-void add(Statistics& statistics, const Key& key, std::initializer_list<Outcome> outcomes,
+void add(Statistics& statistics, const CountsKey& key, std::initializer_list<Outcome> outcomes,
          std::uint64_t ns_per_query) {
   Counts& counts = statistics.counts[key];
   for (const Outcome& each : outcomes) counts.add(each, {}, [] { return "f:1:0"; });
@@ -29,7 +29,7 @@ Outcome rejected(Rejection rejection) {
 Statistics some_statistics() {
   const auto filter = rejected(Rejection::filter);
   const auto vt = [](const char* subject, const char* family) {
-    return Key{subject, Kind::vertex_triangle, family};
+    return CountsKey{subject, Kind::vertex_triangle, family};
   };
   Statistics statistics;
   add(statistics, vt("adaptive", "near"),
@@ -45,7 +45,7 @@ Statistics some_statistics() {
 
 TEST(Deciders, AreCountedByFamilyOverBothKinds) {
   const auto rows = decider_rows(some_statistics());
-  ASSERT_EQ(rows.size(), 3);  // wang asks nobody, and exact has no algorithm of its own
+  ASSERT_EQ(rows.size(), 3);  // wang passes nothing on, and exact has no algorithm of its own
   for (const DeciderRow& row : rows) EXPECT_EQ(row.subject, "adaptive");
   EXPECT_EQ(rows[0].family, "");
   EXPECT_THAT(rows[0].queries, ElementsAre(3, 3, 1, 2));

@@ -1,5 +1,5 @@
 // The most extreme queries, and how they merge.
-#include "reports/extreme.hpp"
+#include "reports/statistics/extreme.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The ladder of precisions.
-#include "reports/ladder.hpp"
+#include "reports/sections/ladder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-TEST(ScalarName, TellsEpsilon) {
+TEST(ScalarName, GivesEpsilon) {
   EXPECT_EQ(epsilon_exponent_of("float"), -23);
   EXPECT_EQ(epsilon_exponent_of(""), -52);
   EXPECT_EQ(epsilon_exponent_of("p40"), -39);
@@ -39,11 +39,11 @@ TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
   EXPECT_NEAR(all[0].claimed, 41 * std::exp2(-23 / 4.0), 5e-3);
   EXPECT_EQ(all[1].scalar, "double");
   EXPECT_NEAR(all[1].claimed, 40.963 * 0x1p-13, 1e-7);
-  EXPECT_EQ(all[1].farthest, all[1].claimed / 2);
+  EXPECT_EQ(all[1].farthest(), all[1].claimed / 2);
   EXPECT_NEAR(all[2].claimed, 11.9336 * 0x1p-13, 1e-7);
 }
 
-TEST(Ladder, ASubjectThatIsOnNoneIsAnAlgorithmOfItsOwn) {
+TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
   EXPECT_EQ(place_of("wang:p40").algorithm, "wang");
   EXPECT_EQ(place_of("wang:p40").scalar, "p40");
   EXPECT_NEAR(*place_of("wang-eps").unit, 40.963 * 0x1p-13, 1e-7);
@@ -68,7 +68,7 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   EXPECT_EQ(line->greatest_part, 1);
   EXPECT_EQ(describe(*line),
             "wang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions");
-  // Half as far for each halving of ε on top of that: one more power.
+  // Another factor of a half for each halving of ε: one more power.
   const auto steeper =
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
   EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
@@ -77,7 +77,7 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
         fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}})), "wang").has_value());
 }
 
-// With two degrees of freedom t is exceeded with probability 2.5 % at 0.95 √(2 / (4 · 0.975 · 0.025)).
+// The 0.975 quantile of t with two degrees of freedom is 0.95 √(2 / (4 · 0.975 · 0.025)).
 TEST(Ladder, TheIntervalIsStudents) {
   const auto line =
       fit(rungs(farthest_at({{"wang:p24", 0.5}, {"wang:float", 0.25}, {"wang:p32", 1}, {"wang:p64", 0.125}})),
@@ -92,7 +92,14 @@ TEST(Ladder, TheIntervalIsStudents) {
             "0.125 to 1 of the claimed distance");
 }
 
-TEST(Ladder, WhatIsKnownFromAboveOnlyIsInNoFit) {
+// The middle one of three points 16 apart is 1 below the others: squared residuals of 2/3 over one degree of freedom.
+TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
+  const auto line = fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}})), "wang");
+  EXPECT_NEAR(line->exponent, 0.25, 1e-5);
+  EXPECT_NEAR(line->standard_error, std::sqrt(2.0 / 3 / (2 * 16 * 16)), 1e-5);
+}
+
+TEST(Ladder, ARatioThatIsKnownFromAboveOnlyIsInNoFit) {
   const auto with = [](double part) {
     return fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 1}, {"wang:p64", 1}, {"wang:p80", part}})),
                "wang");

@@ -13,8 +13,8 @@
 #include "corpus/readers.hpp"
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
-#include "reports/summary.hpp"
-#include "reports/text.hpp"
+#include "reports/sections/counts_json.hpp"
+#include "reports/sections/summary.hpp"
 #include "tests/queries.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -76,13 +76,15 @@ TEST(Summary, OnlyRandomSamplesHaveARate) {
     Statistics statistics;
     Counts& counts = statistics.counts[{"good", Kind::edge_edge, family}];
     counts.add({.verdict = {true, Stage::vv, 0}, .collision = true}, query, [] { return ""; });
-    counts.is_sample = is_random(family);
     return statistics;
   };
   EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));  // the largest rate that 0 of 1 allows
-  for (const char* family : {"cases/", "scene:cloth#3"}) {
+  for (const std::string family : {"cases/", "scene:cloth#3"}) {
     EXPECT_THAT(summary_table(of(family)), ::testing::Not(HasSubstr("0.95"))) << family;
-    EXPECT_EQ(rates_json(of(family).counts.begin()->second)["false_negative_rate_upper_95"], nullptr);
+    const auto json = summary_json({{}, of(family)})["subjects"]["good"]["ee"];
+    EXPECT_EQ(json["false_negative_rate_upper_95"], nullptr);
+    EXPECT_EQ(json["families"][family]["false_positive_rate_interval_95"], nullptr);
+    EXPECT_THAT(statistics_csv(of(family)), HasSubstr("," + family + ",1,1,1,0,,0,"));
     Statistics both = of(family);
     both.merge(of("uniform"));
     EXPECT_FALSE(both.by_subject_and_kind().begin()->second.is_sample);
@@ -95,23 +97,6 @@ TEST(Summary, AMismatchWithTheRecordedTruthIsAFinding) {
   statistics.mismatches_with_recorded_truth = 1;
   EXPECT_TRUE(found_anything(statistics));
   EXPECT_THAT(summary_table(statistics), HasSubstr("FAIL oracle: 1 MISMATCH"));
-}
-
-TEST(Summary, NumbersAreGroupedByThousands) {
-  EXPECT_EQ(with_separators(7), "7");
-  EXPECT_EQ(with_separators(1234), "1,234");
-  EXPECT_EQ(with_separators(123456789), "123,456,789");
-}
-
-TEST(Summary, WhatIsBelowTheBoundIsNotRoundedToIt) {
-  EXPECT_EQ(fraction_of_bound(0.99999962), "0.9999996");
-  EXPECT_EQ(fraction_of_bound(0.1234), "0.123");
-  EXPECT_EQ(fraction_of_bound(1), "1");
-  EXPECT_EQ(fraction_of_bound(1.0001), "1");
-  EXPECT_EQ(fraction_of_bound(std::numeric_limits<double>::max()), "inf");
-  EXPECT_EQ(times_the_bound(0.1234), "at 0.123 of the bound");
-  EXPECT_EQ(times_the_bound(std::numeric_limits<double>::max()), "beyond a bound of 0");
-  EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
 }
 
 TEST(Csv, OneRowASubjectKindAndFamily) {
@@ -181,10 +166,11 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(far["false_negatives"], 2);
   Counts both = some;
   both.merge(some);
-  EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json(both)["false_positive_rate_interval_95"]);
+  EXPECT_EQ(far["false_positive_rate_interval_95"],
+            rates_json(both, true)["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
-  // What leads back to a query has the whole name.
+  // Links back to a query have the whole name.
   EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
   ASSERT_EQ(json["farthest"].size(), 5);
   EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");
@@ -218,6 +204,13 @@ TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   ASSERT_EQ(json["baseline"]["new_signatures"].size(), 1);
   EXPECT_EQ(json["baseline"]["new_signatures"][0]["signature"], "vt crash SEGV");
   EXPECT_EQ(json["baseline"]["subjects"][0]["before"]["false_positive_rate"], 1);
+}
+
+TEST_F(ReportTest, NamesTheStagesThatAccept) {
+  const auto json = report_json(some_campaign("wang"))["stages"];
+  EXPECT_EQ(json.size(), stage_count - 1);
+  EXPECT_EQ(json[0], "proximity");
+  EXPECT_EQ(json.back(), "unspecified");
 }
 
 TEST_F(ReportTest, TextFromOutsideCannotLeaveItsPlaceInThePage) {

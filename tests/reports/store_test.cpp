@@ -1,5 +1,5 @@
 // The store: what is saved is there, whole, whatever happens next.
-#include "reports/store.hpp"
+#include "reports/store/store.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,53 +90,53 @@ Finding some_finding(const std::string& provenance) {
 }
 
 const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
-const Part part{.shard = 2,
-                .shards = 5,
-                .rounds = 77,
-                .complete = true,
-                .started = "2026-01-02T03:04:05Z",
-                .seconds = 12.5,
-                .environment = {{"cpu", "some"}}};
+const Shard shard{.index = 2,
+                  .count = 5,
+                  .rounds = 77,
+                  .complete = true,
+                  .started = "2026-01-02T03:04:05Z",
+                  .seconds = 12.5,
+                  .environment = {{"cpu", "some"}}};
 
 TEST_F(StoreTest, GivesBackWhatWasSaved) {
   const std::vector findings{some_finding("uniform:1:5"), some_finding("uniform:1:3")};
   {
-    Part before = part;
+    Shard before = shard;
     before.rounds = 3;
     Store store(file("a.db"), info, before);
     store.save({}, before, std::span(findings).first(1));
-    store.save(some_statistics("wang"), part, std::span(findings).last(1));
+    store.save(some_statistics("wang"), shard, std::span(findings).last(1));
     store.add({"scene:cloth", R"({"points":[1,2]})"});
   }
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
   const std::vector<ScenePicture> pictures{{"scene:cloth", R"({"points":[1,2]})"}};
-  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, findings, pictures}}));
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {shard}, findings, pictures}}));
   write_campaign(campaign, file("copy.db"));
   EXPECT_EQ(load_campaign(file("copy.db")).runs, campaign.runs);
 }
 
 TEST_F(StoreTest, CanBeReadWhileItIsWritten) {
-  Store store(file("a.db"), info, part);
-  store.save(some_statistics("wang"), part, {});
+  Store store(file("a.db"), info, shard);
+  store.save(some_statistics("wang"), shard, {});
   EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));
 }
 
 TEST_F(StoreTest, IsWrittenByOneAtATime) {
   {
-    Store store(file("a.db"), info, part);
+    Store store(file("a.db"), info, shard);
     EXPECT_THAT([&] { Store(file("a.db")); },
                 ThrowsMessage<Error>(HasSubstr("a.db: another process is writing it")));
   }
   EXPECT_FALSE(std::filesystem::exists(file("a.db.lock")));
-  Store(file("a.db")).save(some_statistics("wang"), part, {});
+  Store(file("a.db")).save(some_statistics("wang"), shard, {});
 }
 
 TEST_F(StoreTest, GoesOn) {
   const Finding first = some_finding("first");
   const Finding second = some_finding("second");
-  Store(file("a.db"), info, part).save({}, part, std::span(&first, 1));
-  Part later = part;
+  Store(file("a.db"), info, shard).save({}, shard, std::span(&first, 1));
+  Shard later = shard;
   later.rounds = 78;
   Store(file("a.db")).save(some_statistics("wang"), later, std::span(&second, 1));
   const Campaign campaign = load_campaign(file("a.db"));
@@ -145,10 +145,10 @@ TEST_F(StoreTest, GoesOn) {
 }
 
 TEST_F(StoreTest, GoesOnWithOnePartOfOneRunOnly) {
-  Part other = part;
-  other.shard = 3;
-  write_campaign({{{info, {part, other}, {}, {}}}, {}}, file("a.db"));
-  EXPECT_THAT([&] { Store(file("a.db")); }, ThrowsMessage<Error>(HasSubstr("a.db: found several parts")));
+  Shard other = shard;
+  other.index = 3;
+  write_campaign({{{info, {shard, other}, {}, {}}}, {}}, file("a.db"));
+  EXPECT_THAT([&] { Store(file("a.db")); }, ThrowsMessage<Error>(HasSubstr("a.db: found several shards")));
   EXPECT_THAT([&] { Store(file("none.db")); }, ThrowsMessage<Error>(HasSubstr("none.db: unable to open")));
 }
 
@@ -170,19 +170,19 @@ class NoRoom {
 };
 
 TEST_F(StoreTest, AFullDiskLosesNothingThatWasSaved) {
-  Store store(file("a.db"), info, part);
-  store.save(some_statistics("wang"), part, {});
+  Store store(file("a.db"), info, shard);
+  store.save(some_statistics("wang"), shard, {});
   const NoRoom no_room(100 << 10);
   std::vector<Finding> many;
   for (int i = 0; i < 2000; ++i) many.push_back(some_finding(std::to_string(i)));
-  EXPECT_THAT([&] { store.save({}, part, many); }, ThrowsMessage<Error>(HasSubstr("a.db: ")));
+  EXPECT_THAT([&] { store.save({}, shard, many); }, ThrowsMessage<Error>(HasSubstr("a.db: ")));
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
-  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {part}, {}}}));
+  EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {shard}, {}}}));
 }
 
 TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
-  const Campaign campaign{{{info, {part}, {some_finding("x")}}, {{{"seed", "2"}}, {}, {some_finding("y")}}},
+  const Campaign campaign{{{info, {shard}, {some_finding("x")}}, {{{"seed", "2"}}, {}, {some_finding("y")}}},
                           some_statistics("wang")};
   write_campaign(campaign, file("a.db"));
   const Campaign again = load_campaign(file("a.db"));
@@ -191,7 +191,7 @@ TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
 }
 
 TEST_F(StoreTest, ACutFileIsRefused) {
-  write_campaign({{{info, {part}, {some_finding("x")}}}, some_statistics("wang")}, file("a.db"));
+  write_campaign({{{info, {shard}, {some_finding("x")}}}, some_statistics("wang")}, file("a.db"));
   const std::string whole = read("a.db");
   for (const std::size_t size : {std::size_t{0}, std::size_t{50}, whole.size() / 2, whole.size() - 4096}) {
     write("cut.db", whole.substr(0, size));
@@ -201,7 +201,7 @@ TEST_F(StoreTest, ACutFileIsRefused) {
 
 TEST_F(StoreTest, NeverTakesAFileThatIsThereAlready) {
   write("a.db", "precious");
-  EXPECT_THAT([&] { Store(file("a.db"), info, part); },
+  EXPECT_THAT([&] { Store(file("a.db"), info, shard); },
               ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
   EXPECT_THAT([&] { write_campaign({}, file("a.db")); },
               ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
@@ -228,11 +228,11 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 11")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 12")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {
-  EXPECT_THAT([&] { Store(file("no/a.db"), info, part); },
+  EXPECT_THAT([&] { Store(file("no/a.db"), info, shard); },
               ThrowsMessage<Error>(HasSubstr("no/a.db.lock: cannot be made")));
 }
 

@@ -1,5 +1,5 @@
 // Sweeps are read from the names of families alone.
-#include "reports/sweep.hpp"
+#include "reports/sections/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,128 @@
+#include "reports/campaign/campaign.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// Sorts findings by the way in which they fail.
+bool is_before(const Finding& a, const Finding& b) {
+  const auto key = [](const Finding& f) { return std::tie(f.what, f.subject, f.signature); };
+  return key(a) < key(b);
+}
+
+/// Sorts findings as one machine would have found them, and drops those that it would not have kept.
+void keep_first(std::vector<Finding>& findings) {
+  // A round is done by one shard, whose findings are in order.
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.round < b.round; });
+  FirstFindings first;
+  std::erase_if(findings, [&](const Finding& f) { return !first.take(f); });
+}
+
+std::string describe(const RunInfo& info) {
+  std::string text;
+  for (const auto& [name, value] : info)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Finding> Campaign::findings() const {
+  std::vector<Finding> all;
+  for (const Run& run : runs) all.insert(all.end(), run.findings.begin(), run.findings.end());
+  std::stable_sort(all.begin(), all.end(), is_before);
+  std::set<std::tuple<Signature, Kind, std::array<double, 24>>> known;
+  std::erase_if(all, [&](const Finding& f) {
+    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x).second;
+  });
+  return all;
+}
+
+namespace {
+
+/// Puts the runs of several campaigns together.
+class RunMerger {
+ public:
+  void add(const Run& each, const std::string& name) {
+    Run& run = runs_[each.info];
+    run.info = each.info;
+    for (const Shard& shard : each.shards) add(shard, run, name);
+    run.findings.insert(run.findings.end(), each.findings.begin(), each.findings.end());
+    run.pictures.insert(run.pictures.end(), each.pictures.begin(), each.pictures.end());
+  }
+
+  std::vector<Run> merged() && {
+    std::vector<Run> all;
+    for (auto& [info, run] : runs_) {
+      std::sort(run.shards.begin(), run.shards.end(),
+                [](const Shard& a, const Shard& b) { return a.index < b.index; });
+      keep_first(run.findings);
+      all.push_back(std::move(run));
+    }
+    return all;
+  }
+
+ private:
+  void add(const Shard& shard, Run& run, const std::string& name) {
+    const auto [other, is_new] = from_.emplace(std::tuple(run.info, shard.index), name);
+    if (!is_new)
+      throw Error(fmt::format("{} and {}: both have shard {}/{} of the run with {}", other->second, name,
+                              shard.index, shard.count, describe(run.info)));
+    if (!run.shards.empty() && run.shards.front().count != shard.count)
+      throw Error(fmt::format("{}: found a shard of {}, and one of {} in {}, of the run with {}", name,
+                              shard.count, run.shards.front().count,
+                              from_.at({run.info, run.shards.front().index}), describe(run.info)));
+    run.shards.push_back(shard);
+  }
+
+  std::map<RunInfo, Run> runs_;
+  std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that has a shard
+};
+
+}  // namespace
+
+Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names) {
+  Statistics statistics;
+  RunMerger runs;
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    statistics.merge(campaigns[i].statistics);
+    for (const Run& each : campaigns[i].runs) runs.add(each, names[i]);
+  }
+  return {std::move(runs).merged(), std::move(statistics)};
+}
+
+std::string missing_shards(const Run& run) {
+  std::vector<std::uint64_t> missing;
+  std::vector<std::uint64_t> unfinished;
+  auto shard = run.shards.begin();
+  const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
+  for (std::uint64_t index = 0; index < count; ++index) {
+    if (shard == run.shards.end() || shard->index != index) {
+      missing.push_back(index);
+      continue;
+    }
+    if (!shard->complete) unfinished.push_back(index);
+    ++shard;
+  }
+  std::string text;
+  if (!missing.empty()) text = fmt::format("shards {} of {} are missing", fmt::join(missing, ", "), count);
+  if (!unfinished.empty() && count == 1) text = "not complete";
+  if (!unfinished.empty() && count > 1)
+    text += fmt::format("{}shards {} of {} are not complete", text.empty() ? "" : ", ",
+                        fmt::join(unfinished, ", "), count);
+  return text;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,65 @@
+// A campaign: what was run, how far it got, and what it found. A store holds campaigns, and a report shows one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/campaign/scene_picture.hpp"
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// Facts by name.
+using RunInfo = std::map<std::string, std::string>;
+
+/// Value of a run's fact "cases" if the run has no limit on the number of cases.
+inline constexpr std::string_view until_the_time_is_over = "until the time is over";
+
+/// One machine's part of a run.
+struct Shard {
+  std::uint64_t index = 0;  ///< among `count` shards, from 0
+  std::uint64_t count = 1;
+  std::uint64_t rounds = 0;  ///< rounds of blocks that are done; a campaign resumes after them
+  std::uint64_t cases = 0;   ///< cases that the oracle decided
+  bool complete = false;
+  std::string started = {};  ///< date and time, for people only: clocks jump
+  double seconds = 0;        ///< run time so far
+  RunInfo environment = {};  ///< machine and compiler; times depend on it, and no other result does
+
+  bool operator==(const Shard&) const = default;
+};
+
+/// A command with everything on which its results depend; equal runs give equal results.
+struct Run {
+  RunInfo info;
+  std::vector<Shard> shards;                ///< by index
+  std::vector<Finding> findings;            ///< in order: the first ones of each signature (FirstFindings)
+  std::vector<ScenePicture> pictures = {};  ///< by step
+
+  bool operator==(const Run&) const = default;
+};
+
+/// Everything that a store holds and a report shows.
+struct Campaign {
+  std::vector<Run> runs;  ///< by their facts
+  Statistics statistics;
+
+  /// The findings of all runs, sorted by what failed, subject and signature. If several findings of a signature are
+  /// shrunk to the same query, only the first of them is listed.
+  [[nodiscard]] std::vector<Finding> findings() const;
+};
+
+/// Several campaigns as one: counters add up, shards of the same run come together, and the first findings of each
+/// signature are kept, so that all shards give the campaign that one machine would have run. The result does not depend
+/// on the order of the inputs. Throws Error, with the inputs' names, if two have the same shard of a run, or divide a run
+/// into different numbers of shards.
+Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
+
+/// A line on the shards of a run that are missing or not complete; "" if all are complete.
+std::string missing_shards(const Run& run);
+
+}  // namespace nearmiss

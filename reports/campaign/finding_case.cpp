@@ -1,0 +1,38 @@
+#include "reports/campaign/finding_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+std::string subject_of(const Finding& finding) {
+  return finding.subject.empty() ? "oracle" : finding.subject;
+}
+
+}  // namespace
+
+Case to_case(const Finding& finding) {
+  std::string why = fmt::format("{} of {}", name(finding.what), subject_of(finding));
+  if (finding.ratio > 0) why += fmt::format(", {}", times_the_bound(finding.ratio));
+  Case result{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
+  if (finding.what == Finding::What::false_negative) result.truth = true;
+  if (finding.what == Finding::What::refuted_bound) result.truth = false;
+  return result;
+}
+
+std::string case_file_name(const Finding& finding, std::string_view id) {
+  return file_name(fmt::format("{}-{}-{}.case", name(finding.what), subject_of(finding), id));
+}
+
+std::string file_name(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
+  return text;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,21 @@
+// Findings as cases to keep.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "corpus/case.hpp"
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// The case of a finding, with its truth if the finding implies one.
+Case to_case(const Finding& finding);
+
+/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it.
+std::string case_file_name(const Finding& finding, std::string_view id);
+
+/// A valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'.
+std::string file_name(std::string text);
+
+}  // namespace nearmiss

@@ -1,0 +1,64 @@
+// What has changed since an earlier campaign.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/campaign/campaign.hpp"
+#include "reports/statistics/confidence.hpp"
+
+namespace nearmiss {
+
+/// A rate that differs by more than chance explains.
+struct ChangedRate {
+  std::string_view
+      what;  ///< "false negatives", "false positives", "false positives beyond the bound", or "no answer"
+  std::string subject, kind, family;
+  Proportion before, now;
+  double p = 1;  ///< p-value of an exact test: the probability of such a difference if the rates are equal
+
+  [[nodiscard]] bool worse() const { return now.rate() > before.rate(); }
+};
+
+/// A fact of the runs that differs: all of its values, joined by " | ".
+struct ChangedFact {
+  std::string name, before, now;
+};
+
+struct Changes {
+  /// Ways to fail that are new, or more frequent than chance explains; in order.
+  std::vector<Signature> new_signatures;
+  /// Signatures of a failing subject that are missing in the baseline and no more frequent than chance explains.
+  std::vector<Signature> unseen_signatures;
+  double expected_unseen = 0;              ///< expected number of unseen signatures if nothing has changed
+  std::vector<Signature> gone_signatures;  ///< only in the baseline
+  std::vector<ChangedRate> rates;
+  std::size_t compared_rates = 0;
+  std::vector<ChangedFact> facts;
+
+  /// Whether there is a new way to fail, or a rate that is worse.
+  [[nodiscard]] bool for_the_worse() const;
+};
+
+/// The probability that `changes` reports a changed rate although no rate has changed; and the same for ways to fail.
+inline constexpr double false_alarm_risk = 1e-3;
+
+/// Compares the rates of all families that both campaigns have, by Fisher's exact test. For each subject it also compares
+/// the sum over all families and kinds in which both campaigns have few failures, so that a new way to fail is noticed that
+/// is spread over many families. Cases and meshes are left out, because they are no random samples.
+///
+/// If the baseline has no failure of a subject of one sort, any failure of that sort is new; so is any failure of the
+/// oracle. A subject that fails anyway brings a few unseen signatures every time, so a signature of it is new only if
+/// Fisher's exact test finds it more frequent among the subject's queries than chance explains. Each test divides
+/// false_alarm_risk among all its comparisons (Bonferroni).
+Changes changes(const Campaign& now, const Campaign& baseline);
+
+/// A line for each change; "" without changes.
+std::string describe(const Changes& changes);
+
+nlohmann::ordered_json changes_json(const Changes& changes);
+
+}  // namespace nearmiss

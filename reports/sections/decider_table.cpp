@@ -1,0 +1,141 @@
+#include "reports/sections/decider_table.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "reports/sections/counts_json.hpp"
+#include "reports/sections/funnel_table.hpp"
+#include "reports/statistics/family.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::array references{"wang", "exact"};
+
+using Deciders = std::array<std::uint64_t, decider_count>;
+
+Deciders deciders(const Counts& counts) {
+  const auto hits = [&](Stage stage) {
+    const auto i = static_cast<std::size_t>(stage);
+    return counts.true_by_stage[i] + counts.false_by_stage[i];
+  };
+  const auto rejections = [&](Rejection by) { return counts.rejected_by[static_cast<std::size_t>(by)]; };
+  const std::uint64_t filter = hits(Stage::filter) + rejections(Rejection::filter);
+  const std::uint64_t finer = rejections(Rejection::finer);
+  const std::uint64_t exact = hits(Stage::exact) + rejections(Rejection::exact);
+  return {counts.queries - counts.faults_total() - filter - finer - exact, filter, finer, exact};
+}
+
+bool ask_others(const Deciders& queries) {
+  return queries[0] != 0 && std::accumulate(queries.begin() + 1, queries.end(), std::uint64_t{0}) != 0;
+}
+
+std::string row_family(const std::string& family) {
+  return family.starts_with("scene:") ? scene_of(family) : std::string(shown_family(family));
+}
+
+/// The time of a subject over that of another, for the keys that are `shown` and timed for both; nothing if there are
+/// no such keys.
+template <class Shown>
+std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
+                                const std::string& other, const Shown& shown) {
+  Counts own;
+  Counts others;
+  for (const auto& [key, counts] : statistics.counts) {
+    if (key.subject != subject || !shown(key) || counts.times.queries() == 0) continue;
+    const auto same = statistics.counts.find({other, key.kind, key.family});
+    if (same == statistics.counts.end() || same->second.times.queries() == 0) continue;
+    own.merge(counts);
+    others.merge(same->second);
+  }
+  const auto ns = own.times.ns_per_query();
+  const auto ns_of_other = others.times.ns_per_query();
+  return ns && ns_of_other ? std::optional(*ns / *ns_of_other) : std::nullopt;
+}
+
+DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family) {
+  const auto shown = [&](const CountsKey& key) { return family.empty() || row_family(key.family) == family; };
+  Counts sum;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == subject && shown(key)) sum.merge(counts);
+  DeciderRow result{subject, family, deciders(sum), sum.times.ns_per_query(), {}};
+  for (const std::string reference : references)
+    if (const auto ratio = time_over(statistics, subject, reference, shown))
+      result.time_over[reference] = *ratio;
+  return result;
+}
+
+}  // namespace
+
+std::uint64_t DeciderRow::all() const {
+  return std::accumulate(queries.begin(), queries.end(), std::uint64_t{0});
+}
+
+std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
+  std::map<std::string, std::set<std::string>> families;
+  for (const auto& each : statistics.counts)
+    families[each.first.subject].insert(row_family(each.first.family));
+  std::vector<DeciderRow> rows;
+  for (const auto& [subject, names] : families) {
+    DeciderRow all = row(statistics, subject, "");
+    if (!ask_others(all.queries)) continue;
+    rows.push_back(std::move(all));
+    for (const std::string& family : names) rows.push_back(row(statistics, subject, family));
+  }
+  return rows;
+}
+
+namespace {
+
+std::vector<std::string> heading() {
+  std::vector<std::string> cells{"decided by", "queries"};
+  for (const auto name : decider_names) cells.insert(cells.end(), {std::string(name), ""});
+  cells.emplace_back("ns/query");
+  for (const std::string reference : references) cells.push_back("/ " + reference);
+  return cells;
+}
+
+std::vector<std::string> cells_of(const DeciderRow& row) {
+  std::vector<std::string> cells{row.family.empty() ? "all families" : row.family,
+                                 with_separators(row.all())};
+  for (const std::uint64_t queries : row.queries)
+    cells.insert(cells.end(), {with_separators(queries), percent(queries, row.all())});
+  cells.push_back(whole_ns(row.ns_per_query));
+  for (const char* reference : references) {
+    const auto ratio = row.time_over.find(reference);
+    cells.push_back(ratio == row.time_over.end() ? "-" : fmt::format("{:.3g}", ratio->second));
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::string decider_tables(const Statistics& statistics) {
+  std::map<std::string, std::vector<std::vector<std::string>>> tables;
+  for (const DeciderRow& each : decider_rows(statistics))
+    tables.try_emplace(each.subject, 1, heading()).first->second.push_back(cells_of(each));
+  std::string text;
+  for (const auto& [subject, table] : tables) text += fmt::format("\n{}\n{}", subject, columns(table, 1));
+  return text;
+}
+
+nlohmann::ordered_json deciders_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::array();
+  for (const DeciderRow& each : decider_rows(statistics)) {
+    nlohmann::ordered_json row{{"subject", each.subject}, {"family", each.family}, {"queries", each.all()}};
+    for (std::size_t i = 0; i < decider_count; ++i)
+      row["decided_by"][std::string(decider_names[i])] = each.queries[i];
+    row["ns_per_query"] = or_null(each.ns_per_query);
+    row["time_over"] = each.time_over;
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
+}  // namespace nearmiss

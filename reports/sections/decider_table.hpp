@@ -1,0 +1,45 @@
+// Which stage decides the queries of a subject that passes queries on where its own algorithm is not sure, by family.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+inline constexpr std::size_t decider_count = 4;
+
+/// Names of the deciders in the order in which they are asked, as they stand in files. The last three stand for the
+/// stages and rejections of these names, "algorithm" for all others.
+inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
+                                                                           "exact"};
+
+/// Queries of both kinds together, by what decided them.
+struct DeciderRow {
+  std::string subject;
+  std::string family;  ///< "" for all families; a scene is one family with all its steps
+  std::array<std::uint64_t, decider_count> queries{};
+  std::optional<double> ns_per_query;       ///< nothing if it was not timed
+  std::map<std::string, double> time_over;  ///< time over another subject's, for the same families and kinds
+
+  [[nodiscard]] std::uint64_t all() const;
+};
+
+/// The rows of each subject for which both its algorithm and another stage decide something: one for all families, then
+/// one for each. Times are compared with those of wang and exact, if these are in the statistics.
+std::vector<DeciderRow> decider_rows(const Statistics& statistics);
+
+/// A table for each subject; "" without rows.
+std::string decider_tables(const Statistics& statistics);
+
+/// A list of the rows.
+nlohmann::ordered_json deciders_json(const Statistics& statistics);
+
+}  // namespace nearmiss

@@ -1,0 +1,129 @@
+#include "reports/sections/funnel_table.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "corpus/query_text.hpp"
+#include "reports/sections/counts_json.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The text of each fate's line.
+constexpr std::array<std::string_view, pair_fate_count> explanations{
+    "swept boxes do not meet: no plane, no polynomial", "share a vertex",
+    "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
+
+/// What became of the pairs of a scene, over all its steps.
+struct ScenePairs {
+  std::array<Funnel, kinds.size()> funnels;  ///< by kind
+  std::size_t steps = 0;
+  std::map<std::string, std::array<Counts, kinds.size()>> subjects;
+  std::array<OracleCounts, kinds.size()> oracle;
+};
+
+std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
+  const auto number = [](Kind kind) { return static_cast<std::size_t>(kind); };
+  std::map<std::string, ScenePairs> scenes;
+  for (const auto& [key, funnel] : statistics.funnels) {
+    const auto& [step, kind] = key;
+    ScenePairs& scene = scenes[scene_of(step)];
+    scene.funnels[number(kind)].merge(funnel);
+    if (kind == Kind::vertex_triangle) ++scene.steps;
+  }
+  for (const auto& [key, counts] : statistics.counts)
+    if (statistics.funnels.contains({key.family, key.kind}))
+      scenes[scene_of(key.family)].subjects[key.subject][number(key.kind)].merge(counts);
+  for (const auto& [key, counts] : statistics.oracle)
+    if (statistics.funnels.contains({key.second, key.first}))
+      scenes[scene_of(key.second)].oracle[number(key.first)].merge(counts);
+  return scenes;
+}
+
+using Row = std::vector<std::string>;
+
+/// A line with the numbers of both kinds, as parts of `all`.
+Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
+  Row cells{std::string(what)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    cells.push_back(with_separators(parts[i]));
+    cells.push_back(percent(parts[i], all[i]));
+  }
+  return cells;
+}
+
+/// Adds rows on the work that the asked pairs need: of subjects that report it, and of the oracle.
+void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std::vector<Row>& rows) {
+  static const std::map<Rejection, std::string_view> left_out{
+      {Rejection::planes, "planes separate, nothing else is computed"},
+      {Rejection::apart, "too far apart for a root"},
+      {Rejection::no_root, "the cubic has no root, no test is needed"},
+      {Rejection::culled, "vertex-edge tests are culled"}};
+  for (const auto& subject : scene.subjects) {
+    const std::string& name = subject.first;
+    const auto& counts = subject.second;
+    const auto by = [&](Rejection rejection, std::size_t i) {
+      return counts[i].rejected_by[static_cast<std::size_t>(rejection)];
+    };
+    std::array<std::uint64_t, 2> rest = asked;
+    std::vector<Row> own;
+    for (const auto& [rejection, what] : left_out) {
+      const std::array<std::uint64_t, 2> parts{by(rejection, 0), by(rejection, 1)};
+      if (parts[0] + parts[1] == 0) continue;
+      own.push_back(row(fmt::format("  {}: {}", name, what), parts, asked));
+      for (std::size_t i = 0; i < 2; ++i) rest[i] -= parts[i];
+    }
+    if (own.empty()) continue;
+    own.push_back(row(fmt::format("  {}: all tests, or reported", name), rest, asked));
+    rows.insert(rows.end(), own.begin(), own.end());
+  }
+  const auto undecided = [&](std::size_t i) {
+    return scene.oracle[i].by_stage[static_cast<std::size_t>(FilterStage::undecided)];
+  };
+  rows.push_back(row("  oracle: its filter decides, exact arithmetic is not needed",
+                     {scene.oracle[0].queries - undecided(0), scene.oracle[1].queries - undecided(1)},
+                     asked));
+}
+
+}  // namespace
+
+std::string scene_of(const std::string& step) { return step.substr(0, step.rfind('#')); }
+
+std::string funnel_tables(const Statistics& statistics) {
+  std::string text;
+  for (const auto& [name, scene] : scenes_of(statistics)) {
+    const auto& [vt, ee] = scene.funnels;
+    const std::array<std::uint64_t, 2> all{vt.all(), ee.all()};
+    std::vector<Row> rows{{counted(scene.steps, "step", "steps"), "vertex-triangle", "", "edge-edge", ""}};
+    rows.push_back(row("all pairs", all, all));
+    for (std::size_t i = 0; i < pair_fate_count; ++i) {
+      const bool last = i + 1 == pair_fate_count;
+      if (last) rows.push_back(row("  of these collide", {vt.touching, ee.touching}, all));
+      rows.push_back(
+          row((last ? "= " : "- ") + std::string(explanations[i]), {vt.pairs[i], ee.pairs[i]}, all));
+    }
+    if (!scene.subjects.empty()) add_needs(scene, {vt[PairFate::asked], ee[PairFate::asked]}, rows);
+    text += fmt::format("\n{}\n{}", name, columns(rows, 1));
+    if (vt.all() == 0) text += "vertex-triangle: there are no triangles, or no vertices\n";
+    if (ee.all() == 0) text += "edge-edge: there are no two edges\n";
+    const auto seconds = [](std::uint64_t ns) { return 1e-9 * static_cast<double>(ns); };
+    text += fmt::format("of one core: pairs found in {:.3g} s, fates told in {:.3g} s\n",
+                        seconds(vt.finding_ns + ee.finding_ns), seconds(vt.deciding_ns + ee.deciding_ns));
+  }
+  return text;
+}
+
+nlohmann::ordered_json funnels_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::object();
+  for (const auto& [key, funnel] : statistics.funnels) {
+    json[key.first][std::string(short_name(key.second))] = funnel_json(funnel);
+  }
+  return json;
+}
+
+}  // namespace nearmiss

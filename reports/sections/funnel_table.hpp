@@ -1,0 +1,20 @@
+// What became of the pairs of each scene.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// The scene of "scene:NAME#STEP": "scene:NAME".
+std::string scene_of(const std::string& step);
+
+/// A table for each scene over all its steps, with a line for each fate and a column for each kind; "" without scenes.
+std::string funnel_tables(const Statistics& statistics);
+
+/// funnel_json (counts_json.hpp) by step and kind.
+nlohmann::ordered_json funnels_json(const Statistics& statistics);
+
+}  // namespace nearmiss

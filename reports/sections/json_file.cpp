@@ -1,0 +1,23 @@
+#include "reports/sections/json_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+void read_json_file(const std::filesystem::path& file, std::string_view expected,
+                    const std::function<void(const nlohmann::ordered_json&)>& take) {
+  std::ifstream in(file);
+  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  try {
+    take(nlohmann::ordered_json::parse(in));
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw Error(fmt::format("{}: found '{}', expected {}", file.string(), error.what(), expected));
+  }
+}
+
+}  // namespace nearmiss

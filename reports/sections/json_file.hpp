@@ -1,0 +1,16 @@
+// JSON files that one command writes and another reads.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+
+namespace nearmiss {
+
+/// Reads a file and passes its content to `take`. Throws Error if the file cannot be read, or with what was found and
+/// `expected` if it is no JSON or `take` throws an exception of the JSON library.
+void read_json_file(const std::filesystem::path& file, std::string_view expected,
+                    const std::function<void(const nlohmann::ordered_json&)>& take);
+
+}  // namespace nearmiss

@@ -1,0 +1,212 @@
+#include "reports/sections/ladder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "ccd/scalar_name.hpp"
+#include "ccd/tight_tolerances.hpp"
+#include "reports/sections/counts_json.hpp"
+#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/family.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::array algorithms{"wang", "wang-tight"};
+constexpr int finest = -127;
+constexpr int coarsest = -23;
+constexpr int double_exponent = -52;
+
+/// The distance bound in units of B for ε = 2^exponent.
+double claimed_distance(const std::string& algorithm, int exponent) {
+  const ToleranceConstants c = algorithm == "wang" ? closed_forms(exponent) : solve_tight(exponent);
+  return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
+}
+
+/// A ratio below all borders of the histogram is known from above only.
+bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
+
+bool is_ladder(const std::vector<Rung>& all) {
+  std::map<std::string, std::set<int>> exponents;
+  for (const Rung& rung : all) exponents[rung.algorithm].insert(rung.epsilon_exponent);
+  return std::any_of(exponents.begin(), exponents.end(),
+                     [](const auto& each) { return each.second.size() > 1; });
+}
+
+}  // namespace
+
+LadderPlace place_of(const std::string& subject) {
+  const auto [algorithm, scalar] = split_scalar(subject);
+  const auto exponent = epsilon_exponent_of(scalar);
+  const std::string given_bound = subject.substr(std::min(subject.rfind('@'), subject.size()));
+  if (!exponent) return {subject, "double", double_exponent, std::nullopt};
+  LadderPlace place{std::string(algorithm) + given_bound, scalar.empty() ? "double" : std::string(scalar),
+                    *exponent, std::nullopt};
+  if (!given_bound.empty()) return place;
+  if (algorithm == "basic" || algorithm == "basic-plain")  // they claim no bound, and are measured by wang's
+    place.unit = claimed_distance("wang", double_exponent);
+  else if (algorithm == "wang-tight")
+    place.unit = claimed_distance("wang-tight", *exponent);
+  else if (algorithm == "wang" || algorithm == "wang-eps" || algorithm == "wang-plain")
+    place.unit = claimed_distance("wang", *exponent);
+  return place;
+}
+
+std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
+  std::map<std::string, Rung> by_subject;
+  for (const auto& [key, counts] : statistics.counts) {
+    const auto [algorithm, scalar] = split_scalar(key.subject);
+    const auto exponent = epsilon_exponent_of(scalar);
+    if (!exponent || std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) continue;
+    if (key.subject.find('@') != std::string::npos) continue;  // B is not the pair's own
+    if (!only.empty() && origin(key.family) != only) continue;
+    Rung& rung = by_subject[key.subject];
+    rung.subject = key.subject;
+    rung.algorithm = algorithm;
+    rung.scalar = scalar.empty() ? "double" : scalar;
+    rung.epsilon_exponent = *exponent;
+    rung.sum.add(key.family, counts);
+  }
+  std::vector<Rung> all;
+  for (auto& [subject, rung] : by_subject) {
+    rung.claimed = claimed_distance(rung.algorithm, rung.epsilon_exponent);
+    all.push_back(std::move(rung));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Rung& a, const Rung& b) { return a.epsilon_exponent > b.epsilon_exponent; });
+  return all;
+}
+
+namespace {
+
+/// The exponent of ε and the binary logarithm of the farthest distance.
+struct LogPoint {
+  double x = 0, y = 0;
+};
+
+/// Fits a line to the points by least squares: its slope, and the slope's standard error.
+std::pair<double, double> slope(const std::vector<LogPoint>& points) {
+  const auto n = static_cast<double>(points.size());
+  LogPoint mean;
+  for (const auto& [x, y] : points) {
+    mean.x += x / n;
+    mean.y += y / n;
+  }
+  double xx = 0;
+  double xy = 0;
+  for (const auto& [x, y] : points) {
+    xx += (x - mean.x) * (x - mean.x);
+    xy += (x - mean.x) * (y - mean.y);
+  }
+  double residual = 0;
+  for (const auto& [x, y] : points) residual += std::pow(y - mean.y - xy / xx * (x - mean.x), 2);
+  return {xy / xx, std::sqrt(residual / (n - 2) / xx)};
+}
+
+}  // namespace
+
+std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
+  std::vector<LogPoint> points;
+  std::set<int> precisions;
+  Fit line;
+  line.algorithm = algorithm;
+  line.least_part = std::numeric_limits<double>::infinity();
+  for (const Rung& rung : rungs) {
+    if (rung.algorithm != algorithm || !is_measured(rung)) continue;
+    if (rung.epsilon_exponent > coarsest || rung.epsilon_exponent < finest) continue;
+    points.push_back({static_cast<double>(rung.epsilon_exponent), std::log2(rung.farthest())});
+    precisions.insert(rung.epsilon_exponent);
+    line.least_part = std::min(line.least_part, rung.part());
+    line.greatest_part = std::max(line.greatest_part, rung.part());
+  }
+  if (precisions.size() < 3) return std::nullopt;
+  std::tie(line.exponent, line.standard_error) = slope(points);
+  line.half_width_95 = line.standard_error * student_t_quantile_975(points.size() - 2);
+  line.points = static_cast<int>(points.size());
+  line.precisions = static_cast<int>(precisions.size());
+  return line;
+}
+
+std::vector<Fit> fits(const Statistics& statistics) {
+  std::set<std::string> origins{""};
+  for (const auto& [key, counts] : statistics.counts) origins.emplace(origin(key.family));
+  std::vector<Fit> all;
+  for (const std::string algorithm : algorithms)
+    for (const std::string& each : origins)
+      if (auto line = fit(rungs(statistics, each), algorithm)) {
+        line->origin = each;
+        all.push_back(*line);
+      }
+  return all;
+}
+
+std::string describe(const Fit& line) {
+  const std::string of = line.algorithm + (line.origin.empty() ? "" : ", " + line.origin);
+  const std::string from = fmt::format("{} subjects with {} precisions", line.points, line.precisions);
+  const std::string parts =
+      fmt::format("{} to {} of the claimed distance", fraction_of_bound(line.least_part),
+                  fraction_of_bound(line.greatest_part));
+  if (line.restates_the_bound()) return fmt::format("{}: the farthest are at {} for {}", of, parts, from);
+  return fmt::format("{}: the farthest distance goes as epsilon^({:.4f} +- {:.2g}, 95 %), from {}; at {}", of,
+                     line.exponent, line.half_width_95, from, parts);
+}
+
+std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) {
+  const std::vector<Rung> all = rungs(statistics);
+  if (!is_ladder(all)) return std::nullopt;
+  nlohmann::ordered_json json;
+  json["rungs"] = nlohmann::ordered_json::array();
+  for (const Rung& rung : all) {
+    json["rungs"].push_back({{"subject", rung.subject},
+                             {"algorithm", rung.algorithm},
+                             {"scalar", rung.scalar},
+                             {"epsilon", std::exp2(rung.epsilon_exponent)},
+                             {"claimed", rung.claimed},
+                             {"farthest", rung.farthest()}});
+    json["rungs"].back().update(rates_json(rung.sum.counts, rung.sum.is_sample));
+  }
+  json["fits"] = nlohmann::ordered_json::array();
+  for (const Fit& line : fits(statistics))
+    json["fits"].push_back({{"algorithm", line.algorithm},
+                            {"origin", line.origin},
+                            {"exponent", line.exponent},
+                            {"standard_error", line.standard_error},
+                            {"half_width_95", line.half_width_95},
+                            {"points", line.points},
+                            {"precisions", line.precisions},
+                            {"least_part_of_claimed", line.least_part},
+                            {"greatest_part_of_claimed", line.greatest_part},
+                            {"restates_the_bound", line.restates_the_bound()}});
+  return json;
+}
+
+std::string ladder_table(const Statistics& statistics) {
+  const std::vector<Rung> all = rungs(statistics);
+  if (!is_ladder(all)) return "";
+  std::vector<std::vector<std::string>> rows{
+      {"subject", "epsilon", "queries", "missed", "false pos.", "farthest / B", "claimed / B", "ns/query"}};
+  for (const Rung& rung : all) {
+    const Counts& counts = rung.sum.counts;
+    rows.push_back({rung.subject, fmt::format("2^{}", rung.epsilon_exponent), with_separators(counts.queries),
+                    with_separators(counts.false_negatives), with_separators(counts.false_positives),
+                    fmt::format("{:.3g}", rung.farthest()), fmt::format("{:.3g}", rung.claimed),
+                    whole_ns(counts.times.ns_per_query())});
+  }
+  std::string text = "\n" + columns(rows, 1);
+  for (const Fit& line : fits(statistics))
+    if (line.origin.empty()) text += describe(line) + "\n";
+  return text;
+}
+
+}  // namespace nearmiss

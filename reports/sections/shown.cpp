@@ -1,0 +1,101 @@
+#include "reports/sections/shown.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "corpus/query_text.hpp"
+#include "reports/campaign/finding_case.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
+  Finding simplest = finding;
+  simplest.query = finding.shrunk;
+  simplest.ratio = 0;  // that of the query that was found
+  simplest.provenance = "shrunk from " + finding.provenance;
+  const auto exported = [&](const Finding& what, std::string_view suffix) {
+    Exported result{case_file_name(what, fmt::format("{:03}{}", number, suffix)), to_case(what)};
+    result.content.why += fmt::format(": {}; times seen: {}", finding.signature, with_separators(seen));
+    return result;
+  };
+  ShownFinding result{finding, seen, exported(simplest, ""), exported(finding, "-original")};
+  result.original.content.why += "; before it was shrunk";
+  return result;
+}
+
+}  // namespace
+
+std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
+  FirstFindings first;
+  std::map<std::pair<Finding::What, std::string>, std::size_t> number;
+  std::vector<ShownFinding> result;
+  for (Finding& finding : campaign.findings())
+    if (first.take(finding))
+      result.push_back(shown(finding, campaign.statistics.times_seen(signature_of(finding)),
+                             ++number[{finding.what, finding.subject}]));
+  return result;
+}
+
+std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
+  std::vector<ShownFarthest> cases;
+  for (const auto& [key, counts] : statistics.counts) {
+    if (counts.farthest.empty()) continue;
+    const FarCase& far = counts.farthest.front();
+    cases.push_back(
+        {key,
+         far,
+         {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
+          {.name = {},
+           .query = far.query,
+           .truth = false,
+           .why = fmt::format("false positive of {}, {}", key.subject, times_the_bound(far.ratio)),
+           .provenance = far.provenance}}});
+  }
+  return cases;
+}
+
+namespace {
+
+/// The run that has a finding; null if no run has it.
+const Run* run_of(const Campaign& campaign, const Finding& finding) {
+  for (const Run& run : campaign.runs)
+    if (std::find(run.findings.begin(), run.findings.end(), finding) != run.findings.end()) return &run;
+  return nullptr;
+}
+
+/// The path of a subject's plug-in on the machine that found it; nothing for a built-in subject.
+std::optional<std::string> plugin_path(const Run& run, const std::string& subject) {
+  for (const Shard& shard : run.shards)
+    if (const auto path = shard.environment.find("plug-in " + subject); path != shard.environment.end())
+      return path->second;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string replay_command(const Campaign& campaign, const ShownFinding& shown) {
+  std::string command = fmt::format("nearmiss replay cases/{}", shown.shrunk.file);
+  const std::string& subject = shown.finding.subject;
+  if (subject.empty()) return command + " --compare 1";
+  const Run* const run = run_of(campaign, shown.finding);
+  const auto path = run == nullptr ? std::nullopt : plugin_path(*run, subject);
+  std::string name = path.value_or(subject);
+  if (run != nullptr && name.ends_with(of_scene))
+    name.replace(name.rfind('@') + 1, std::string::npos, run->info.at("scene's bound"));
+  command += fmt::format(" --subject {}", shell_quoted(name));
+  if (run == nullptr) return command;
+  for (const char* option : {"bound", "query-time", "query-memory"})
+    if (const auto given = run->info.find(option);
+        given != run->info.end() && (path || given->first == "bound"))
+      command += fmt::format(" --{} {}", option, given->second);
+  return command;
+}
+
+}  // namespace nearmiss

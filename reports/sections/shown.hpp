@@ -1,0 +1,44 @@
+// Single queries that a report shows: findings and the farthest false positives. Each becomes a case file too.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corpus/case.hpp"
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss {
+
+/// A case, and the name of its file in the report's folder.
+struct Exported {
+  std::string file;
+  Case content;
+};
+
+/// A finding, and the cases of its shrunk query and of the query that was found.
+struct ShownFinding {
+  Finding finding;
+  std::uint64_t seen;
+  Exported shrunk, original;
+};
+
+/// The first findings of each signature (FirstFindings); the files are numbered by subject and by what failed. All
+/// findings are in findings.csv.
+std::vector<ShownFinding> shown_findings(const Campaign& campaign);
+
+/// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in has the path
+/// that it has on the machine that found it.
+std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
+
+/// The farthest false positive of one subject, kind and family.
+struct ShownFarthest {
+  CountsKey key;
+  FarCase far;
+  Exported exported;
+};
+
+/// The farthest false positive of each subject, kind and family that has one, in the order of their keys.
+std::vector<ShownFarthest> farthest_cases(const Statistics& statistics);
+
+}  // namespace nearmiss

@@ -1,0 +1,30 @@
+// A campaign as text for the terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss {
+
+/// Whether there is a false negative, a refuted bound, a fault, an oracle disagreement or a truth mismatch.
+bool found_anything(const Statistics& statistics);
+
+/// Whether a subject failed.
+struct SubjectVerdict {
+  std::string subject;
+  bool clean;        ///< an answer to every query, no false negative and no refuted bound
+  std::string text;  ///< "no miss in 1,234 collisions" and so on
+};
+
+/// A verdict for each subject, in the order of their names.
+std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
+
+/// What is wrong with the oracle, in a line; "" if nothing is.
+std::string oracle_complaint(const Statistics& statistics);
+
+/// The verdicts, a line each; then a table with a row for each subject and kind, and the oracle's counters.
+std::string summary_table(const Statistics& statistics);
+
+}  // namespace nearmiss

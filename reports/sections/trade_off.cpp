@@ -1,0 +1,93 @@
+#include "reports/sections/trade_off.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reports/sections/counts_json.hpp"
+
+namespace nearmiss {
+
+std::vector<TradeOff> trade_offs(const Statistics& statistics) {
+  const auto is_timed = [](const Counts& counts) { return counts.times.queries() != 0; };
+  std::set<std::string> subjects;
+  for (const auto& [key, counts] : statistics.counts)
+    if (is_timed(counts)) subjects.insert(key.subject);
+  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // number of subjects, by kind and family
+  for (const auto& [key, counts] : statistics.counts)
+    if (subjects.contains(key.subject)) ++asked[{key.kind, key.family}];
+  std::map<std::string, Counts> all;
+  std::map<std::string, CountsSum> timed;
+  for (const auto& [key, counts] : statistics.counts)
+    if (asked[{key.kind, key.family}] == subjects.size()) {
+      all[key.subject].merge(counts);
+      if (is_timed(counts)) timed[key.subject].add(key.family, counts);
+    }
+  std::vector<TradeOff> trade_offs;
+  for (const auto& [subject, counts] : timed)
+    trade_offs.push_back({subject, counts, all.at(subject), place_of(subject)});
+  return trade_offs;
+}
+
+std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&)) {
+  std::vector<const TradeOff*> sound;
+  for (const TradeOff& each : all)
+    if (each.sound()) sound.push_back(&each);
+  std::stable_sort(sound.begin(), sound.end(), [&](const TradeOff* a, const TradeOff* b) {
+    return std::pair(a->timed.counts.times.ns_per_query(), error(*a)) <
+           std::pair(b->timed.counts.times.ns_per_query(), error(*b));
+  });
+  std::vector<std::string> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TradeOff* each : sound) {
+    if (error(*each) >= least) continue;
+    least = error(*each);
+    front.push_back(each->subject);
+  }
+  return front;
+}
+
+namespace {
+
+bool has_ladder(const std::vector<TradeOff>& all) {
+  std::map<std::string, std::set<std::string>> scalars;
+  for (const TradeOff& each : all) scalars[each.place.algorithm].insert(each.place.scalar);
+  return std::any_of(scalars.begin(), scalars.end(), [](const auto& each) { return each.second.size() > 2; });
+}
+
+nlohmann::ordered_json ladder_of(std::vector<TradeOff> all) {
+  std::erase_if(all, [](const TradeOff& each) { return !each.farthest(); });
+  nlohmann::ordered_json json;
+  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return *each.farthest(); });
+  json["paper_bound"] = *place_of("wang").unit;
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
+  const auto all = trade_offs(statistics);
+  nlohmann::ordered_json json;
+  json["subjects"] = nlohmann::ordered_json::object();
+  for (const TradeOff& each : all) {
+    auto& subject = json["subjects"][each.subject] = rates_json(each.timed.counts, each.timed.is_sample);
+    subject["collisions"] = each.all.collisions;
+    subject["false_negatives"] = each.all.false_negatives;
+    subject["max_fp_distance_over_bound"] = each.all.max_ratio();
+    subject["sound"] = each.sound();
+    subject["algorithm"] = each.place.algorithm;
+    subject["scalar"] = each.place.scalar;
+    subject["epsilon"] = std::exp2(each.place.epsilon_exponent);
+    subject["farthest_over_B"] = or_null(each.farthest());
+  }
+  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
+  json["front_by_rate"] =
+      pareto_front(all, [](const TradeOff& each) { return each.timed.counts.false_positive_rate(); });
+  if (has_ladder(all)) json["ladder"] = ladder_of(all);
+  return json;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,63 @@
+// Confidence bounds of rates, and exact tests of two rates.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace nearmiss {
+
+/// The one-sided 95 % upper confidence bound of a rate, if `count` of `total` were seen (Clopper and Pearson 1934):
+/// the rate with which at most `count` are seen with probability 5 %. 1 if total is 0.
+double clopper_pearson_upper(std::uint64_t count, std::uint64_t total);
+
+/// A confidence interval of a rate, within [0, 1].
+struct ConfidenceInterval {
+  double lo = 0, hi = 1;
+
+  bool operator==(const ConfidenceInterval&) const = default;
+};
+
+/// The two-sided interval of Clopper and Pearson: the true rate is below it with probability at most `risk` / 2, and
+/// above it with probability at most `risk` / 2. [0, 1] if total is 0.
+ConfidenceInterval clopper_pearson(std::uint64_t count, std::uint64_t total, double risk = 0.05);
+
+/// The 0.975 quantile of Student's t-distribution.
+double student_t_quantile_975(std::size_t degrees_of_freedom);
+
+/// A number of events among a number of trials: count <= total.
+struct Proportion {
+  std::uint64_t count = 0, total = 0;
+
+  /// NaN if total is 0.
+  [[nodiscard]] double rate() const { return static_cast<double>(count) / static_cast<double>(total); }
+
+  Proportion& operator+=(const Proportion& other) {
+    count += other.count;
+    total += other.total;
+    return *this;
+  }
+};
+
+/// The p-values of a test whether two proportions, `now` and `before`, have the same rate.
+struct ExactTest {
+  double more = 1;  ///< probability that now.count is at least as large as it is
+  double less = 1;  ///< probability that now.count is at most as large as it is
+
+  /// Two-sided: twice the smaller one, at most 1.
+  [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
+};
+
+/// Fisher's exact test, given the sum of both counts. If both totals exceed 2^31 together, or both counts a million, a
+/// binomial distribution takes the place of the hypergeometric one; its p-values are larger.
+ExactTest fisher_test(const Proportion& now, const Proportion& before);
+
+/// The same for the sum over several pairs {now, before}; each pair has a rate of its own. Given its sum, each pair's
+/// now.count is a sum of independent trials with mean probability now.total / (now.total + before.total). By Hoeffding's
+/// theorem (1956) the tails of the sum over all pairs, beyond 1 from its expectation, are at most those of a binomial
+/// distribution with the same number of trials and their mean probability.
+ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
+
+}  // namespace nearmiss

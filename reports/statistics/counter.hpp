@@ -1,0 +1,78 @@
+// Declarations of counters. A counter is declared once: its name, its member, and where files show it. Merging
+// (merge_counters), the store's columns (store/columns.hpp), report.json (sections/counts_json.hpp) and statistics.csv
+// (csv.hpp) go through the declarations.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace nearmiss {
+
+/// Where report.json shows a counter.
+enum class Shown : std::uint8_t {
+  with_rates,  ///< in every summary of counters, followed by the rates that are computed from it
+  in_full,     ///< where all counters of a subject, kind and family are shown
+  in_times,    ///< a time in ns, in the object "times"
+};
+
+/// A counter, or a list of cases that merges like one.
+template <class Owner, class Member>
+struct Counter {
+  std::string_view name;  ///< column of the store and of statistics.csv
+  Member Owner::*member;
+  Shown shown = Shown::in_full;
+  std::string_view json_key = name;
+};
+template <class Owner, class Member, class... More>
+Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
+
+/// Counts by name: an array with a name for each entry.
+template <class Owner, std::size_t size>
+struct NamedCounts {
+  std::string_view name;  ///< column of the store
+  std::array<std::uint64_t, size> Owner::*member;
+  std::array<std::string_view, size> names;
+  std::string_view
+      json_key;  ///< of an object with an entry for each name; "" if its entries stand in the owner's
+  std::string_view csv_prefix;  ///< statistics.csv has a column PREFIX_NAME for each name
+  std::size_t first = 0;        ///< entries before this one are never counted, and not shown
+  bool shows_zeros = false;     ///< in report.json
+};
+
+/// Calls `use` with each declaration of `Owner`, in the order in which files show them.
+template <class Owner, class Use>
+constexpr void for_each_counter(const Use& use) {
+  std::apply([&](const auto&... counters) { (use(counters), ...); }, Owner::counters());
+}
+
+/// Whether every member of `Owner` is a declared counter. Members must be aligned so that there is no padding.
+template <class Owner>
+constexpr bool declares_all_members() {
+  std::size_t declared = 0;
+  for_each_counter<Owner>(
+      [&](const auto& counter) { declared += sizeof(std::declval<Owner&>().*counter.member); });
+  return declared == sizeof(Owner);
+}
+
+inline void add_up(std::uint64_t& own, std::uint64_t other) { own += other; }
+
+template <std::size_t size>
+void add_up(std::array<std::uint64_t, size>& own, const std::array<std::uint64_t, size>& other) {
+  for (std::size_t i = 0; i < size; ++i) own[i] += other[i];
+}
+
+template <class Merges>
+requires requires(Merges& own, const Merges& other) { own.merge(other); }
+void add_up(Merges& own, const Merges& other) { own.merge(other); }
+
+/// Adds each counter of `other`: numbers by their sum, anything else by add_up or merge of its type.
+template <class Owner>
+void merge_counters(Owner& own, const Owner& other) {
+  for_each_counter<Owner>([&](const auto& counter) { add_up(own.*counter.member, other.*counter.member); });
+}
+
+}  // namespace nearmiss

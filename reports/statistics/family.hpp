@@ -1,0 +1,27 @@
+// Names of families, and what they mean.
+#pragma once
+
+#include <string_view>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// Prefixes of the families of directed searches; the name of the subject that the search is for follows.
+inline constexpr std::string_view miss_search_family = "search-miss-";
+inline constexpr std::string_view far_search_family = "search-far-";
+
+/// Whether a family's queries are drawn at random: cases and scenes are not.
+bool is_random(std::string_view family);
+
+/// The family under which a report shows queries: "search-miss" or "search-far" for directed searches, whatever
+/// subject they are for; any other family under its own name.
+std::string_view shown_family(std::string_view family);
+
+/// Where queries come from: "directed search", or their family.
+std::string_view origin(std::string_view family);
+
+/// Statistics in which families that are shown as one are added up.
+Statistics by_shown_family(const Statistics& statistics);
+
+}  // namespace nearmiss

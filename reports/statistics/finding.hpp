@@ -1,0 +1,74 @@
+// Failures: what failed, and in which way.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// A query that failed.
+struct Finding {
+  enum class What : std::uint8_t {
+    false_negative,
+    refuted_bound,
+    oracle_disagreement,
+    truth_mismatch,
+    fault
+  };
+
+  What what{};
+  std::string subject;  ///< empty if the oracle failed
+  std::string family;
+  Query query;
+  std::string provenance;
+  double ratio = 0;            ///< distance / bound if a bound was refuted
+  std::string signature = {};  ///< in which way the query fails, such as "vt simple-root inside on-edge"
+  Query shrunk = {};        ///< the simplest query known that fails in the same way; perhaps the query itself
+  std::uint64_t round = 0;  ///< the round of the campaign in which it was found
+
+  bool operator==(const Finding&) const = default;
+};
+
+/// Names of what failed, in order, as they stand in files and reports.
+inline constexpr std::array<std::string_view, 5> what_names{"false-negative", "refuted-bound",
+                                                            "oracle-disagreement", "truth-mismatch", "fault"};
+
+constexpr std::string_view name(Finding::What what) { return what_names[static_cast<std::size_t>(what)]; }
+
+/// A way to fail.
+struct Signature {
+  Finding::What what{};
+  std::string subject;
+  std::string text;  ///< Finding::signature
+
+  bool operator==(const Signature&) const = default;
+  bool operator<(const Signature& other) const {
+    return std::tie(what, subject, text) < std::tie(other.what, other.subject, other.text);
+  }
+};
+
+inline Signature signature_of(const Finding& finding) {
+  return {finding.what, finding.subject, finding.signature};
+}
+
+/// How many findings of each signature are kept, and shown; Statistics::seen counts all.
+inline constexpr std::size_t findings_kept = 3;
+
+/// Takes findings in order and picks the first ones of each signature.
+class FirstFindings {
+ public:
+  /// Whether this finding is among the first ones of its signature; it counts from now on.
+  bool take(const Finding& finding) { return ++taken_[signature_of(finding)] <= findings_kept; }
+
+ private:
+  std::map<Signature, std::size_t> taken_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,59 @@
+// What became of the pairs of a scene: which were left out, why, and which were asked.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <string_view>
+#include <tuple>
+
+#include "reports/statistics/counter.hpp"
+
+namespace nearmiss {
+
+/// What becomes of a pair. All but the last are left out: a subject is not asked.
+enum class PairFate : std::uint8_t {
+  boxes_apart,     ///< the boxes that the primitives sweep do not meet
+  share_vertex,    ///< the primitives have a vertex in common
+  at_rest,         ///< relative to each other: a static test decides
+  in_translation,  ///< relative to each other: a linear test decides
+  asked,
+};
+
+inline constexpr std::size_t pair_fate_count = 5;
+
+/// Names of the fates, in their order; they stand in files.
+inline constexpr std::array<std::string_view, pair_fate_count> pair_fate_names{
+    "boxes_apart", "share_vertex", "at_rest", "in_translation", "asked"};
+
+/// Pairs of one kind in one step of a scene.
+struct Funnel {
+  std::array<std::uint64_t, pair_fate_count> pairs{};  ///< by their fate
+  std::uint64_t touching = 0;                          ///< pairs at rest or in translation that collide
+  std::uint64_t finding_ns = 0;                        ///< time to find the pairs whose boxes meet
+  std::uint64_t deciding_ns = 0;  ///< time to find out fates, and to decide pairs at rest or in translation
+
+  static constexpr auto counters() {
+    return std::tuple{NamedCounts<Funnel, pair_fate_count>{.name = "pairs",
+                                                           .member = &Funnel::pairs,
+                                                           .names = pair_fate_names,
+                                                           .json_key = "",
+                                                           .csv_prefix = "pairs",
+                                                           .shows_zeros = true},
+                      Counter{"touching", &Funnel::touching},
+                      Counter{"finding_ns", &Funnel::finding_ns, Shown::in_times},
+                      Counter{"deciding_ns", &Funnel::deciding_ns, Shown::in_times}};
+  }
+
+  [[nodiscard]] std::uint64_t all() const {
+    return std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0});
+  }
+  std::uint64_t& operator[](PairFate fate) { return pairs[static_cast<std::size_t>(fate)]; }
+  std::uint64_t operator[](PairFate fate) const { return pairs[static_cast<std::size_t>(fate)]; }
+  void merge(const Funnel& other) { merge_counters(*this, other); }
+
+  bool operator==(const Funnel&) const = default;
+};
+static_assert(declares_all_members<Funnel>());
+
+}  // namespace nearmiss

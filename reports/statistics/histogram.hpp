@@ -1,0 +1,43 @@
+// Distances of false positives, counted in bins.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nearmiss {
+
+/// A range in which a number is known to be.
+struct Bin {
+  double from = 0;
+  double to = 0;
+
+  bool operator==(const Bin&) const = default;
+};
+
+/// Counts of the distances of false positives, as fractions of the bound that the subject claims: log-spaced
+/// bins, four to a decade from 10^-16 to 10^1, one for everything below them and one for everything above.
+struct Histogram {
+  static constexpr int per_decade = 4;
+  static constexpr int lowest_decade = -16;
+  static constexpr int highest_decade = 1;
+  static constexpr std::size_t bin_count = (highest_decade - lowest_decade) * per_decade + 2;
+
+  std::array<std::uint64_t, bin_count> bins{};
+
+  void add(double ratio);
+  void merge(const Histogram& other);
+  /// The lower border of bin i, which belongs to the bin: 0 for the first bin, infinity for i = bin_count.
+  static double border(std::size_t i);
+  /// The lower border of the bin that holds this ratio.
+  static double lower_border(double ratio);
+  /// The number of ratios that are at least 1. 1 is a border, so this is exact.
+  [[nodiscard]] std::uint64_t at_least_one() const;
+  /// The bin of the smallest ratio that is not exceeded by a fraction `part` of all, in (0, 1]; (0, 0) if all bins are
+  /// empty.
+  [[nodiscard]] Bin quantile(double part) const;
+
+  bool operator==(const Histogram&) const = default;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,24 @@
+// Quantiles of counts in bins.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <iterator>
+
+namespace nearmiss {
+
+/// The first bin up to which a fraction `part` of everything is counted; the end if all bins are empty. `count_of` gives
+/// the count of a bin.
+template <class Bins, class CountOf = std::identity>
+auto quantile_bin(const Bins& bins, double part, const CountOf& count_of = {}) {
+  double all = 0;
+  for (const auto& bin : bins) all += static_cast<double>(count_of(bin));
+  double sum = 0;
+  for (auto bin = std::begin(bins); bin != std::end(bins); ++bin) {
+    sum += static_cast<double>(count_of(*bin));
+    if (sum > 0 && sum >= part * all) return bin;
+  }
+  return std::end(bins);
+}
+
+}  // namespace nearmiss

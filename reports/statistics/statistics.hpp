@@ -1,0 +1,73 @@
+// What a campaign counts. Statistics merge in any order, from any number of shards, to the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "ccd/query.hpp"
+#include "reports/statistics/counts.hpp"
+#include "reports/statistics/extreme.hpp"
+#include "reports/statistics/finding.hpp"
+#include "reports/statistics/funnel.hpp"
+
+namespace nearmiss {
+
+/// What a subject's counters are kept for.
+struct CountsKey {
+  std::string subject;
+  Kind kind{};
+  /// A family of random queries; or a folder of cases, "NAME/", or a step of a scene, "scene:NAME#STEP".
+  std::string family;
+
+  bool operator==(const CountsKey&) const = default;
+  bool operator<(const CountsKey& other) const {
+    return std::tie(subject, kind, family) < std::tie(other.subject, other.kind, other.family);
+  }
+};
+
+/// Counters of a subject, added up over families.
+struct CountsSum {
+  Counts counts;
+  bool is_sample = true;  ///< whether all queries were drawn at random; otherwise a rate is no probability
+
+  void add(const std::string& family, const Counts& each);
+};
+
+/// All counters of a campaign.
+struct Statistics {
+  std::map<CountsKey, Counts> counts;
+  std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
+  std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
+  std::map<Signature, std::uint64_t> seen;                      ///< how often a query failed in each way
+  std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
+  std::uint64_t oracle_disagreements = 0;  ///< queries on which the exact methods disagree
+  std::uint64_t mismatches_with_recorded_truth =
+      0;  ///< cases on which the oracle contradicts the recorded truth
+
+  /// The counters of the campaign as a whole.
+  static constexpr auto counters() {
+    return std::tuple{Counter{"disagreements", &Statistics::oracle_disagreements},
+                      Counter{"mismatches_with_recorded_truth", &Statistics::mismatches_with_recorded_truth}};
+  }
+
+  void merge(const Statistics& other);
+
+  /// Sums over families; key.family is empty.
+  [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
+  /// The oracle's counters summed over families and kinds.
+  [[nodiscard]] OracleCounts oracle_total() const;
+  /// How often a query failed in this way.
+  [[nodiscard]] std::uint64_t times_seen(const Signature& signature) const;
+  /// The number of queries that a subject was asked.
+  [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;
+  [[nodiscard]] std::uint64_t false_negatives() const;
+  [[nodiscard]] std::uint64_t refuted_bounds() const;
+  [[nodiscard]] std::uint64_t faults() const;
+
+  bool operator==(const Statistics&) const = default;
+};
+
+}  // namespace nearmiss

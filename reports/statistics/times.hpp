@@ -1,0 +1,106 @@
+// How long subjects take. Times merge in any order to the same bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "ccd/subject.hpp"
+#include "reports/statistics/counter.hpp"
+
+namespace nearmiss {
+
+/// Run times of batches of queries, as the time per query: rounded to three significant digits, and at least 1 ns,
+/// because a clock cannot distinguish a shorter time from an empty subject's.
+class BatchTimes {
+ public:
+  void add(const BatchTime& time);
+  void merge(const BatchTimes& other);
+  [[nodiscard]] std::uint64_t queries() const;
+  /// The time per query in ns that batches with half of the queries did not exceed. At least one query must be timed.
+  [[nodiscard]] double median() const;
+
+  /// Number of queries by their time in ps.
+  using Bins = std::map<std::uint64_t, std::uint64_t>;
+  [[nodiscard]] const Bins& bins() const { return bins_; }
+  explicit BatchTimes(Bins bins = {}) : bins_(std::move(bins)) {}
+
+  bool operator==(const BatchTimes&) const = default;
+
+ private:
+  Bins bins_;
+};
+
+/// Run times of single queries: log-spaced bins, four to an octave, from 1 ns to 2^40 ns (18 minutes).
+struct TimeHistogram {
+  static constexpr int per_octave = 4;
+  static constexpr std::size_t bin_count = 40 * per_octave;
+
+  std::array<std::uint64_t, bin_count> bins{};
+
+  void add(std::uint64_t nanoseconds);
+  void merge(const TimeHistogram& other);
+  [[nodiscard]] std::uint64_t total() const;
+  /// The upper border in ns of the bin of the time that a fraction `part` of all queries, in (0, 1], did not exceed;
+  /// nothing if no query was timed.
+  [[nodiscard]] std::optional<double> quantile(double part) const;
+
+  bool operator==(const TimeHistogram&) const = default;
+};
+
+/// A query that is kept because its answer took longest.
+struct SlowCase {
+  std::uint64_t nanoseconds = 0;
+  Query query;
+  std::string provenance;
+
+  bool operator==(const SlowCase&) const = default;
+};
+
+/// Adds cases and keeps the slowest, at most SubjectTimes::slow_cases.
+void add_up(std::vector<SlowCase>& own, const std::vector<SlowCase>& other);
+
+/// Batches by kind and family.
+using BatchesByFamily = std::map<std::pair<Kind, std::string>, BatchTimes>;
+
+void add_up(BatchesByFamily& own, const BatchesByFamily& other);
+
+/// How long a subject took to answer.
+struct SubjectTimes {
+  BatchesByFamily batches;        ///< kept apart, because a median is meaningful for similar batches only
+  std::uint64_t nanoseconds = 0;  ///< total over all timed queries
+  TimeHistogram each;             ///< of a sample of the queries, timed one by one
+  std::vector<SlowCase> slowest;  ///< the slowest of that sample, at most slow_cases, slowest first
+
+  static constexpr auto counters() {
+    return std::tuple{Counter{"batches", &SubjectTimes::batches},
+                      Counter{"nanoseconds", &SubjectTimes::nanoseconds},
+                      Counter{"each", &SubjectTimes::each}, Counter{"slowest", &SubjectTimes::slowest}};
+  }
+
+  static constexpr std::size_t slow_cases = 5;
+
+  void add(Kind kind, const std::string& family, const BatchTime& time);
+  void add(std::uint64_t nanoseconds, const Query& query, const std::function<std::string()>& provenance);
+  void merge(const SubjectTimes& other) { merge_counters(*this, other); }
+
+  /// The number of queries that were timed in batches.
+  [[nodiscard]] std::uint64_t queries() const;
+  /// Time per query in ns: the median over the batches of each kind and family; then the mean of these medians, weighted
+  /// by their numbers of queries. Nothing if no query was timed.
+  [[nodiscard]] std::optional<double> ns_per_query() const;
+  /// Mean time of all timed queries in ns. Rare slow queries and disturbances show in it. Nothing if no query was timed.
+  [[nodiscard]] std::optional<double> mean() const;
+
+  bool operator==(const SubjectTimes&) const = default;
+};
+static_assert(declares_all_members<SubjectTimes>());
+
+}  // namespace nearmiss

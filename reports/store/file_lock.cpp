@@ -1,0 +1,35 @@
+#include "reports/store/file_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss {
+
+FileLock::FileLock(const std::filesystem::path& file) : lock_(file.string() + ".lock") {
+  while (true) {
+    descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      throw Error(fmt::format("{}: cannot be made: {}", lock_.string(), std::strerror(errno)));
+    struct stat held {};
+    const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    if (locked && fstat(descriptor_, &held) == 0 && held.st_nlink > 0) return;
+    close(descriptor_);
+    if (!locked) throw Error(fmt::format("{}: another process is writing it", file.string()));
+    // The holder removed the file just before it released the lock: try a new file.
+  }
+}
+
+FileLock::~FileLock() {
+  unlink(lock_.c_str());
+  close(descriptor_);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,23 @@
+// A lock on a file between processes.
+#pragma once
+
+#include <filesystem>
+
+namespace nearmiss {
+
+/// Held by the process that writes a file, beside which FILE.lock exists meanwhile. The system releases the lock when the
+/// process ends, in whatever way.
+class FileLock {
+ public:
+  /// Throws Error if another process holds the lock, or if it cannot be made.
+  explicit FileLock(const std::filesystem::path& file);
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+ private:
+  std::filesystem::path lock_;
+  int descriptor_ = -1;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,19 @@
+// The tables of counters.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// Makes the tables in an empty database.
+void make_statistics_tables(SQLite::Database& db);
+
+/// Replaces all counters.
+void write_statistics(SQLite::Database& db, const Statistics& statistics);
+
+/// Throws Error for a value that no store has, and what SQLite and the JSON library throw.
+Statistics read_statistics(SQLite::Database& db);
+
+}  // namespace nearmiss

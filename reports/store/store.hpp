@@ -1,0 +1,49 @@
+// The store of a campaign: one SQLite file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss {
+
+/// The file of one shard of a run while it runs. Every save is one transaction: it is complete or does not happen at all,
+/// and earlier saves survive a full disk, an interrupt or a kill. One process at a time writes a file; others may read it
+/// meanwhile.
+class Store {
+ public:
+  /// Whether there is a store to resume. A kill during the creation of a store may leave a database without tables, which
+  /// is no store yet.
+  static bool exists(const std::filesystem::path& file);
+  /// Makes a new file. Throws Error if there is another file, or it cannot be made.
+  Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
+  /// Resumes with a file. Throws Error unless it is a store of one shard of one run that no other process writes.
+  explicit Store(const std::filesystem::path& file);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  /// Replaces the statistics and the shard, and adds the findings since the last save. If it throws Error, the file is
+  /// unchanged.
+  void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
+
+  /// Adds a picture. If it throws Error, the file is unchanged.
+  void add(const ScenePicture& picture);
+
+ private:
+  struct Database;
+  std::unique_ptr<Database> database_;
+};
+
+/// Reads a whole campaign. Throws Error if the file is missing, is no store, or has another version.
+Campaign load_campaign(const std::filesystem::path& file);
+
+/// Reads several files as one campaign. Throws Error as load_campaign and merge_campaigns do.
+Campaign load_campaigns(std::span<const std::filesystem::path> files);
+
+/// Writes a campaign to a new file, whole or not at all. Throws Error if the file exists or cannot be written.
+void write_campaign(const Campaign& campaign, const std::filesystem::path& file);
+
+}  // namespace nearmiss

@@ -1,0 +1,214 @@
+// Every declared counter merges, and goes through the store, report.json and statistics.csv.
+#include "reports/statistics/counter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "reports/csv.hpp"
+#include "reports/sections/counts_json.hpp"
+#include "reports/store/store.hpp"
+#include "tests/queries.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Gives each counter a value of its own.
+class Filler {
+ public:
+  explicit Filler(std::uint64_t last) : last_(last) {}
+
+  template <class Owner>
+  requires requires { Owner::counters(); }
+  void fill(Owner& owner) {
+    for_each_counter<Owner>([&](const auto& counter) { fill(owner.*counter.member); });
+  }
+  void fill(std::uint64_t& count) { count = ++last_; }
+  template <std::size_t size>
+  void fill(std::array<std::uint64_t, size>& counts) {
+    for (std::uint64_t& each : counts) fill(each);
+  }
+  void fill(Histogram& histogram) { fill(histogram.bins); }
+  void fill(TimeHistogram& histogram) { fill(histogram.bins); }
+  void fill(BatchesByFamily& batches) { batches[{Kind::edge_edge, "f"}].add({++last_, ++last_ * 100}); }
+  void fill(std::vector<FarCase>& cases) {
+    cases = {
+        {1.0 / static_cast<double>(++last_), testing::falling_edge(0.1, -1.0 / 3), std::to_string(last_)}};
+  }
+  void fill(std::vector<SlowCase>& cases) {
+    cases = {{++last_, testing::falling_edge(0.1, -1.0 / 3), std::to_string(last_)}};
+  }
+
+ private:
+  std::uint64_t last_;
+};
+
+template <class Owner>
+Owner filled(std::uint64_t last = 0) {
+  Owner owner;
+  Filler(last).fill(owner);
+  return owner;
+}
+
+/// Counters with distinct values; more queries than faults and collisions.
+Counts filled_counts() {
+  auto counts = filled<Counts>();
+  counts.queries = 1000000;
+  return counts;
+}
+
+void expect_sum(std::uint64_t sum, std::uint64_t a, std::uint64_t b) { EXPECT_EQ(sum, a + b); }
+
+template <std::size_t size>
+void expect_sum(const std::array<std::uint64_t, size>& sum, const std::array<std::uint64_t, size>& a,
+                const std::array<std::uint64_t, size>& b) {
+  for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(sum[i], a[i] + b[i]) << i;
+}
+
+void expect_sum(const Histogram& sum, const Histogram& a, const Histogram& b) {
+  expect_sum(sum.bins, a.bins, b.bins);
+}
+
+void expect_sum(const TimeHistogram& sum, const TimeHistogram& a, const TimeHistogram& b) {
+  expect_sum(sum.bins, a.bins, b.bins);
+}
+
+void expect_sum(const BatchesByFamily& sum, const BatchesByFamily& a, const BatchesByFamily& b) {
+  const std::pair key{Kind::edge_edge, std::string("f")};
+  EXPECT_EQ(sum.at(key).queries(), a.at(key).queries() + b.at(key).queries());
+}
+
+template <class Case>
+void expect_sum(const std::vector<Case>& sum, const std::vector<Case>& a, const std::vector<Case>& b) {
+  for (const Case& each : {a.front(), b.front()}) EXPECT_EQ(std::count(sum.begin(), sum.end(), each), 1);
+}
+
+template <class Owner>
+requires requires { Owner::counters(); }
+void expect_sum(const Owner& sum, const Owner& a, const Owner& b) {
+  for_each_counter<Owner>([&](const auto& counter) {
+    SCOPED_TRACE(counter.name);
+    expect_sum(sum.*counter.member, a.*counter.member, b.*counter.member);
+  });
+}
+
+template <class Owner>
+void expect_that_it_merges() {
+  const auto a = filled<Owner>();
+  const auto b = filled<Owner>(5000);
+  Owner sum = a;
+  sum.merge(b);
+  expect_sum(sum, a, b);
+}
+
+TEST(Counters, EachMerges) {
+  expect_that_it_merges<Counts>();
+  expect_that_it_merges<OracleCounts>();
+  expect_that_it_merges<Funnel>();
+  expect_that_it_merges<Statistics>();
+}
+
+class CountersTest : public testing::TemporaryFolder {};
+
+TEST_F(CountersTest, EachComesBackFromTheStore) {
+  auto statistics = filled<Statistics>();
+  statistics.counts[{"wang", Kind::vertex_triangle, "f"}] = filled<Counts>();
+  statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled<Counts>(5000);
+  statistics.oracle[{Kind::edge_edge, "f"}] = filled<OracleCounts>();
+  statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = filled<Funnel>();
+  write_campaign({{}, statistics}, file("a.db"));
+  EXPECT_EQ(load_campaign(file("a.db")).statistics, statistics);
+}
+
+template <class Owner>
+void expect_in_json(const nlohmann::ordered_json& json, const Owner& owner,
+                    const Counter<Owner, std::uint64_t>& counter) {
+  const auto& object = counter.shown == Shown::in_times ? json.at("times") : json;
+  EXPECT_EQ(object.at(std::string(counter.json_key)), owner.*counter.member);
+}
+
+template <class Owner, std::size_t size>
+void expect_in_json(const nlohmann::ordered_json& json, const Owner& owner,
+                    const NamedCounts<Owner, size>& counter) {
+  const auto& object = counter.json_key.empty() ? json : json.at(std::string(counter.json_key));
+  for (std::size_t i = counter.first; i < size; ++i)
+    EXPECT_EQ(object.at(std::string(counter.names[i])), (owner.*counter.member)[i]);
+}
+
+template <class Owner, class Member>
+void expect_in_json(const nlohmann::ordered_json& json, const Owner& /*owner*/,
+                    const Counter<Owner, Member>& counter) {
+  EXPECT_FALSE(json.at(std::string(counter.json_key)).empty());
+}
+
+template <class Owner>
+void expect_in_json(const nlohmann::ordered_json& json, const Owner& owner) {
+  for_each_counter<Owner>([&](const auto& counter) {
+    SCOPED_TRACE(counter.name);
+    ASSERT_NO_THROW(expect_in_json(json, owner, counter));
+  });
+}
+
+TEST(Counters, EachStandsInTheJson) {
+  const Counts counts = filled_counts();
+  expect_in_json(counts_json(counts, true), counts);
+  const auto oracle = filled<OracleCounts>();
+  expect_in_json(oracle_json(oracle), oracle);
+  const auto funnel = filled<Funnel>();
+  expect_in_json(funnel_json(funnel), funnel);
+  const auto statistics = filled<Statistics>();
+  nlohmann::ordered_json json;
+  add_campaign_counters(json, statistics);
+  expect_in_json(json, statistics);
+}
+
+/// The fields of the only row, by heading.
+std::map<std::string, std::string> fields_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    while (std::getline(fields, line, ',')) rows.back().push_back(line);
+  }
+  std::map<std::string, std::string> by_heading;
+  for (std::size_t i = 0; i < rows.at(0).size(); ++i) by_heading[rows[0][i]] = rows.at(1).at(i);
+  return by_heading;
+}
+
+using Fields = std::map<std::string, std::string>;
+
+void expect_in_csv(const Fields& fields, const Counts& counts,
+                   const Counter<Counts, std::uint64_t>& counter) {
+  EXPECT_EQ(fields.at(std::string(counter.name)), std::to_string(counts.*counter.member));
+}
+
+template <std::size_t size>
+void expect_in_csv(const Fields& fields, const Counts& counts, const NamedCounts<Counts, size>& counter) {
+  for (std::size_t i = counter.first; i < size; ++i)
+    EXPECT_EQ(fields.at(std::string(counter.csv_prefix) + "_" + std::string(counter.names[i])),
+              std::to_string((counts.*counter.member)[i]));
+}
+
+/// Anything else is no number.
+template <class Member>
+void expect_in_csv(const Fields& /*fields*/, const Counts& /*counts*/,
+                   const Counter<Counts, Member>& /*counter*/) {}
+
+TEST(Counters, EachNumberStandsInTheCsvFile) {
+  Statistics statistics;
+  const Counts counts = statistics.counts[{"wang", Kind::edge_edge, "f"}] = filled_counts();
+  const Fields fields = fields_of(statistics_csv(statistics));
+  for_each_counter<Counts>([&](const auto& counter) {
+    SCOPED_TRACE(counter.name);
+    ASSERT_NO_THROW(expect_in_csv(fields, counts, counter));
+  });
+}
+
+}  // namespace
+}  // namespace nearmiss

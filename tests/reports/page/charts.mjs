@@ -1,0 +1,62 @@
+// Sweeps, claims of no distance, and what decides.
+import assert from "node:assert/strict";
+import { dirname, join } from "node:path";
+import { count, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+
+export async function showsSweeps(browser) {
+  const page = await open(browser, makeReport("swept",
+    ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
+  assert.equal(await page.isVisible("#sweeps-section"), true);
+  // 4 panels, each of 2 families with 2 subjects at 3 values; above them those that are not 0.
+  const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
+  const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
+    .map((field) => steps.filter((step) => step[field] > 0).length);
+  assert.ok(shown[0] >= 6); // basic misses at all values
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 12 + shown.reduce((a, b) => a + b));
+  await page.close();
+}
+
+export async function showsSweepsOfWhatIsNeverWrong(browser) {
+  const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all 0 but the times
+  await page.close();
+}
+
+/** A false positive is infinitely many times as far as a claim of 0. */
+export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
+  const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
+  const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,${plugin}`]));
+  const farthest = page.locator("#counts tbody tr:has-text('always') td:nth-child(9)");
+  assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
+  const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
+  assert.ok((await ends("error-time")).includes("∞"));
+  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 2);
+  assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
+  await page.close();
+}
+
+export async function showsWhatDecides(browser) {
+  const page = await open(browser, makeReport("decided", ["--cases", "2200", "--subject", "adaptive,wang,exact"]));
+  const { deciders, subjects } = jsonOf("decided");
+  const families = [...new Set(Object.values(subjects.adaptive).flatMap((ofKind) => Object.keys(ofKind.families)))].sort();
+  assert.deepEqual(deciders.map(({ family }) => family), ["", ...families]);
+  const { queries, decided_by, time_over } = deciders[0];
+  assert.equal(queries, 2200);
+  const byWang = ["planes", "apart", "no-root", "culled", "tests"];
+  const cleared = Object.values(subjects.adaptive).flatMap((ofKind) => byWang.map((why) => ofKind.rejected_by[why] ?? 0));
+  assert.equal(decided_by.algorithm, cleared.reduce((a, b) => a + b));
+  assert.ok(decided_by.filter > 0 && decided_by.exact > 0);
+  assert.ok(time_over.wang > 0 && time_over.exact > 0);
+  const rows = await page.locator("#deciders tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.deepEqual(rows.map(([subject, family]) => [subject, family]), ["all", ...families].map((family) => ["adaptive", family]));
+  assert.equal(rows[0].length, 10);
+  for (const [i, name] of ["algorithm", "filter", "finer", "exact"].entries()) {
+    const [, share, times] = rows[0][3 + i].match(/^([\d.]+)(?: %)? \(([\d,]+)\)$/);
+    assert.equal(Number(times.replaceAll(",", "")), decided_by[name]);
+    assert.ok(Math.abs(Number(share) - (100 * decided_by[name]) / queries) < 0.06);
+  }
+  await page.click("#deciders th:has-text('exact arithmetic')");
+  const most = deciders.reduce((a, b) => (b.decided_by.exact / b.queries > a.decided_by.exact / a.queries ? b : a));
+  assert.equal(await page.locator("#deciders tbody tr td:nth-child(2)").first().textContent(), most.family);
+  await page.close();
+}

@@ -1,0 +1,155 @@
+// Findings, verdicts and counters of a campaign with failures, of one without, and against a baseline.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { count, folder, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+
+async function checkVerdicts(page, report) {
+  const verdicts = await page.locator(".verdict").allTextContents();
+  assert.equal(verdicts.length, 2);
+  assert.match(verdicts[0], /FAIL.*basic.*MISSED/);
+  assert.match(verdicts[1], /ok.*wang.*no miss/);
+  assert.equal(await count(page, ".verdict.bad"), 1);
+
+  assert.match(await page.textContent("#headline"), /^basic failed; wang did not fail, in 2,200 queries\.$/);
+  assert.equal(await count(page, "#headline.bad"), 1);
+  assert.ok((await page.locator("nav a").allTextContents()).includes(`Findings (${report.findings.length})`));
+}
+
+async function checkCharts(page, report) {
+  const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
+  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the one that missed
+  assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
+  assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
+  const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
+    Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
+  assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>
+    labels.filter((label) => !label.endsWith("%")))), new Set([...reported("vt"), ...reported("ee")]));
+  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds, how many and which share
+  assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
+  assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
+  assert.deepEqual(await page.locator("#stages .role-legend-label text").allTextContents(), report.stages);
+}
+
+async function checkTables(page, report) {
+  assert.equal(await page.isVisible("#picker"), false);
+
+  assert.equal(await page.isVisible("#deciders-part"), false); // neither asks another
+
+  assert.equal(await count(page, "#counts tbody tr"), 4);
+  await page.check("#by-family");
+  const families = Object.keys(report.oracle.families.vt).length;
+  assert.ok(families >= 24);
+  assert.equal(await count(page, "#counts tbody tr"), 4 * families); // 2 subjects, 2 kinds
+  const column = (n) => page.locator(`#counts tbody tr td:nth-child(${n})`).allTextContents();
+  await page.click("#counts th:has-text('false positives')");
+  const sorted = (await column(8)).map((text) => Number(text.replaceAll(",", "")));
+  assert.deepEqual(sorted, [...sorted].sort((a, b) => b - a));
+
+  assert.equal(await count(page, "#oracle tbody tr"), 2);
+  await page.check("#oracle-by-family");
+  assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
+}
+
+async function checkFindings(page, report) {
+  assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
+  const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
+  assert.match(await page.textContent("#findings-note"), new RegExp(`^${kept.toLocaleString("en-US")} failures in ${report.signatures.length} ways`));
+  const seen = await page.locator("#findings .seen").allTextContents();
+  assert.deepEqual(seen, report.findings.map(({ seen: n }) => (n === 1 ? "seen once" : `seen ${n.toLocaleString("en-US")} times`)));
+  const shrunk = page.locator("#findings tbody tr").first().locator("pre");
+  assert.match(await shrunk.first().textContent(), /^x0 \(.*, .*, .*\)/);
+  assert.equal(await shrunk.last().isVisible(), false); // the query as it was found
+  await page.locator("#findings summary").first().click();
+  assert.equal(await shrunk.last().isVisible(), true);
+}
+
+async function checkThatAPictureTurns(page, report) {
+  assert.equal(await count(page, "#findings svg.picture"), report.findings.length);
+  const picture = page.locator("#findings svg.picture").first();
+  assert.equal(await picture.locator(".moment.primitive0").count() > 0, true);
+  const drawn = () => picture.innerHTML();
+  const before = await drawn();
+  await picture.scrollIntoViewIfNeeded();
+  const box = await picture.boundingBox();
+  await page.mouse.move(box.x + 60, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 140, box.y + 90, { steps: 4 });
+  await page.mouse.up();
+  const byMouse = await drawn();
+  assert.notEqual(byMouse, before);
+  await picture.focus();
+  await page.keyboard.press("ArrowLeft");
+  assert.notEqual(await drawn(), byMouse);
+}
+
+/** What the buttons of the first finding copy: its command, and its query. */
+async function checkCopies(page, report, command) {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  const copied = async (number) => {
+    const buttons = page.locator("#findings button");
+    await buttons.nth(number).click();
+    await buttons.nth(number).and(page.getByText("copied", { exact: true })).waitFor();
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  assert.equal(await copied(0), command);
+  assert.deepEqual((await copied(1)).split(" ").map(Number), report.findings[0].shrunk);
+}
+
+async function checkOtherSections(page) {
+  assert.equal(await count(page, "#farthest svg.picture"), 4); // of each subject and kind
+  const far = await page.locator("#counts tbody a").evaluateAll((links) => links.map((link) => link.getAttribute("href")));
+  assert.ok(far.length > 20);
+  for (const file of far) readFileSync(join(folder, "found", file));
+  assert.ok((await count(page, "#slowest tbody tr")) >= 4);
+  assert.equal(await page.isVisible("#power-section"), false);
+  assert.equal(await page.isVisible("#environments-section"), false);
+  const again = await page.locator("#how code").textContent();
+  assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
+}
+
+export async function showsFindings(browser) {
+  const page = await open(browser, makeReport("found", ["--cases", "2200", "--subject", "basic,wang"]));
+  const report = jsonOf("found");
+  await checkVerdicts(page, report);
+  await checkCharts(page, report);
+  await checkTables(page, report);
+  await checkFindings(page, report);
+  await checkThatAPictureTurns(page, report);
+  const command = await page.locator("#findings code").first().textContent();
+  await checkCopies(page, report, command);
+  await checkOtherSections(page);
+
+  const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
+  assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
+    { status: 1 }); // the command on the page finds it again
+  await page.close();
+}
+
+export async function showsThatNothingWasFound(browser) {
+  const page = await open(browser, makeReport("clean", ["--cases", "100", "--family", "uniform-slow"]));
+  assert.equal(await count(page, ".verdict.bad"), 0);
+  assert.match(await page.textContent("#findings-note"), /^None/);
+  assert.equal(await count(page, "#findings tbody tr"), 0);
+  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "environments-section", "tightness-section", "farthest-section"])
+    assert.equal(await page.isVisible(`#${left}`), false, left);
+  assert.match(await page.textContent("#headline"), /^wang did not fail, in 100 queries\.$/);
+  assert.equal(await count(page, "#headline.bad"), 0);
+  await page.close();
+}
+
+export async function showsTheBaseline(browser) {
+  const url = makeReport("later", ["--cases", "2200", "--subject", "basic,wang,basic-plain", "--seed", "2"], ["--baseline", "found.db"]);
+  const page = await open(browser, url);
+  assert.equal(await page.isVisible("#baseline"), true);
+  const news = await page.textContent("#news");
+  assert.match(news, /New: false-negative of basic-plain, /); // the baseline does not have it
+  assert.doesNotMatch(news, /New: false-negative of basic, /); // it failed before
+  assert.match(news, /not in the baseline, but as rare as chance explains \(about \d+ were to be expected\): false-negative of basic, /);
+  assert.match(await page.textContent("#headline"), /since the baseline\.$/);
+  assert.equal(await count(page, "#before-and-now tbody tr"), 6);
+  assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);
+  assert.match(await page.locator("#findings tbody tr").first().textContent(), /NEW since the baseline/);
+  await page.close();
+}

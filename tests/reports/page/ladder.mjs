@@ -1,0 +1,49 @@
+// The ladder of precisions and the audit.
+import assert from "node:assert/strict";
+import { count, jsonOf, open, pageOf, run } from "./session.mjs";
+
+/** Colours are algorithms'; labels are scalars, and hide no other. */
+async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
+  assert.equal(await page.isVisible("#error-time-of-ladder"), true);
+  assert.equal(await page.isVisible("#error-time-of-each"), false);
+  const fills = (selector) => page.locator(selector).evaluateAll((all) => all.map((each) => each.getAttribute("fill")));
+  for (const [panel, front] of [[0, ladder.front_by_distance], [1, front_by_rate]]) {
+    const inPanel = `#error-time .concat_${panel}_group`;
+    const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
+    assert.equal(points.length, Object.keys(subjects).length);
+    assert.equal(new Set(points).size, 2);
+    assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4); // the front; scalars of the machine and emulated
+    const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
+      .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")
+      .map((each) => ({ text: each.textContent, bold: each.getAttribute("font-weight") === "bold", box: each.getBoundingClientRect().toJSON() })));
+    assert.deepEqual(labels.filter(({ bold }) => bold).map(({ text }) => text).sort(), front.map((name) => subjects[name].scalar).sort());
+    assert.ok(labels.length >= 3 && labels.length <= points.length);
+    const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 2 || b.bottom <= a.top + 2; // lines are 2 higher than letters
+    labels.forEach(({ box }, i) => labels.slice(0, i).forEach((other) => assert.ok(apart(box, other.box))));
+  }
+  const pale = () => count(page, "#error-time .mark-symbol.role-mark path[opacity='0.1']");
+  assert.equal(await pale(), 0);
+  await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
+  assert.equal(await pale(), Object.keys(subjects).length); // half of the points, in each of two panels
+  await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
+}
+
+export async function showsTheLadderAndTheAudit(browser) {
+  run("ladder", "--scalar", "float,p40,p64", "--cases", "160", "--db", "ladder.db");
+  run("audit", "--queries", "2", "--steps", "4", "--json", "audit.json");
+  run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json");
+  const page = await open(browser, pageOf("ladder"));
+  assert.equal(await count(page, "#ladder tbody tr"), 6);
+  assert.equal(await count(page, "#ladder-chart .mark-line path"), 2); // the bounds
+  const report = jsonOf("ladder");
+  await showsErrorTimeOfTheLadder(page, report.error_against_time);
+  assert.match(await page.textContent("#ladder-fits"), /^wang: the farthest distance goes as ε to the power of 0\.\d+ ± [\d.]+ \(95 % confidence\), at [\d.]+–[\d.]+ of the claimed distance for 3 subjects with 3 precisions\. wang-tight: the farthest are at 0\.9\d+–0\.9\d+ of the claimed distance for 3 subjects with 3 precisions\. The paper predicts a power of ¼\.$/);
+  const origins = new Set(report.ladder.fits.map((fit) => fit.origin).filter((origin) => origin !== ""));
+  assert.ok(origins.size > 1);
+  assert.deepEqual(new Set(await page.locator("#ladder-origins tbody td:first-child").allTextContents()), origins);
+  assert.ok((await count(page, "#audit tbody tr")) > 50);
+  assert.ok((await count(page, "#audit td.bad")) >= 2);
+  assert.match(await page.locator("#audit").textContent(), /not proven by Theorem 4\.1: with the rounding/);
+  assert.ok((await count(page, "#tolerances tbody tr")) >= 10);
+  await page.close();
+}

@@ -1,0 +1,46 @@
+// Makes reports in a temporary folder, and opens them in a browser.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+export const nearmiss = process.argv[2];
+export const folder = mkdtempSync(join(tmpdir(), "nearmiss-page-"));
+export const removeFolder = () => rmSync(folder, { recursive: true });
+
+/** Runs nearmiss; exit code 1 (something was found) is fine here. */
+export function run(...args) {
+  try {
+    execFileSync(nearmiss, args, { cwd: folder, stdio: "pipe" });
+  } catch (error) {
+    if (error.status !== 1) throw error;
+  }
+}
+
+export const pageOf = (name) => pathToFileURL(join(folder, name, "index.html")).href;
+export const jsonOf = (name) => JSON.parse(readFileSync(join(folder, name, "report.json")));
+
+/** Runs a campaign and writes its report; the address of its page. */
+export function makeReport(name, fuzz, report = []) {
+  run("fuzz", ...fuzz, "--db", `${name}.db`);
+  run("report", `${name}.db`, "-o", name, ...report);
+  return pageOf(name);
+}
+
+/** Opens a page that must draw without any complaint and without the network. */
+export async function open(browser, url, options = {}) {
+  const page = await browser.newPage({ offline: true, ...options });
+  const complaints = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("request", (request) => request.url().startsWith("http") && complaints.push(request.url()));
+  await page.goto(url);
+  await page.waitForSelector("body[data-drawn], body[data-error]");
+  assert.equal(await page.getAttribute("body", "data-error"), null);
+  assert.deepEqual(complaints, []);
+  return page;
+}
+
+export const count = (page, selector) => page.locator(selector).count();

@@ -1,0 +1,44 @@
+// Numbers as text, and arguments for a shell.
+#include "reports/text/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "reports/text/shell.hpp"
+
+namespace nearmiss {
+namespace {
+
+TEST(Text, NumbersAreGroupedByThousands) {
+  EXPECT_EQ(with_separators(7), "7");
+  EXPECT_EQ(with_separators(1234), "1,234");
+  EXPECT_EQ(with_separators(123456789), "123,456,789");
+}
+
+TEST(Text, WhatIsBelowTheBoundIsNotRoundedToIt) {
+  EXPECT_EQ(fraction_of_bound(0.99999962), "0.9999996");
+  EXPECT_EQ(fraction_of_bound(0.1234), "0.123");
+  EXPECT_EQ(fraction_of_bound(1), "1");
+  EXPECT_EQ(fraction_of_bound(1.0001), "1");
+  EXPECT_EQ(fraction_of_bound(std::numeric_limits<double>::max()), "inf");
+  EXPECT_EQ(times_the_bound(0.1234), "at 0.123 of the bound");
+  EXPECT_EQ(times_the_bound(std::numeric_limits<double>::max()), "beyond a bound of 0");
+  EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
+}
+
+TEST(Text, ATimeThatIsMissingIsADash) {
+  EXPECT_EQ(whole_ns(12.6), "13");
+  EXPECT_EQ(whole_ns(std::nullopt), "-");
+}
+
+TEST(Shell, QuotesWhatItMust) {
+  EXPECT_EQ(shell_quoted("./plugin.so"), "./plugin.so");
+  EXPECT_EQ(shell_quoted("my plugin"), "'my plugin'");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quoted(""), "''");
+}
+
+}  // namespace
+}  // namespace nearmiss
