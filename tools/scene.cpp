@@ -90,7 +90,7 @@ class Export {
   std::map<Kind, std::pair<std::string, std::ofstream>> files_;
 };
 
-/// What the results of a run depend on, and the command that repeats it.
+/// The options that the results of a run depend on, and the command that repeats it.
 RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);

@@ -44,7 +44,7 @@ struct Header {
 /// Reads all lines of the header. Throws Error with the line.
 Header parse_header(Lines& lines);
 
-/// What a mesh needs of a file. Points into its header.
+/// The properties that a mesh needs. Points into the header.
 struct MeshProperties {
   const Element* vertex;
   std::array<const Property*, 3> coordinates;  ///< of vertex

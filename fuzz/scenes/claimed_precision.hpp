@@ -1,4 +1,4 @@
-// What subjects claim for a scene, and which is the cheapest that is precise enough.
+// The precision that subjects claim for a scene, and the cheapest subject that is precise enough.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// What a subject claims for a scene, and what it costs there.
+/// A subject's claim for a scene, and its cost there.
 struct ClaimedPrecision {
   std::string subject;
   /// The largest distance claimed for a false positive, over all pairs that are asked, in the scene's unit of

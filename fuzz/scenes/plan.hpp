@@ -21,7 +21,7 @@ enum class LeaveOut : std::uint8_t {
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// What becomes of a pair whose swept boxes meet under LeaveOut::all, and, if it is not asked, whether it
+/// The fate of a pair whose swept boxes meet, under LeaveOut::all; and, if it is not asked, whether it
 /// collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
@@ -53,7 +53,7 @@ class Plan {
   /// meet are in no part. `stop` is asked now and then, and ends the part.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided, const Stop& stop) const;
 
-  /// What is in no part, from the sum of all parts: the pairs whose boxes do not meet, and the time that it took
+  /// The rest that is in no part, from the sum of all parts: the pairs whose boxes do not meet, and the time that it took
   /// to make the parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 

@@ -33,7 +33,7 @@ class SceneTrial {
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 
  private:
-  /// What a part gives beside the result of its trials.
+  /// The funnels and marks of a part, beside the result of its trials.
   struct PartResult {
     Funnels funnels;
     Marks marks;

@@ -29,7 +29,7 @@ struct Verification {
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 
-/// What was verified, for the terminal.
+/// The verification as text for the terminal.
 std::string describe(const Verification& verification);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// What subjects claim for a scene.
+// The precision that subjects claim for a scene.
 #include "fuzz/scenes/claimed_precision.hpp"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 inline constexpr auto never = [] { return false; };
 
-/// What a plan makes of the pairs of a step; the oracle decides those that are asked.
+/// The outcome of a plan; the oracle decides the pairs that are asked.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

@@ -14,7 +14,7 @@
 namespace nearmiss {
 namespace {
 
-/// What the trial of a step gives.
+/// The results of the trial of a step.
 struct Held {
   TrialResult result;
   std::optional<ScenePicture> picture;
