@@ -13,7 +13,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "reports/extreme.hpp"
 #include "reports/funnel.hpp"
 #include "reports/times.hpp"

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <cstdint>
+#include <sstream>
 #include <string>
+
+#include "fuzz/random.hpp"
 
 namespace nearmiss {
 namespace {
@@ -52,10 +55,6 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
 
 // One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions, made so that no earlier case in
 // the algorithm's order sees it.
-struct Case {
-  Stage stage;
-  VertexEdge<double> pair;
-};
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -114,17 +113,6 @@ TEST(VertexEdge, ShortEdgesAreLeftToVertexVertex) {
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
 }
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(engine_); }
-  double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
-  Vector vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-
- private:
-  std::mt19937_64 engine_;
-};
-
 double distance_to_edge(const VertexEdge<double>& pair, double t) {
   const Vector a = pair.x0i.at(t);
   const Vector edge = pair.xji.at(t);
@@ -144,27 +132,34 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
+/// The number of a random case, which makes it again, and its vectors.
+std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
+  std::ostringstream text;
+  text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "
+       << pair.xji.xv.transpose();
+  return text.str();
+}
+
 // Algorithm 2's promise, the one that VT and EE build on: whatever comes within R is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
-  Random random(3);
-  for (int i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    Random random(3, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, tol.R * 0.999 * (i % 4 == 0 ? random.uniform(0, 1) : 1), time);
-    ASSERT_TRUE(vertex_edge(pair, tol).hit) << "case " << i << ": x0i " << pair.x0i.xv.transpose() << ", xji "
-                                            << pair.xji.xv.transpose() << " within R at t = " << time;
+    ASSERT_TRUE(vertex_edge(pair, tol).hit) << shown(i, pair) << ", within R at t = " << time;
   }
 }
 
 TEST(VertexEdge, ReportsNothingFartherAwayThanTheBound) {
-  Random random(4);
   int reported = 0;
-  for (int i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    Random random(4, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, random.log_uniform(tol.R, 100 * tol.R), time);
     const Verdict verdict = vertex_edge(pair, tol);
     if (!verdict.hit) continue;
     ++reported;
-    ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << "case " << i;
+    ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << shown(i, pair);
   }
   EXPECT_GT(reported, 1000);
 }

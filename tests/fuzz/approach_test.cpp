@@ -1,5 +1,5 @@
 // What the search for the smallest distance resolves in queries of families.
-#include "oracle/approach.hpp"
+#include "oracle/distance/approach.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 
 #include "ccd/error.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 
 namespace nearmiss {
 

@@ -10,7 +10,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/random.hpp"
-#include "oracle/box.hpp"
+#include "oracle/filter/box.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {

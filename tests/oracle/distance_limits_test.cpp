@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/approach.hpp"
-#include "oracle/moment.hpp"
+#include "oracle/distance/approach.hpp"
+#include "oracle/distance/moment.hpp"
+#include "oracle/distance/proximity.hpp"
+#include "oracle/distance/wide.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/proximity.hpp"
-#include "oracle/wide.hpp"
 #include "tests/arithmetic_modes.hpp"
 #include "tests/queries.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fuzz/subjects/ladder/scalars.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
