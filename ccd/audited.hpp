@@ -117,10 +117,10 @@ Vector3<Audited<Exact>> interpolated(const X& x, const Audited<Exact>& t, const 
 /// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
 template <class Exact>
 struct ComparisonLog : AllSteps {
-  using Number = Audited<Exact>;
-  std::vector<std::pair<Number, Number>>* comparisons;
+  using Comparisons = std::vector<std::pair<Audited<Exact>, Audited<Exact>>>;
+  Comparisons* comparisons;
 
-  explicit ComparisonLog(std::vector<std::pair<Number, Number>>& kept) : comparisons(&kept) {}
+  explicit ComparisonLog(Comparisons& kept) : comparisons(&kept) {}
 };
 
 template <class Exact>

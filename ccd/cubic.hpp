@@ -70,7 +70,7 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
 
 // Adds the critical points of F in [0, 1], in ascending order.
 template <class T, class Steps = AllSteps>
-void find_critical_times(Times<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
+void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
   // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
@@ -131,13 +131,13 @@ T clearance(const Cubic<T>& F) {
 ///
 /// Where F keeps clear of μ there is nothing to look for.
 template <class T, class Steps = AllSteps>
-Times<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
+CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   using std::abs;
-  Times<T, 3> roots;
+  CandidateTimes<T, 3> roots;
   if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
   const T end = F(T(1));
 
-  Times<T, 2> critical;
+  CandidateTimes<T, 2> critical;
   detail::find_critical_times(critical, F, steps);
   const auto last = static_cast<std::size_t>(critical.count);  // interval
   std::array<T, 4> node{0};

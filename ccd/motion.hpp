@@ -81,8 +81,8 @@ Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame
 
 /// The vertices of a pair in the order in which the paper's formulas name them. For edges the end points
 /// of each may change places (§4.1).
-using Order = std::array<int, 4>;
-inline constexpr Order given_order{0, 1, 2, 3};
+using VertexOrder = std::array<int, 4>;
+inline constexpr VertexOrder given_order{0, 1, 2, 3};
 
 /// The three relative vectors whose triple product is the coplanarity cubic F(t) = p · (q × r):
 /// vertex-triangle x01, x21, x31 (Algorithm 3); edge-edge x20, x10, x32 (Algorithm 4).
@@ -90,7 +90,7 @@ template <Kind kind, class T>
 struct Pair {
   Moving<T> p, q, r;
   Frame frame;
-  Order order = given_order;
+  VertexOrder order = given_order;
   T E = 0;  ///< largest component of an edge at t = 0
   T W = 0;  ///< largest component of a relative velocity within the pair: 2 V_max of §4.1, relative
   T B = 0;  ///< the bound of §4.1 on all relative positions and velocities, if the pair collides
@@ -99,7 +99,7 @@ struct Pair {
 /// Forms p, q and r in the pair's frame and order.
 template <Kind kind, class T, class Points>
 void form_vectors(const Points& points, Pair<kind, T>& pair) {
-  const Order& o = pair.order;
+  const VertexOrder& o = pair.order;
   if constexpr (kind == Kind::vertex_triangle) {
     pair.p = relative_motion<T>(points, o[0], o[1], pair.frame);
     pair.q = relative_motion<T>(points, o[2], o[1], pair.frame);
@@ -154,7 +154,7 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
 
 /// The relative vectors of a pair and its bound B in a given frame and order of end points.
 template <Kind kind, class T, class Steps = AllSteps>
-Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Order& order = given_order,
+Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const VertexOrder& order = given_order,
                         const Steps& steps = {}) {
   Pair<kind, T> pair;
   pair.frame = frame;
@@ -199,8 +199,8 @@ namespace detail {
 
 // The order of end points in which x20 is the closest of the four pairs by largest component.
 template <class T>
-Order closest_order(const Query& query, const Frame& frame) {
-  Order best = given_order;
+VertexOrder closest_order(const Query& query, const Frame& frame) {
+  VertexOrder best = given_order;
   T smallest = std::numeric_limits<T>::infinity();
   for (const int i : {0, 1}) {
     for (const int j : {2, 3}) {

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 /// Times in [0, 1], at most `capacity` of them; a fixed buffer, no allocation.
 template <class T, int capacity>
-struct Times {
+struct CandidateTimes {
   T values[capacity];
   int count = 0;
 
@@ -22,7 +22,7 @@ struct Times {
 /// Adds numerator / denominator where that is in [0, 1]; found out without dividing, so that a zero
 /// denominator or an overflow never reaches a comparison. 0/0 adds nothing: the equation is trivial.
 template <class T, int capacity>
-void add_quotient(Times<T, capacity>& times, T numerator, T denominator) {
+void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator) {
   if (denominator < 0) {
     numerator = -numerator;
     denominator = -denominator;
@@ -43,7 +43,7 @@ void add_quotient(Times<T, capacity>& times, T numerator, T denominator) {
 /// factor of 2ω more, q, a sum of two terms of one sign, by 3ω, q/2a by 4ω, and 2c/q, with c for c', by 6ω.
 /// An error of 1ω in a, as of 3a in a cubic's derivative, goes into c' and θ too: 3ω and 7ω.
 template <class T, int capacity, class Steps = AllSteps>
-void solve_quadratic(Times<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
+void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
   using std::sqrt;
   if (a == 0) {
     add_quotient(times, -c, b);

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// So many queries are decided before a batch is timed, to bring the subject's code back into the caches.
+/// Number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
 /// How long some work took, in ns. The wall clock is read in some 20 ns, but runs on while another process has the
@@ -58,23 +58,29 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
   return watch.nanoseconds();
 }
 
-/// How much longer `work` takes than `nothing`, which is the same work but for the subject's part: 0 if it does not.
-template <class Work, class Nothing>
-std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
-  const std::uint64_t overhead = time_of(clock, nothing);
-  const std::uint64_t time = time_of(clock, work);
+/// What the shortest of three tries took: a disturbance of one try seldom hits all three.
+template <class Work>
+std::uint64_t best_time_of(clockid_t clock, const Work& work) {
+  return std::min({time_of(clock, work), time_of(clock, work), time_of(clock, work)});
+}
+
+/// A time less an overhead; 0 if the overhead is longer.
+inline std::uint64_t less_overhead(std::uint64_t time, std::uint64_t overhead) {
   return time - std::min(overhead, time);
 }
 
-/// The same of the shortest of three tries each: what disturbs one try seldom disturbs all.
+/// How much longer `work` takes than `nothing`, which is the same work without the subject's part.
+template <class Work, class Nothing>
+std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
+  const std::uint64_t overhead = time_of(clock, nothing);
+  return less_overhead(time_of(clock, work), overhead);
+}
+
+/// The same for the best times of both.
 template <class Work, class Nothing>
 std::uint64_t best_time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
-  const auto best = [&](const auto& what) {
-    return std::min({time_of(clock, what), time_of(clock, what), time_of(clock, what)});
-  };
-  const std::uint64_t overhead = best(nothing);
-  const std::uint64_t time = best(work);
-  return time - std::min(overhead, time);
+  const std::uint64_t overhead = best_time_of(clock, nothing);
+  return less_overhead(best_time_of(clock, work), overhead);
 }
 
 }  // namespace nearmiss

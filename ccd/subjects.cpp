@@ -26,9 +26,9 @@ double own_bound(const Query& query) {
 /// A policy is `template <Kind> static Verdict decide(query, given)`, and the same of `distance_bound` and
 /// `needed_tolerance`, each a static function that gives a double; and a constant `claims_bound`.
 template <class Policy>
-class BuiltIn final : public Subject {
+class BuiltInSubject final : public Subject {
  public:
-  BuiltIn(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
+  BuiltInSubject(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
 
@@ -122,7 +122,7 @@ template <class Policy>
 constexpr Entry entry(std::string_view name, std::string_view about) {
   return {{name, about},
           [](std::string_view own_name, std::optional<double> given) -> std::unique_ptr<Subject> {
-            return std::make_unique<BuiltIn<Policy>>(own_name, given);
+            return std::make_unique<BuiltInSubject<Policy>>(own_name, given);
           }};
 }
 
@@ -164,7 +164,7 @@ void Subject::time_each(std::span<const Query> queries,
 }
 
 const Subject& Subject::empty() const {
-  static const BuiltIn<Empty> subject("empty", std::nullopt);
+  static const BuiltInSubject<Empty> subject("empty", std::nullopt);
   return subject;
 }
 

@@ -35,8 +35,8 @@ bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Ste
 
 /// Case 3: times at which two components of x_ji have the same magnitude.
 template <class T>
-Times<T, 6> equal_components(const Moving<T>& ji) {
-  Times<T, 6> times;
+CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
+  CandidateTimes<T, 6> times;
   for (const auto& [m, n] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{2, 1}}) {
     add_quotient(times, T(-(ji.x()[m] + ji.x()[n])), T(ji.v()[m] + ji.v()[n]));
     add_quotient(times, T(-(ji.x()[m] - ji.x()[n])), T(ji.v()[m] - ji.v()[n]));
@@ -63,8 +63,8 @@ struct CrossProduct {
 
 /// Case 4: times at which a component of x_0i × x_ji is zero.
 template <class T, class Steps = AllSteps>
-Times<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
-  Times<T, 6> times;
+CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
+  CandidateTimes<T, 6> times;
   for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k], steps);
   return times;
 }
@@ -73,8 +73,8 @@ Times<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
 /// have their extremum at one time, so 4 × 3 × 2 of the 48 stand for all; a piece without a t² has no
 /// minimum.
 template <class T>
-Times<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
-  Times<T, 24> times;
+CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
+  CandidateTimes<T, 24> times;
   for (const T& sy : {T(1), T(-1)}) {
     for (const T& sz : {T(1), T(-1)}) {
       const T a = g.a.x() + sy * g.a.y() + sz * g.a.z();

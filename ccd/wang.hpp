@@ -36,7 +36,7 @@ inline constexpr auto ve_tests = [] {
 }();
 
 template <Kind kind, class T, class Steps>
-[[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const Order& order,
+[[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const VertexOrder& order,
                                             const Tolerances<T>& tol, const Steps& steps) {
   if (!steps.does(Step::vertex_edge)) return Verdict::rejected(Rejection::tests);
   for (const auto& test : ve_tests<kind>) {

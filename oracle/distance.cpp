@@ -1,5 +1,6 @@
-// The smallest distance over the step: certified bounds in floating-point arithmetic, and exact comparisons if these
-// do not resolve it.
+// Certified bounds in floating-point arithmetic, and exact comparisons if these do not resolve the distance.
+#include "oracle/distance.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,9 +8,9 @@
 #include <limits>
 
 #include "ccd/arithmetic.hpp"
-#include "oracle/approach.hpp"
+#include "oracle/distance/approach.hpp"
+#include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/proximity.hpp"
 
 namespace nearmiss {
 
@@ -30,23 +31,22 @@ class Conversion {
     shift_ = exponent - of_unit;
   }
 
-  // One rounding each, and one more where ldexp underflows.
-  [[nodiscard]] double lower(double distance) const {
-    int exponent = 0;
-    const double mantissa = std::frexp(distance, &exponent);
-    return below(std::ldexp(below(mantissa / mantissa_), shift_ + exponent));
-  }
-  [[nodiscard]] double upper(double distance) const {
-    int exponent = 0;
-    const double mantissa = std::frexp(distance, &exponent);
-    return above(std::ldexp(above(mantissa / mantissa_), shift_ + exponent));
-  }
+  [[nodiscard]] double lower(double distance) const { return divided(distance, below); }
+  [[nodiscard]] double upper(double distance) const { return divided(distance, above); }
   /// The smallest distance, but for rounding upward, that is at least `multiple` units; 0 for 0.
   [[nodiscard]] double at_least(double multiple) const {
     return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
   }
 
  private:
+  /// Rounded by `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
+  template <class Next>
+  [[nodiscard]] double divided(double distance, const Next& next) const {
+    int exponent = 0;
+    const double mantissa = std::frexp(distance, &exponent);
+    return next(std::ldexp(next(mantissa / mantissa_), shift_ + exponent));
+  }
+
   double mantissa_;
   int shift_;
 };
@@ -117,16 +117,15 @@ double closest_time(const Query& query) {
 bool distance_exceeds(const Query& query, double bound) {
   const PlainArithmetic guard;
   if (std::isinf(bound)) return false;
-  if (bound > 0) {
-    const certified::VertexDifferences differences(query);
-    const Conversion to_distance(1, differences.exponent());
-    // Enough: an upper end that is not above the bound, or a lower one that is.
-    const auto needed = [&](double upper) {
-      return to_distance.upper(upper) <= bound ? 0 : to_distance.at_least(above(bound));
-    };
-    const certified::Approach approach = certified::closest_approach(differences, needed);
-    if (approach.enough) return approach.lower > 0;
-  }
+  if (bound == 0) return !collides(query);
+  const certified::VertexDifferences differences(query);
+  const Conversion to_distance(1, differences.exponent());
+  // Enough: an upper end that is not above the bound, or a lower one that is.
+  const auto needed = [&](double upper) {
+    return to_distance.upper(upper) <= bound ? 0 : to_distance.at_least(above(bound));
+  };
+  const certified::Approach approach = certified::closest_approach(differences, needed);
+  if (approach.enough) return approach.lower > 0;
   return !comes_within(query, bound);
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "ccd/arithmetic.hpp"
-#include "oracle/first_contact.hpp"
+#include "oracle/exact/first_contact.hpp"
 
 namespace nearmiss {
 
@@ -12,7 +12,7 @@ namespace {
 
 using Multiplicity = ContactFeatures::Multiplicity;
 using Time = ContactFeatures::Time;
-using Place = ContactFeatures::Place;
+using Location = ContactFeatures::Location;
 
 Multiplicity multiplicity(const exact::Polynomial& F, exact::Root& t) {
   if (F.is_zero()) return Multiplicity::planar;
@@ -29,17 +29,19 @@ std::optional<ContactFeatures> contact_features(const Query& query) {
   auto contact = exact::first_contact(predicates);
   if (!contact) return std::nullopt;
   return ContactFeatures{multiplicity(predicates.F(), contact->time), time_class(contact->time),
-                         static_cast<Place>(contact->meeting.vanishing_weights), contact->meeting.degenerate};
+                         static_cast<Location>(contact->meeting.vanishing_weights),
+                         contact->meeting.degenerate};
 }
 
 std::string to_text(Kind kind, const ContactFeatures& features) {
   static constexpr std::array<std::string_view, 3> multiplicities{"planar", "simple-root", "multiple-root"};
   static constexpr std::array<std::string_view, 3> times{"at-start", "inside", "at-end"};
-  static constexpr std::array<std::array<std::string_view, 3>, 2> places{
+  static constexpr std::array<std::array<std::string_view, 3>, 2> locations{
       {{"in-face", "on-edge", "on-vertex"}, {"crossing", "end-on-edge", "end-on-end"}}};
   std::string text(multiplicities[static_cast<std::size_t>(features.multiplicity)]);
   text.append(" ").append(times[static_cast<std::size_t>(features.time)]);
-  text.append(" ").append(places[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.place)]);
+  text.append(" ").append(
+      locations[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.location)]);
   if (features.degenerate) text += " degenerate";
   return text;
 }

@@ -17,7 +17,7 @@ struct ContactFeatures {
     multiple,  ///< a double or triple one
   };
   enum class Time : std::uint8_t { start, inside, end };  ///< t = 0, 0 < t < 1, t = 1
-  enum class Place : std::uint8_t {
+  enum class Location : std::uint8_t {
     interior,  ///< no weight vanishes: within the face, or within both edges
     border,    ///< one does: on an edge of the triangle, or an end of one edge within the other
     corner,    ///< two do: in a vertex of the triangle, or an end of each edge
@@ -25,7 +25,7 @@ struct ContactFeatures {
 
   Multiplicity multiplicity{};
   Time time{};
-  Place place{};
+  Location location{};
   bool degenerate = false;  ///< then: the triangle has no area, or the edges are parallel or without a length
 
   bool operator==(const ContactFeatures&) const = default;

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "oracle/oracle.hpp"
-#include "oracle/parity.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/parity/parity.hpp"
+#include "oracle/sturm/sturm.hpp"
 
 namespace nearmiss {
 

@@ -1,21 +1,15 @@
 // The truth about a query, in exact arithmetic.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "ccd/query.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/filter/filter.hpp"
 
 namespace nearmiss {
-
-/// lo <= the exact value <= hi.
-struct Enclosure {
-  double lo = 0;
-  double hi = 0;
-};
 
 /// The answer to a query, and how it was found.
 struct Decision {
@@ -54,26 +48,5 @@ struct ContactTime {
 /// The earliest time at which they do; nothing where they never do. Its enclosure is at most `width` wide, or
 /// as narrow as doubles can be.
 std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
-
-/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
-/// or they are as near to each other as doubles can be.
-Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
-
-/// How near the ends of an enclosure have to be: the smallest lower end that is enough beside an upper end; 0 if any
-/// is enough. It may not grow while the upper end falls.
-using NeededDistance = std::function<double(double hi)>;
-
-/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with
-/// lo >= needed(hi), or as near to that as doubles of the distance can be.
-Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
-
-/// The same from above, to a part in a thousand, and near 1 to 1e-9; infinite where the unit is 0.
-double closest_ratio(const Query& query, double unit);
-
-/// A time in [0, 1] at which the primitives are about as near to each other as they come: for pictures.
-double closest_time(const Query& query);
-
-/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.
-bool distance_exceeds(const Query& query, double bound);
 
 }  // namespace nearmiss

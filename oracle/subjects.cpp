@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -17,9 +17,9 @@ constexpr std::array infos{
 };
 
 /// The oracle as a subject, but for the swept boxes: a subject is asked where they meet.
-class Exact : public Subject {
+class ExactSubject : public Subject {
  public:
-  explicit Exact(std::string_view name) : name_(name) {}
+  explicit ExactSubject(std::string_view name) : name_(name) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
 
@@ -42,11 +42,11 @@ class Exact : public Subject {
 };
 
 /// The same, with many queries side by side where many are given.
-class ExactBatch final : public Exact {
+class BatchedExactSubject final : public ExactSubject {
  public:
-  using Exact::Exact;
+  using ExactSubject::ExactSubject;
 
-  using Exact::decide;
+  using ExactSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     std::array<FilterStage, 256> stages;
     for (std::size_t first = 0; first < queries.size(); first += stages.size()) {
@@ -62,8 +62,8 @@ class ExactBatch final : public Exact {
 std::span<const SubjectInfo> exact_subjects() { return infos; }
 
 std::unique_ptr<Subject> try_make_exact(std::string_view name) {
-  if (name == infos[0].name) return std::make_unique<ExactBatch>(name);
-  if (name == infos[1].name) return std::make_unique<Exact>(name);
+  if (name == infos[0].name) return std::make_unique<BatchedExactSubject>(name);
+  if (name == infos[1].name) return std::make_unique<ExactSubject>(name);
   return nullptr;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "oracle/double_word.hpp"
+#include "oracle/arithmetic/double_word.hpp"
 
 namespace nearmiss {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <random>
 
 #include "ccd/query.hpp"
 
@@ -30,14 +29,6 @@ inline Query falling_vertex(double x, double y, double from, double to) {
 inline Query falling_edge(double from, double to) {
   const Vector3<double> c(0, -1, 0), d(0, 1, 0);
   return make_query(Kind::edge_edge, {{-1, 0, from}, {1, 0, from}, c, d}, {{-1, 0, to}, {1, 0, to}, c, d});
-}
-
-/// Random integers in [-largest, largest] as coordinates.
-inline Query integer_query(std::mt19937_64& random, Kind kind, int largest) {
-  std::uniform_int_distribution<int> coordinate(-largest, largest);
-  Query query{.kind = kind};
-  for (double& c : query.x) c = coordinate(random);
-  return query;
 }
 
 inline Query scaled(Query query, double factor) {

@@ -11,7 +11,7 @@
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "oracle/box.hpp"
+#include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 

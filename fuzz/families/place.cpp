@@ -7,7 +7,7 @@
 #include "ccd/cubic.hpp"
 #include "ccd/motion.hpp"
 #include "ccd/proximity.hpp"
-#include "oracle/double_word.hpp"
+#include "oracle/arithmetic/double_word.hpp"
 
 namespace nearmiss {
 

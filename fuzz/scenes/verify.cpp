@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fuzz/parallel.hpp"
-#include "oracle/box.hpp"
+#include "oracle/filter/box.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/translation.hpp"
 #include "reports/text/text.hpp"

@@ -11,7 +11,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "reports/statistics/counter.hpp"
 #include "reports/statistics/histogram.hpp"
 #include "reports/statistics/times.hpp"

@@ -2,17 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "ccd/cubic.hpp"
 #include "ccd/quadratic.hpp"
+#include "fuzz/random.hpp"
 
 namespace nearmiss {
 namespace {
 
 std::vector<double> quadratic_roots(double a, double b, double c) {
-  Times<double, 2> times;
+  CandidateTimes<double, 2> times;
   solve_quadratic(times, a, b, c);
   std::vector<double> sorted(times.begin(), times.end());
   std::sort(sorted.begin(), sorted.end());
@@ -33,6 +37,13 @@ TEST(Quadratic, ZeroHasNone) { EXPECT_EQ(quadratic_roots(0, 0, 0), (Roots{})); }
 TEST(Quadratic, SmallRootDoesNotCancel) {
   // t² + 1e8 t - 1: the textbook formula loses all digits of the root near 1e-8.
   EXPECT_EQ(quadratic_roots(1, 1e8, -1), (Roots{1e-8}));
+}
+
+/// The number of a random case, which makes it again, and its cubic.
+std::string shown(std::uint64_t index, const Cubic<double>& F) {
+  std::ostringstream text;
+  text << "case " << index << ": " << std::hexfloat << F.a << ' ' << F.b << ' ' << F.c << ' ' << F.d;
+  return text.str();
 }
 
 std::vector<double> cubic_roots(const Cubic<double>& F, double mu) {
@@ -59,29 +70,28 @@ TEST(Cubic, NearlyNoRootWithinTheResidual) {
 TEST(Cubic, ZeroPolynomialIsARootEverywhere) { EXPECT_FALSE(cubic_roots({0, 0, 0, 0}, 0).empty()); }
 
 TEST(Cubic, EndsEvenWhereTheResidualCannotBeReached) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> coefficient(-1, 1);
-  for (int i = 0; i < 100000; ++i) {
-    const Cubic<double> F{coefficient(random), coefficient(random), coefficient(random), coefficient(random)};
+  for (std::uint64_t i = 0; i < 100000; ++i) {
+    Random random(1, 0, i);
+    const auto coefficient = [&] { return random.uniform(-1, 1); };
+    const Cubic<double> F{coefficient(), coefficient(), coefficient(), coefficient()};
     for (const double t : cubic_roots(F, 0)) {
       ASSERT_GE(t, 0);
       ASSERT_LE(t, 1);
-      ASSERT_LE(std::abs(F(t)), 1e-15) << i;
+      ASSERT_LE(std::abs(F(t)), 1e-15) << shown(i, F);
     }
   }
 }
 
 // Appendix B's claim: for a root t0 there is a t in the result with |F| <= μ on all of [t0, t].
 TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
-  std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> unit(0, 1);
   const double mu = 64 * std::ldexp(1.0, -39);
-  for (int i = 0; i < 20000; ++i) {
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    Random random(2, 0, i);
     // Clustered roots, so that F stays near 0 between them.
-    const double r0 = unit(random);
-    const double spread = std::pow(10.0, -8 * unit(random));
-    const double r1 = r0 + spread * (unit(random) - 0.5);
-    const double r2 = i % 2 == 0 ? r0 + spread * (unit(random) - 0.5) : 4 * unit(random) - 2;
+    const double r0 = random.uniform();
+    const double spread = std::pow(10.0, -8 * random.uniform());
+    const double r1 = r0 + spread * (random.uniform() - 0.5);
+    const double r2 = i % 2 == 0 ? r0 + spread * (random.uniform() - 0.5) : 4 * random.uniform() - 2;
     const Cubic<double> F{1, -(r0 + r1 + r2), r0 * r1 + r0 * r2 + r1 * r2, -r0 * r1 * r2};
     const auto roots = cubic_roots(F, mu);
     for (const double t0 : {r0, r1, r2}) {
@@ -91,7 +101,7 @@ TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
         for (int k = 0; k <= 64; ++k) worst = std::max(worst, std::abs(F(t0 + (t - t0) * k / 64)));
         return worst <= mu * 1.001;
       });
-      ASSERT_TRUE(reached) << "root " << t0 << " of case " << i;
+      ASSERT_TRUE(reached) << "root " << t0 << " of " << shown(i, F);
     }
   }
 }

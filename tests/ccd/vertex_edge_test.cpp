@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <cstdint>
+#include <sstream>
 #include <string>
+
+#include "fuzz/random.hpp"
 
 namespace nearmiss {
 namespace {
@@ -44,6 +47,15 @@ TEST(VertexVertex, ReportsWhatIsWithinD) {
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
 }
 
+// D² = 1, δ = 2^-10 and the squared distance are exact.
+TEST(VertexVertex, AcceptsASquaredDistanceOfD2AndDelta) {
+  Tolerances<double> unit{};
+  unit.D2 = 1;
+  unit.delta = 0x1p-10;
+  EXPECT_EQ(vertex_vertex(moving({1, 0x1p-5, 0}, {0, 0, 0}), unit), 0);
+  EXPECT_FALSE(vertex_vertex(moving({1, 0x1p-5, 0x1p-20}, {0, 0, 0}), unit));
+}
+
 TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {1, 0, 0}), tol));
   EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {-0.25, 0, 0}), tol));
@@ -52,10 +64,6 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
 
 // One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions, made so that no earlier case in
 // the algorithm's order sees it.
-struct Case {
-  Stage stage;
-  VertexEdge<double> pair;
-};
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -93,12 +101,17 @@ TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
 }
 
 TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
-  // The edge turns through the diagonal of x and y at t = 1/2, where the vertex crosses its line.
-  const auto xji = moving({0.5, 0.25, 0}, {-0.25, 0.25, 0});
-  const auto pair = vertex_edge_pair(moving(Vector(0.1875, 0.1875, -0.25), {0, 0, 0.5}), xji);
-  const Verdict verdict = vertex_edge(pair, tol);
-  EXPECT_EQ(verdict.stage, Stage::ve_equal);
-  EXPECT_EQ(verdict.time, 0.5);
+  // The edge turns through the diagonal of two axes at t = 1/2, where the vertex crosses its line.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](const Vector& v) {
+      return Vector(v[(3 - axis) % 3], v[(4 - axis) % 3], v[(5 - axis) % 3]);
+    };
+    const auto xji = moving(turned({0.5, 0.25, 0}), turned({-0.25, 0.25, 0}));
+    const auto pair = vertex_edge_pair(moving(turned({0.1875, 0.1875, -0.25}), turned({0, 0, 0.5})), xji);
+    const Verdict verdict = vertex_edge(pair, tol);
+    EXPECT_EQ(verdict.stage, Stage::ve_equal) << axis;
+    EXPECT_EQ(verdict.time, 0.5) << axis;
+  }
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
@@ -113,17 +126,6 @@ TEST(VertexEdge, ShortEdgesAreLeftToVertexVertex) {
   const auto pair = vertex_edge_pair(moving({l / 2, 0, 0}, {0, 0, 0}), moving({l, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
 }
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(engine_); }
-  double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
-  Vector vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 double distance_to_edge(const VertexEdge<double>& pair, double t) {
   const Vector a = pair.x0i.at(t);
@@ -144,27 +146,34 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
+/// The number of a random case, which makes it again, and its vectors.
+std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
+  std::ostringstream text;
+  text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "
+       << pair.xji.xv.transpose();
+  return text.str();
+}
+
 // Algorithm 2's promise, the one that VT and EE build on: whatever comes within R is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
-  Random random(3);
-  for (int i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    Random random(3, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, tol.R * 0.999 * (i % 4 == 0 ? random.uniform(0, 1) : 1), time);
-    ASSERT_TRUE(vertex_edge(pair, tol).hit) << "case " << i << ": x0i " << pair.x0i.xv.transpose() << ", xji "
-                                            << pair.xji.xv.transpose() << " within R at t = " << time;
+    ASSERT_TRUE(vertex_edge(pair, tol).hit) << shown(i, pair) << ", within R at t = " << time;
   }
 }
 
 TEST(VertexEdge, ReportsNothingFartherAwayThanTheBound) {
-  Random random(4);
   int reported = 0;
-  for (int i = 0; i < 200000; ++i) {
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    Random random(4, 0, i);
     double time = 0;
     const auto pair = pair_at_distance(random, random.log_uniform(tol.R, 100 * tol.R), time);
     const Verdict verdict = vertex_edge(pair, tol);
     if (!verdict.hit) continue;
     ++reported;
-    ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << "case " << i;
+    ASSERT_LE(distance_to_edge(pair, verdict.time), tol.distance_bound()) << shown(i, pair);
   }
   EXPECT_GT(reported, 1000);
 }

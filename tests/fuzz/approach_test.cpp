@@ -1,5 +1,5 @@
 // The search for the smallest distance, on queries of families.
-#include "oracle/approach.hpp"
+#include "oracle/distance/approach.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "fuzz/random.hpp"
-#include "oracle/box.hpp"
+#include "oracle/filter/box.hpp"
 
 namespace nearmiss {
 namespace {

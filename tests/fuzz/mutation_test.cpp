@@ -14,7 +14,7 @@
 #include "ccd/cubic.hpp"
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

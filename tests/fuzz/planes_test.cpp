@@ -3,7 +3,7 @@
 
 #include "ccd/plane_culling.hpp"
 #include "fuzz/families/families.hpp"
-#include "oracle/planes.hpp"
+#include "oracle/filter/planes.hpp"
 
 namespace nearmiss {
 namespace {

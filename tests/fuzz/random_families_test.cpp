@@ -8,7 +8,7 @@
 
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {

@@ -6,7 +6,7 @@
 
 #include "fuzz/families/contacts.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {

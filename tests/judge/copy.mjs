@@ -6,6 +6,16 @@ import { applied, here } from './list.mjs';
 
 export const source = path.resolve(here, '../..');
 
+/** The files of a folder and of those in it, with their paths from `root`, in a fixed order. */
+export function filesBelow(root, folder) {
+  return readdirSync(path.join(root, folder), { withFileTypes: true })
+    .sort((a, b) => (a.name < b.name ? -1 : 1))
+    .flatMap((entry) => {
+      const name = path.join(folder, entry.name);
+      return entry.isDirectory() ? filesBelow(root, name) : [name];
+    });
+}
+
 /** Runs a command at low priority: its exit code (null where it was killed) and all that it printed. */
 export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
   return new Promise((resolve) => {
@@ -35,10 +45,10 @@ export class Copy {
       if (['.git', 'build', 'oracle'].includes(name) || existsSync(link)) continue;
       symlinkSync(path.join(source, name), link);
     }
-    const names = readdirSync(path.join(source, 'oracle'));
-    for (const name of readdirSync(path.join(this.folder, 'oracle')))
-      if (!names.includes(name)) rmSync(path.join(this.folder, 'oracle', name));
-    for (const name of names) this.#write(`oracle/${name}`, readFileSync(path.join(source, 'oracle', name), 'utf8'));
+    const names = filesBelow(source, 'oracle');
+    for (const name of filesBelow(this.folder, 'oracle'))
+      if (!names.includes(name)) rmSync(path.join(this.folder, name));
+    for (const name of names) this.#write(name, readFileSync(path.join(source, name), 'utf8'));
     if (existsSync(path.join(this.build, 'build.ninja'))) return;
     const quick = [`-DCMAKE_PROJECT_nearmiss_INCLUDE=${path.join(source, 'tools/cmake/judge_copies.cmake')}`];
     const { code, output } = await run('cmake', ['--preset', 'release', ...quick], { cwd: this.folder });
@@ -73,6 +83,7 @@ export class Copy {
 
   #write(name, text) {
     const file = path.join(this.folder, name);
+    mkdirSync(path.dirname(file), { recursive: true });
     if (!existsSync(file) || readFileSync(file, 'utf8') !== text) writeFileSync(file, text);
   }
 }

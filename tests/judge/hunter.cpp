@@ -24,16 +24,17 @@ namespace nearmiss {
 namespace {
 
 /// Where the hunt is: for the message of a signal.
-struct Place {
+struct HuntPosition {
   const char* family = "";
   std::uint64_t seed = 0;
   std::uint64_t index = 0;
   std::uint64_t queries = 0;
 };
-Place place;  // NOLINT: a signal's handler sees nothing else
+HuntPosition position;  // NOLINT: a signal's handler sees nothing else
 
 std::string found(const std::string& what) {
-  return fmt::format("found {} {}:{}:{} {}\n", what, place.family, place.seed, place.index, place.queries);
+  return fmt::format("found {} {}:{}:{} {}\n", what, position.family, position.seed, position.index,
+                     position.queries);
 }
 
 /// CPU time for one query, far above what any takes; a defect can make a search endless.
@@ -47,10 +48,10 @@ void restart_clock() {
 extern "C" void say_where_it_ended(int signal) {
   std::array<char, 256> line;
   const char* const what = signal == SIGPROF ? "hang" : signal == SIGXCPU ? "slow" : "crash";
-  const int size =
-      std::snprintf(line.data(), line.size(), "found %s %s:%llu:%llu %llu\n", what, place.family,
-                    static_cast<unsigned long long>(place.seed), static_cast<unsigned long long>(place.index),
-                    static_cast<unsigned long long>(place.queries));
+  const int size = std::snprintf(line.data(), line.size(), "found %s %s:%llu:%llu %llu\n", what,
+                                 position.family, static_cast<unsigned long long>(position.seed),
+                                 static_cast<unsigned long long>(position.index),
+                                 static_cast<unsigned long long>(position.queries));
   const auto written = write(STDOUT_FILENO, line.data(), static_cast<std::size_t>(size));
   _exit(written == size ? 1 : 3);
 }
@@ -75,15 +76,15 @@ void catch_all_ends() {
 
 /// The line of what was found in a block of a family's queries, or "".
 std::string hunt(const Family& family, std::uint64_t first, std::uint64_t count) {
-  const std::uint64_t before = place.queries;
+  const std::uint64_t before = position.queries;
   std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(family, place.seed, first + i));
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(family, position.seed, first + i));
   const auto go_to = [&](std::size_t i) {
-    place.index = first + i;
-    place.queries = before + i + 1;
+    position.index = first + i;
+    position.queries = before + i + 1;
     restart_clock();
   };
-  place.family = family.name.c_str();
+  position.family = family.name.c_str();
   const auto disagreement = first_disagreement(queries, first, go_to);
   go_to(disagreement ? disagreement->at : count - 1);
   return disagreement ? found(disagreement->what) : "";
@@ -93,7 +94,7 @@ std::string hunt_until(std::uint64_t most) {
   constexpr std::uint64_t block = 50;
   for (std::uint64_t first = 0;; first += block)
     for (const Family& family : families()) {
-      if (place.queries >= most) return fmt::format("nothing {}\n", place.queries);
+      if (position.queries >= most) return fmt::format("nothing {}\n", position.queries);
       if (std::string line = hunt(family, first, block); !line.empty()) return line;
     }
 }
@@ -107,7 +108,7 @@ int main(int argc, char** argv) {
   std::string line;
   try {
     const double most = arguments.empty() ? 100000 : parse_number(arguments[0], "QUERIES");
-    place.seed = static_cast<std::uint64_t>(arguments.size() < 2 ? 1 : parse_number(arguments[1], "SEED"));
+    position.seed = static_cast<std::uint64_t>(arguments.size() < 2 ? 1 : parse_number(arguments[1], "SEED"));
     catch_all_ends();
     line = hunt_until(static_cast<std::uint64_t>(most));
   } catch (const std::exception& error) {

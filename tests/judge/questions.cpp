@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "oracle/agreement.hpp"
-#include "oracle/box.hpp"
 #include "oracle/features.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/filter/box.hpp"
+#include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 
 namespace nearmiss {
 
@@ -42,7 +42,7 @@ Filtered ask_filters(std::span<const Query> queries) {
 }
 
 /// The filters against each other.
-std::optional<Disagreement> filters_disagree(std::span<const Query> queries, const Filtered& filtered) {
+std::optional<Contradiction> filters_disagree(std::span<const Query> queries, const Filtered& filtered) {
   Stages widest(queries.size());
   filter(queries, widest, widest_instructions());
   for (const Instructions narrower : {Instructions::sse2, Instructions::avx2}) {
@@ -50,23 +50,23 @@ std::optional<Disagreement> filters_disagree(std::span<const Query> queries, con
     Stages stages(queries.size());
     filter(queries, stages, narrower);
     for (std::size_t i = 0; i < queries.size(); ++i)
-      if (stages[i] != widest[i]) return Disagreement{i, "instruction sets"};
+      if (stages[i] != widest[i]) return Contradiction{i, "instruction sets"};
   }
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (contradict(filtered.batch[i], filtered.scalar[i])) return Disagreement{i, "batch against scalar"};
-    if (contradict(filtered.batch[i], filtered.cautious[i])) return Disagreement{i, "batch against caution"};
+    if (contradict(filtered.batch[i], filtered.scalar[i])) return Contradiction{i, "batch against scalar"};
+    if (contradict(filtered.batch[i], filtered.cautious[i])) return Contradiction{i, "batch against caution"};
     const bool is_batch = widest[i] == filtered.batch[i];
-    if (!is_batch && widest[i] != filtered.scalar[i]) return Disagreement{i, "stages of many"};
+    if (!is_batch && widest[i] != filtered.scalar[i]) return Contradiction{i, "stages of many"};
   }
   return std::nullopt;
 }
 
 /// Exact answers are asked about one query in this many; each number divides the next one.
-struct Shares {
+struct SamplingRates {
   std::uint64_t exact, others, distance;
 };
 
-Shares shares(FilterStage batch, FilterStage cautious, FilterStage scalar) {
+SamplingRates sampling_rates(FilterStage batch, FilterStage cautious, FilterStage scalar) {
   if (!is_decided(scalar)) return {1, 4, 32};
   if (!is_decided(batch)) return {1, 16, 128};     // hard to decide
   if (!is_decided(cautious)) return {1, 64, 256};  // near its bounds
@@ -104,16 +104,16 @@ std::string filters_against(bool exact, const Query& query, std::size_t i, const
 
 /// The features of the first contact against the roots as Sturm sequences count them.
 std::string features_against(const RootCount& count, const Query& query) {
-  using Features = ContactFeatures;
   const auto features = contact_features(query);
   if (features.has_value() != count.collision) return "features against sturm";
   if (!features) return "";
-  if ((features->multiplicity == Features::Multiplicity::planar) != count.planar) return "features: planar";
+  if ((features->multiplicity == ContactFeatures::Multiplicity::planar) != count.planar)
+    return "features: planar";
   if (count.distinct != 1) return "";  // else the first contact is the only one
-  if ((features->multiplicity == Features::Multiplicity::multiple) != (count.with_multiplicity > 1))
+  if ((features->multiplicity == ContactFeatures::Multiplicity::multiple) != (count.with_multiplicity > 1))
     return "features: multiplicity";
-  const bool within = features->place == Features::Place::interior && !features->degenerate &&
-                      features->time == Features::Time::inside;
+  const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&
+                      features->time == ContactFeatures::Time::inside;
   return within == count.on_boundary ? "features: boundary" : "";
 }
 
@@ -131,7 +131,7 @@ std::string slow_answers_disagree(const Query& query, bool exact) {
 /// All about one query that exact arithmetic has a part in.
 std::string query_disagreement(const Query& query, std::uint64_t index, std::size_t i,
                                const Filtered& filtered) {
-  const Shares share = shares(filtered.batch[i], filtered.cautious[i], filtered.scalar[i]);
+  const SamplingRates share = sampling_rates(filtered.batch[i], filtered.cautious[i], filtered.scalar[i]);
   const std::uint64_t number = index / 2;  // of its kind
   if (number % share.exact != 0) return "";
   const bool exact = collides_exactly(query);
@@ -145,15 +145,15 @@ std::string query_disagreement(const Query& query, std::uint64_t index, std::siz
 
 }  // namespace
 
-std::optional<Disagreement> first_disagreement(std::span<const Query> queries, std::uint64_t first,
-                                               const Watch& watch) {
+std::optional<Contradiction> first_disagreement(std::span<const Query> queries, std::uint64_t first,
+                                                const Watch& watch) {
   watch(0);
   const Filtered filtered = ask_filters(queries);
   if (const auto found = filters_disagree(queries, filtered)) return found;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     watch(i);
     std::string what = query_disagreement(queries[i], first + i, i, filtered);
-    if (!what.empty()) return Disagreement{i, std::move(what)};
+    if (!what.empty()) return Contradiction{i, std::move(what)};
   }
   return std::nullopt;
 }

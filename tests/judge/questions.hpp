@@ -12,7 +12,7 @@
 namespace nearmiss {
 
 /// The first of some queries about which two parts of the oracle disagree, and which two.
-struct Disagreement {
+struct Contradiction {
   std::size_t at;
   std::string what;  ///< "batch against exact": without blanks at its ends
 };
@@ -23,8 +23,8 @@ using Watch = std::function<void(std::size_t)>;
 /// Asks about queries first, first + 1, ... of a family. The filters are asked about all of them; exact answers
 /// about a share that depends on the query's number and on what the filters say; distances and times about a
 /// smaller share.
-std::optional<Disagreement> first_disagreement(std::span<const Query> queries, std::uint64_t first,
-                                               const Watch& watch);
+std::optional<Contradiction> first_disagreement(std::span<const Query> queries, std::uint64_t first,
+                                                const Watch& watch);
 
 /// Whether the certified distances of a query fit the exact comparisons, given whether it is a collision; what
 /// does not fit, or "".

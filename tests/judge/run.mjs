@@ -4,10 +4,10 @@
 // what nothing found. build/judge/results.json and table.txt say what found each, and how soon. Exit code 1: something
 // was found that the list explains, or not found without a reason.
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { Copy, source } from './copy.mjs';
+import { Copy, filesBelow, source } from './copy.mjs';
 import { readDefects } from './list.mjs';
 import { steps } from './steps.mjs';
 import { table, unexpected } from './table.mjs';
@@ -29,8 +29,7 @@ const wanted = steps.filter(({ name }) => options.steps.split(',').includes(name
 
 /** What a result depends on: the edit and the oracle. */
 const oracle = createHash('sha256');
-for (const name of readdirSync(path.join(source, 'oracle')))
-  oracle.update(readFileSync(path.join(source, 'oracle', name)));
+for (const name of filesBelow(source, 'oracle')) oracle.update(readFileSync(path.join(source, name)));
 const sources = oracle.digest('hex');
 const keyOf = ({ file, occurrence, before, after }) =>
   createHash('sha256').update(JSON.stringify([file, occurrence, before, after, sources])).digest('hex').slice(0, 16);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/approach.hpp"
+#include "oracle/distance/approach.hpp"
+#include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/proximity.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "oracle/translation.hpp"
 #include "tests/judge/questions.hpp"
 

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
+#include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/proximity.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -92,11 +92,12 @@ TEST(Distance, ItsRatioToABoundIsKnownWhereItOverflows) {
 }
 
 TEST(ComesWithin, AgreesWithEnclosures) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  for (int i = 0; i < 400; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-    for (double& c : query.x) c = i < 200 ? coordinate(random) : static_cast<double>(random() % 7) - 3;
+  for (std::size_t i = 0; i < 400; ++i) {
+    Random random(7, 0, i);
+    const Kind kind = testing::kind_of_case(i);
+    const Query query =
+        i < 200 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
+    SCOPED_TRACE(testing::repeat(i, query));
     // As near as this only where they meet: the coordinates have few bits.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
@@ -135,17 +136,17 @@ double sampled_distance(const Query& query) {
 }
 
 TEST(Distance, IsBelowEverySampleAndNotFarBelow) {
-  std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < 300; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i % 2)]};
-    for (double& c : query.x) c = unit(random);
+  for (std::size_t i = 0; i < 300; ++i) {
+    Random random(8, 0, i);
+    Query query{.kind = testing::kind_of_case(i)};
+    for (double& c : query.x) c = random.uniform();
+    SCOPED_TRACE(testing::repeat(i, query));
     const double sample = sampled_distance(query);
     const Enclosure d = minimum_distance(query);
-    ASSERT_LE(d.lo, sample * (1 + 1e-12)) << i;
+    ASSERT_LE(d.lo, sample * (1 + 1e-12));
     // No point moves farther than 2 in a 32nd of the time, or lies farther than 2/16 from a sampled one.
-    ASSERT_GE(d.hi, sample - 0.3) << i;
-    ASSERT_LE(d.hi - d.lo, 1e-3 * d.hi) << i;
+    ASSERT_GE(d.hi, sample - 0.3);
+    ASSERT_LE(d.hi - d.lo, 1e-3 * d.hi);
   }
 }
 

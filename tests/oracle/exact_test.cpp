@@ -4,12 +4,12 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
-#include <random>
 
-#include "oracle/approach.hpp"
-#include "oracle/box.hpp"
+#include "oracle/distance/approach.hpp"
+#include "oracle/filter/box.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -162,11 +162,10 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }
 
-/// Random queries with coordinates in -3..3, which are full of degenerate primitives.
-Query small_integers(std::mt19937_64& random, Kind kind) {
-  Query query{.kind = kind};
-  for (double& c : query.x) c = static_cast<double>(random() % 7) - 3;
-  return query;
+/// Case i of a seed: coordinates in -3 .. 3 make many primitives degenerate.
+Query small_integers(std::uint64_t seed, std::size_t i) {
+  Random random(seed, 0, i);
+  return testing::integer_query(random, testing::kind_of_case(i), 3);
 }
 
 /// The motion until t: exact for small integers and a t of few bits.
@@ -178,22 +177,22 @@ Query until(const Query& query, double t) {
 
 TEST(EarliestTime, IsThatBeforeWhichNothingCollides) {
   constexpr double unit = 0x1p-40;
-  std::mt19937_64 random(7);
   int planar = 0;
   int later = 0;
-  for (int i = 0; i < 3000; ++i) {
-    Query query = small_integers(random, kinds[static_cast<std::size_t>(i % 2)]);
+  for (std::size_t i = 0; i < 3000; ++i) {
+    Query query = small_integers(7, i);
     const bool is_planar = i % 3 > 0;
     if (is_planar)
       for (std::size_t k = 2; k < 24; k += 3) query.x[k] = query.x[k - 1] - 2 * query.x[k - 2];
+    SCOPED_TRACE(testing::repeat(i, query));
     const auto time = earliest_time(query);
-    ASSERT_EQ(time.has_value(), collides(query)) << i;
+    ASSERT_EQ(time.has_value(), collides(query));
     if (!time) continue;
     const double t = std::ceil(time->enclosure.hi / unit) * unit;
-    ASSERT_TRUE(collides(until(query, t))) << i;
+    ASSERT_TRUE(collides(until(query, t)));
     const double before = (std::ceil(time->enclosure.lo / unit) - 1) * unit;
     if (before < 0) continue;
-    ASSERT_FALSE(collides(until(query, before))) << i;
+    ASSERT_FALSE(collides(until(query, before)));
     ++(is_planar ? planar : later);
   }
   EXPECT_GT(planar, 100);
@@ -213,23 +212,23 @@ Query permuted(const Query& query, const std::array<int, 4>& order, bool reverse
 }
 
 TEST(Exact, DoesNotDependOnOrderDirectionScaleOrPlace) {
-  std::mt19937_64 random(5);
   int collisions = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Kind kind = kinds[static_cast<std::size_t>(i % 2)];
-    const Query query = small_integers(random, kind);
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const Query query = small_integers(5, i);
+    SCOPED_TRACE(testing::repeat(i, query));
     const bool truth = collides(query);
     collisions += truth;
-    using Order = std::array<int, 4>;
-    const auto orders = kind == Kind::vertex_triangle ? std::array{Order{0, 2, 3, 1}, Order{0, 2, 1, 3}}
-                                                      : std::array{Order{2, 3, 0, 1}, Order{1, 0, 2, 3}};
-    for (const Order& order : orders) ASSERT_EQ(collides(permuted(query, order)), truth) << i;
-    ASSERT_EQ(collides(permuted(query, {0, 1, 2, 3}, true)), truth) << i;
-    ASSERT_EQ(collides(scaled(query, -std::ldexp(1.0, -900))), truth) << i;
-    ASSERT_EQ(collides(testing::moved(query, 1e6)), truth) << i;
+    using VertexOrder = std::array<int, 4>;
+    const auto orders = query.kind == Kind::vertex_triangle
+                            ? std::array{VertexOrder{0, 2, 3, 1}, VertexOrder{0, 2, 1, 3}}
+                            : std::array{VertexOrder{2, 3, 0, 1}, VertexOrder{1, 0, 2, 3}};
+    for (const VertexOrder& order : orders) ASSERT_EQ(collides(permuted(query, order)), truth);
+    ASSERT_EQ(collides(permuted(query, {0, 1, 2, 3}, true)), truth);
+    ASSERT_EQ(collides(scaled(query, -std::ldexp(1.0, -900))), truth);
+    ASSERT_EQ(collides(testing::moved(query, 1e6)), truth);
     Query mirrored = query;
     for (std::size_t k = 0; k < 24; k += 3) std::swap(mirrored.x[k], mirrored.x[k + 1]);
-    ASSERT_EQ(collides(mirrored), truth) << i;
+    ASSERT_EQ(collides(mirrored), truth);
   }
   EXPECT_GT(collisions, 300);
   EXPECT_LT(collisions, 2700);
@@ -237,15 +236,15 @@ TEST(Exact, DoesNotDependOnOrderDirectionScaleOrPlace) {
 
 // Independent of the algebra: a certified positive distance is no collision, and vice versa.
 TEST(Exact, AgreesWithTheCertifiedDistance) {
-  std::mt19937_64 random(6);
   int apart = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Query query = small_integers(random, kinds[static_cast<std::size_t>(i % 2)]);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const Query query = small_integers(6, i);
+    SCOPED_TRACE(testing::repeat(i, query));
     const auto approach = certified::closest_approach(certified::VertexDifferences(query),
                                                       [](double upper) { return 0.9 * upper; });
-    ASSERT_EQ(approach.enough, !collides(query)) << i;
+    ASSERT_EQ(approach.enough, !collides(query));
     if (!approach.enough) continue;
-    ASSERT_GT(approach.lower, 0) << i;
+    ASSERT_GT(approach.lower, 0);
     ++apart;
   }
   EXPECT_GT(apart, 300);

@@ -7,13 +7,13 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -67,47 +67,46 @@ void expect_collision(const Query& query, bool collision) {
 }
 
 /// Queries whose coordinates are what `coordinate` makes.
-void expect_consistency(int count, const std::function<double(std::mt19937_64&)>& coordinate) {
-  std::mt19937_64 random(1);
+void expect_consistency(std::size_t count, const std::function<double(Random&)>& coordinate) {
   Slowest slowest;
-  int collisions = 0;
-  for (int i = 0; i < count; ++i) {
-    Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
+  std::size_t collisions = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(1, 0, i);
+    Query query{.kind = testing::kind_of_case(i)};
     for (double& c : query.x) c = coordinate(random);
-    SCOPED_TRACE(i);
+    SCOPED_TRACE(testing::repeat(i, query));
     expect_consistent(query, slowest);
     collisions += collides(query) ? 1 : 0;
   }
   std::cout << "slowest decision: " << slowest.milliseconds() << " ms\n";
-  EXPECT_GT(collisions, 0);
+  EXPECT_GT(collisions, 0U);
   EXPECT_LT(collisions, count);
 }
 
-int integer(std::mt19937_64& random, int lo, int hi) {
-  return std::uniform_int_distribution<int>(lo, hi)(random);
-}
-
 TEST(Extremes, EveryExponentInOneQuery) {
-  expect_consistency(200, [](auto& random) {
-    return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(random), integer(random, -1074, 1023));
+  expect_consistency(200, [](Random& random) {
+    const double mantissa = random.uniform(-1, 1);
+    return std::ldexp(mantissa, random.integer(-1074, 1023));
   });
 }
 
 TEST(Extremes, TheSmallestBesideTheLargest) {
-  expect_consistency(200, [](auto& random) {
-    const double size = integer(random, 0, 1) == 0 ? smallest : largest;
-    return integer(random, -1, 1) * size;
+  expect_consistency(200, [](Random& random) {
+    const double size = random.one_in(2) ? smallest : largest;
+    return random.integer(-1, 1) * size;
   });
 }
 
 TEST(Extremes, RootsCloserThanDoublesAre) {
   for (const int exponent : {-60, -201, -500}) {
-    expect_consistency(300, [&](auto& random) {
-      const int size = integer(random, 0, 3);
-      return integer(random, -2, 2) + (size == 0 ? std::ldexp(1.0, exponent) * integer(random, -2, 2) : 0.0);
+    expect_consistency(300, [&](Random& random) {
+      const int whole = random.integer(-2, 2);
+      const int part = random.integer(-2, 2);
+      return whole + (random.one_in(4) ? std::ldexp(part, exponent) : 0.0);
     });
-    expect_consistency(300, [&](auto& random) {
-      return integer(random, -2, 2) * std::ldexp(1.0, integer(random, 0, 3) == 0 ? exponent : 0);
+    expect_consistency(300, [&](Random& random) {
+      const int whole = random.integer(-2, 2);
+      return std::ldexp(whole, random.one_in(4) ? exponent : 0);
     });
   }
 }

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 
 #include "oracle/oracle.hpp"
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -90,12 +90,12 @@ TEST(Features, KnowPrimitivesWithoutANormal) {
 }
 
 TEST(Features, FitTheSecondAnswer) {
-  std::mt19937_64 random(3);
   int collisions = 0;
   int at_border = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], 2);
-    SCOPED_TRACE(i);
+  for (std::size_t i = 0; i < 4000; ++i) {
+    Random random(3, 0, i);
+    const Query query = testing::integer_query(random, testing::kind_of_case(i), 2);
+    SCOPED_TRACE(testing::repeat(i, query));
     const auto features = contact_features(query);
     const RootCount count = count_roots(query);
     ASSERT_EQ(features.has_value(), count.collision);
@@ -107,7 +107,7 @@ TEST(Features, FitTheSecondAnswer) {
     EXPECT_EQ(features->time == ContactFeatures::Time::end, earliest_time(query)->rational == "1");
     if (count.distinct != 1) continue;  // else the first contact is the only one
     EXPECT_EQ(features->multiplicity == Multiplicity::multiple, count.with_multiplicity > 1);
-    const bool within = features->place == ContactFeatures::Place::interior && !features->degenerate &&
+    const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&
                         features->time == ContactFeatures::Time::inside;
     EXPECT_EQ(!within, count.on_boundary);
     at_border += within ? 0 : 1;

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -45,11 +45,12 @@ std::vector<Said> said_by_all(const Query& query) {
   return said;
 }
 
-void expect_right(const Named& named) {
+void expect_right(const Named& named, std::size_t index = 0) {
   const bool collision = collides_exactly(named.query);
   for (const Said& said : said_by_all(named.query))
     if (said.stage != FilterStage::undecided) {
-      EXPECT_EQ(is_collision(said.stage), collision) << named.name << " by " << said.by;
+      EXPECT_EQ(is_collision(said.stage), collision)
+          << named.name << " by " << said.by << ", " << testing::repeat(index, named.query);
     }
 }
 
@@ -174,24 +175,23 @@ TEST(FilterRange, DecidesWhereNothingIsNearUnderflow) {
 }
 
 /// The same with a few coordinates moved.
-Query neighbour(std::mt19937_64& random, Query query) {
-  const auto any = [&](std::size_t below) { return static_cast<std::size_t>(random() % below); };
+Query neighbour(Random& random, Query query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   for (int moves = 0; moves < 3; ++moves) {
-    double& c = query.x[any(24)];
-    c += (static_cast<double>(any(5)) - 2) / 4 * (c == 0 ? largest : std::abs(c));
+    double& c = query.x[static_cast<std::size_t>(random.integer(0, 23))];
+    c += random.integer(-2, 2) / 4.0 * (c == 0 ? largest : std::abs(c));
   }
   return query;
 }
 
 // At every exponent at which a product of two or three, or their sum, may leave the range of double.
 TEST(FilterRange, IsRightAtEveryExponentNearTheEndsOfTheRange) {
-  std::mt19937_64 random(1);
   const auto expect_neighbours_right = [&](const std::string& name, const Query& query, int xy, int z) {
-    for (int i = 0; i < 60; ++i) {
+    for (std::size_t i = 0; i < 60; ++i) {
+      Random random(1, static_cast<std::uint64_t>(xy), i);
       const Query some = stretched(i == 0 ? query : neighbour(random, query), xy, z);
-      expect_right({name + " " + std::to_string(xy) + " " + std::to_string(i), some});
+      expect_right({name + " times 2^" + std::to_string(xy) + ", neighbour", some}, i);
     }
   };
   for (const auto& [name, query] :

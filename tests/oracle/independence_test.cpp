@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -49,6 +50,30 @@ TEST(Independence, TheOracleUsesOfTheAccusedTheirInterfaceAlone) {
       if (header.starts_with("ccd/")) follow(header, borrowed);
   EXPECT_THAT(borrowed,
               ::testing::UnorderedElementsAre("ccd/query.hpp", "ccd/arithmetic.hpp", "ccd/subject.hpp"));
+}
+
+/// The sub-folder of oracle/ that a header is in; "" for oracle/ itself and for other folders.
+std::string part_of(const std::string& header) {
+  const fs::path path(header);
+  return *path.begin() == "oracle" && path.parent_path() != "oracle" ? path.parent_path().filename() : "";
+}
+
+TEST(Independence, APartOfTheOracleIncludesFromItselfAndTheseAlone) {
+  const std::map<std::string, std::set<std::string>> parts{
+      {"arithmetic", {}}, {"filter", {"arithmetic"}},           {"exact", {}}, {"sturm", {}},
+      {"parity", {}},     {"distance", {"arithmetic", "exact"}}};
+  std::set<std::string> found;
+  for (const fs::path& file : code("oracle")) {
+    const std::string part = part_of(fs::relative(file, source));
+    if (part.empty()) continue;
+    ASSERT_TRUE(parts.contains(part)) << file;
+    found.insert(part);
+    for (const std::string& header : includes(file))
+      if (header.starts_with("oracle/") && part_of(header) != part) {
+        EXPECT_TRUE(parts.at(part).contains(part_of(header))) << file << " includes " << header;
+      }
+  }
+  EXPECT_EQ(found.size(), parts.size());
 }
 
 TEST(Independence, AFolderIncludesFromThoseBeforeItAlone) {

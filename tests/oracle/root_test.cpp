@@ -1,13 +1,14 @@
 // Roots of polynomials and signs at them, beside CGAL's algebraic kernel.
-#include "oracle/root.hpp"
+#include "oracle/exact/root.hpp"
 
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpz.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <vector>
+
+#include "fuzz/random.hpp"
 
 namespace nearmiss::exact {
 namespace {
@@ -17,22 +18,22 @@ Polynomial polynomial(const std::vector<double>& coefficients) {
 }
 
 TEST(Number, DividesWhatItCanWithoutRemainder) {
-  std::mt19937_64 random(2);
-  const auto number = [&] {
+  const auto number = [](Random& random) {
     Number x = 1;
-    for (std::uint64_t i = random() % 5; i < 5; ++i)
-      x = x * Number(
-                  std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 300) - 150)) +
-          Number(static_cast<double>(random() % 3));
+    for (int i = random.integer(0, 4); i < 5; ++i) {
+      const double factor = random.uniform() * 0x1p53;
+      x = x * Number(std::ldexp(factor, random.integer(-150, 149))) + Number(random.integer(0, 2));
+    }
     return x;
   };
-  for (int i = 0; i < 100000; ++i) {
-    const Number a = number();
-    const Number b = number();
+  for (std::uint64_t i = 0; i < 100000; ++i) {
+    Random random(2, 0, i);
+    const Number a = number(random);
+    const Number b = number(random);
     const Number product = a * b;
     if (CGAL::is_zero(b)) continue;
     const Number quotient = product / b;
-    ASSERT_EQ(quotient, a);
+    ASSERT_EQ(quotient, a) << "case " << i << ", divided by " << b;
     ASSERT_TRUE(quotient.is_canonical());
   }
 }
@@ -149,8 +150,8 @@ TEST(Root, ComparisonNarrowsOnlyTheWiderInterval) {
 
 // --- beside CGAL ------------------------------------------------------------------------------------------
 
-using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
-using Reference = Kernel::Polynomial_1;
+using AlgebraicKernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
+using Reference = AlgebraicKernel::Polynomial_1;
 
 /// A polynomial with coefficients that are integers.
 struct Both {
@@ -160,6 +161,8 @@ struct Both {
 
 class Integers {
  public:
+  explicit Integers(std::uint64_t index) : random_(1, 0, index) {}
+
   /// A product of factors with small coefficients, some of them more than once, or a factor and a small
   /// change.
   Both polynomial(int degree) {
@@ -177,7 +180,7 @@ class Integers {
     return p;
   }
 
-  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
+  int between(int lo, int hi) { return random_.integer(lo, hi); }
 
  private:
   Both factor(int degree) {
@@ -191,20 +194,21 @@ class Integers {
     return {Polynomial(here), Reference(there.begin(), there.end())};
   }
 
-  std::mt19937 engine_{1};
+  Random random_;
 };
 
 TEST(Root, AgreesWithTheAlgebraicKernel) {
-  Integers integers;
-  const Kernel kernel;
+  const AlgebraicKernel kernel;
   std::size_t found = 0;
   std::size_t zeros = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    Integers integers(i);
+    SCOPED_TRACE(i);
     const Both p = integers.polynomial(integers.between(1, 6));
-    std::vector<Kernel::Algebraic_real_1> reference;
+    std::vector<AlgebraicKernel::Algebraic_real_1> reference;
     kernel.solve_1_object()(p.there, false, std::back_inserter(reference));
     std::erase_if(reference, [](const auto& t) {
-      return t < Kernel::Algebraic_real_1(0) || t > Kernel::Algebraic_real_1(1);
+      return t < AlgebraicKernel::Algebraic_real_1(0) || t > AlgebraicKernel::Algebraic_real_1(1);
     });
     auto roots = roots_in_step(p.here);
     ASSERT_EQ(roots.size(), reference.size()) << p.there;
@@ -220,10 +224,10 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
       }
     }
     // Roots of another polynomial, in order among these.
-    std::vector<Kernel::Algebraic_real_1> others;
+    std::vector<AlgebraicKernel::Algebraic_real_1> others;
     kernel.solve_1_object()(both.there, false, std::back_inserter(others));
     std::erase_if(others, [](const auto& t) {
-      return t < Kernel::Algebraic_real_1(0) || t > Kernel::Algebraic_real_1(1);
+      return t < AlgebraicKernel::Algebraic_real_1(0) || t > AlgebraicKernel::Algebraic_real_1(1);
     });
     auto other_roots = roots_in_step(both.here);
     ASSERT_EQ(other_roots.size(), others.size());

@@ -1,5 +1,5 @@
 // The certified bounds of distances: their errors against rational arithmetic.
-#include "oracle/separation.hpp"
+#include "oracle/distance/separation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,43 +7,45 @@
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <cmath>
-#include <random>
 #include <vector>
 
-#include "oracle/moment.hpp"
-#include "oracle/proximity.hpp"
-#include "oracle/wide.hpp"
+#include "oracle/distance/moment.hpp"
+#include "oracle/distance/proximity.hpp"
+#include "oracle/distance/wide.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss::certified {
 
 /// How often the products that a number is a sum of are rounded, at most. A vertex difference is the sum of two
 /// doubles here, which counts as the rounding that it has in double.
-struct Roundings {
+struct RoundingCount {
   int count = 0;
 
-  Roundings() = default;
-  explicit Roundings(double /*exact*/) {}
-  static Roundings of(int roundings) {
-    Roundings r;
+  RoundingCount() = default;
+  explicit RoundingCount(double /*exact*/) {}
+  static RoundingCount of(int roundings) {
+    RoundingCount r;
     r.count = roundings;
     return r;
   }
   explicit operator double() const { return count; }
 
-  friend Roundings operator+(const Roundings& a, const Roundings& b) {
+  friend RoundingCount operator+(const RoundingCount& a, const RoundingCount& b) {
     return of(std::max(a.count, b.count) + 1);
   }
-  friend Roundings operator-(const Roundings& a, const Roundings& b) { return a + b; }
-  friend Roundings operator*(const Roundings& a, const Roundings& b) { return of(a.count + b.count + 1); }
-  friend Roundings operator-(const Roundings& a) { return a; }
+  friend RoundingCount operator-(const RoundingCount& a, const RoundingCount& b) { return a + b; }
+  friend RoundingCount operator*(const RoundingCount& a, const RoundingCount& b) {
+    return of(a.count + b.count + 1);
+  }
+  friend RoundingCount operator-(const RoundingCount& a) { return a; }
 };
 template <>
-inline constexpr double roundoff<Roundings> = 1;
+inline constexpr double roundoff<RoundingCount> = 1;
 
 namespace {
 
 using Rational = boost::multiprecision::mpq_rational;
-using Exact = std::array<Rational, 3>;
+using ExactVector = std::array<Rational, 3>;
 
 /// The vertices of a query at a time, exactly, in the unit of its differences.
 class ExactVertices {
@@ -54,19 +56,19 @@ class ExactVertices {
     for (int i = 0; i < std::abs(exponent); ++i) unit_ *= exponent > 0 ? Rational(2) : Rational(1, 2);
   }
 
-  [[nodiscard]] Exact position(std::size_t i, std::size_t j) const {
+  [[nodiscard]] ExactVector position(std::size_t i, std::size_t j) const {
     return difference(i, j, [&](const Rational& start, const Rational& end) {
       return Rational((1 - t_) * start + t_ * end);
     });
   }
-  [[nodiscard]] Exact velocity(std::size_t i, std::size_t j) const {
+  [[nodiscard]] ExactVector velocity(std::size_t i, std::size_t j) const {
     return difference(i, j, [](const Rational& start, const Rational& end) { return Rational(end - start); });
   }
 
  private:
   template <class Formula>
-  [[nodiscard]] Exact difference(std::size_t i, std::size_t j, const Formula& formula) const {
-    Exact v;
+  [[nodiscard]] ExactVector difference(std::size_t i, std::size_t j, const Formula& formula) const {
+    ExactVector v;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = [&](std::size_t time) {
         return Rational(Rational(query_.x[12 * time + 3 * i + k]) -
@@ -81,25 +83,23 @@ class ExactVertices {
   Rational t_, unit_ = 1;
 };
 
-Exact cross(const Exact& v, const Exact& w) {
+ExactVector cross(const ExactVector& v, const ExactVector& w) {
   return {Rational(v[1] * w[2] - v[2] * w[1]), Rational(v[2] * w[0] - v[0] * w[2]),
           Rational(v[0] * w[1] - v[1] * w[0])};
 }
-Rational dot(const Exact& v, const Exact& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
-Exact exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
+Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+ExactVector exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
 /// Coordinates of one size, of sizes of their own, and so large or small that differences overflow or products
 /// underflow.
-std::vector<Query> all_sorts(int each) {
-  std::mt19937_64 random(20);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
+std::vector<Query> all_sorts(std::size_t each) {
   std::vector<Query> queries;
   for (const auto& [smallest, largest] :
        {std::pair{0, 0}, {-60, 0}, {-1040, -1000}, {1000, 1023}, {-300, 300}, {-1070, 1023}}) {
-    std::uniform_int_distribution<int> exponent(smallest, largest);
-    for (int i = 0; i < each; ++i) {
-      Query query{.kind = kinds[static_cast<std::size_t>(i) % 2]};
-      for (double& c : query.x) c = std::ldexp(coordinate(random), exponent(random));
+    for (std::size_t i = 0; i < each; ++i) {
+      Random random(20, static_cast<std::uint64_t>(smallest), i);
+      Query query = testing::uniform_query(random, testing::kind_of_case(i));
+      for (double& c : query.x) c = std::ldexp(c, random.integer(smallest, largest));
       queries.push_back(query);
     }
   }
@@ -119,26 +119,28 @@ double expect_within(const Product& product, const std::array<Rational, 4>& exac
 }
 
 template <class Real>
-struct Precision : ::testing::Test {};
+struct SeparationErrors : ::testing::Test {};
 using Reals = ::testing::Types<double, DoubleWord, Wide>;
-TYPED_TEST_SUITE(Precision, Reals);
+TYPED_TEST_SUITE(SeparationErrors, Reals);
 
 /// Random bits of a precision, at any exponent that differences have.
-Wide random_wide(std::mt19937_64& random) {
+Wide random_wide(Random& random) {
   Wide x = 1;
-  for (int i = 0; i < 6; ++i) x = ldexp(x, 64) + Wide(random());
-  return ldexp(x, static_cast<int>(random() % 2000) - 1400) * (random() % 2 == 0 ? 1 : -1);
+  for (int i = 0; i < 6; ++i) x = ldexp(x, 64) + Wide(random.bits());
+  x = ldexp(x, random.integer(-1400, 599));
+  return random.one_in(2) ? x : -x;
 }
 
 TEST(WideNumbers, RoundSumsAndProductsAndDoublesAsErrorsAssume) {
-  std::mt19937_64 random(8);
   const auto expect_near = [](const Rational& found, const Rational& exact, unsigned digits) {
     EXPECT_LE(Rational(abs(found - exact) * Rational(boost::multiprecision::mpz_int(1) << digits)),
               abs(exact));
   };
-  for (int i = 0; i < 2000; ++i) {
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Random random(8, 0, i);
     const Wide x = random_wide(random), y = random_wide(random);
-    const Wide near = -x * (1 + ldexp(Wide(1), -static_cast<int>(random() % 400)));
+    SCOPED_TRACE(::testing::Message() << "case " << i << ": " << x << " and " << y);
+    const Wide near = -x * (1 + ldexp(Wide(1), -random.integer(0, 399)));
     const Rational exact_x(x), exact_y(y);
     expect_near(Rational(Wide(x * y)), Rational(exact_x * exact_y), 384U);
     expect_near(Rational(Wide(x + y)), Rational(exact_x + exact_y), 384U);
@@ -148,7 +150,7 @@ TEST(WideNumbers, RoundSumsAndProductsAndDoublesAsErrorsAssume) {
   }
 }
 
-TYPED_TEST(Precision, NormalsProductsAreWithinTheirErrors) {
+TYPED_TEST(SeparationErrors, NormalsProductsAreWithinTheirErrors) {
   for (const Query& query : all_sorts(60))
     for (const double t : {0.0, 0.3, 1.0}) {
       const VertexDifferences differences(query);
@@ -157,8 +159,8 @@ TYPED_TEST(Precision, NormalsProductsAreWithinTheirErrors) {
       const bool triangle = query.kind == Kind::vertex_triangle;
       const std::size_t origin = triangle ? 1 : 2;
       const std::size_t q_to = triangle ? 2 : 0;
-      const Exact q = x.position(q_to, 1), r = x.position(3, origin), p = x.position(0, origin);
-      const Exact v = x.velocity(q_to, 1), w = x.velocity(3, origin), u = x.velocity(0, origin);
+      const ExactVector q = x.position(q_to, 1), r = x.position(3, origin), p = x.position(0, origin);
+      const ExactVector v = x.velocity(q_to, 1), w = x.velocity(3, origin), u = x.velocity(0, origin);
       std::array<Rational, 4> F{Rational(dot(cross(q, r), p)),
                                 Rational(dot(cross(v, r), p) + dot(cross(q, w), p) + dot(cross(q, r), u)),
                                 Rational(dot(cross(v, w), p) + dot(cross(v, r), u) + dot(cross(q, w), u)),
@@ -172,7 +174,7 @@ TYPED_TEST(Precision, NormalsProductsAreWithinTheirErrors) {
     }
 }
 
-TYPED_TEST(Precision, EdgesProductsAreWithinTheirErrors) {
+TYPED_TEST(SeparationErrors, EdgesProductsAreWithinTheirErrors) {
   const Vec<double> direction{0.6, -0.64, 0.48};
   for (const Query& query : all_sorts(60))
     for (const double t : {0.0, 0.3, 1.0}) {
@@ -182,15 +184,15 @@ TYPED_TEST(Precision, EdgesProductsAreWithinTheirErrors) {
       if (separation.count == 0) continue;
       const ExactVertices x(query, differences, Rational(t));
       const Vec<double> edge = to_double(rounded.position(3, 2));
-      const Exact k = exactly((1 / certified::dot(edge, edge)) * certified::cross(direction, edge));
-      const Exact n0 = cross(x.position(3, 2), k), n1 = cross(x.velocity(3, 2), k);
+      const ExactVector k = exactly((1 / certified::dot(edge, edge)) * certified::cross(direction, edge));
+      const ExactVector n0 = cross(x.position(3, 2), k), n1 = cross(x.velocity(3, 2), k);
       EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]), dot(n0, n0));
       EXPECT_GE(Rational(separation.length[1]) * Rational(separation.length[1]), dot(n1, n1));
       std::size_t count = 0;
       for (std::size_t i = 0; i < second_primitive(query.kind); ++i)
         for (std::size_t j = second_primitive(query.kind); j < 4; ++j) {
           if (j == 3) continue;
-          const Exact p = x.position(i, j), w = x.velocity(i, j);
+          const ExactVector p = x.position(i, j), w = x.velocity(i, j);
           ASSERT_LT(count, separation.count);
           expect_within(
               separation.products[count++],
@@ -200,7 +202,7 @@ TYPED_TEST(Precision, EdgesProductsAreWithinTheirErrors) {
     }
 }
 
-TYPED_TEST(Precision, ConstantsProductsAreWithinTheirErrors) {
+TYPED_TEST(SeparationErrors, ConstantsProductsAreWithinTheirErrors) {
   const Vec<double> direction{0.6, -0.64, 0.48};
   for (const Query& query : all_sorts(60)) {
     const VertexDifferences differences(query);
@@ -217,7 +219,7 @@ TYPED_TEST(Precision, ConstantsProductsAreWithinTheirErrors) {
   }
 }
 
-TYPED_TEST(Precision, UpperBoundsAreAboveTheDistance) {
+TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
   for (const Query& query : all_sorts(10))
     for (const double t : {0.0, 0.3, 1.0}) {
       const VertexDifferences differences(query);
@@ -241,7 +243,7 @@ constexpr double three_vectors = 1.154700538379252;  // 2 / √3, rounded up
 TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   for (const Query& query : all_sorts(6)) {
     const VertexDifferences differences(query);
-    const VerticesAt<Roundings> x(differences, Roundings(0.3));
+    const VerticesAt<RoundingCount> x(differences, RoundingCount(0.3));
     const std::size_t second = second_primitive(query.kind);
 
     const Vec<double> direction{0.6, -0.64, 0.48};
@@ -267,7 +269,7 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);
-  const VerticesAt<Roundings> x(differences, Roundings(0.3));
+  const VerticesAt<RoundingCount> x(differences, RoundingCount(0.3));
   const auto counts = [](const Separation& separation) { return separation.products[0].coefficients; };
   EXPECT_EQ(counts(separate_by_constant(x, {0.6, -0.64, 0.48})), (std::array<double, 4>{7, 5, 0, 0}));
   EXPECT_EQ(counts(separate_by_edge(x, 2, 3, {0.6, -0.64, 0.48})), (std::array<double, 4>{13, 12, 9, 0}));

@@ -1,31 +1,30 @@
 // The second answer: roots counted, and the same truth as the first.
-#include "oracle/sturm.hpp"
+#include "oracle/sturm/sturm.hpp"
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "oracle/integer_polynomial.hpp"
 #include "oracle/oracle.hpp"
+#include "oracle/sturm/integer_polynomial.hpp"
 #include "tests/queries.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
 
 using sturm::Integer;
-using sturm::Polynomial;
+using sturm::IntegerPolynomial;
 
 TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
   // t (t - 1) (2t - 1) (t - 2) (9t² - 2): roots 0, 1, 1/2 and √2/3 in [0, 1].
-  const Polynomial t({0, 1});
-  const Polynomial f =
-      t * (t - Polynomial({1})) * Polynomial({-1, 2}) * Polynomial({-2, 1}) * Polynomial({-2, 0, 9});
+  const IntegerPolynomial t({0, 1});
+  const IntegerPolynomial f = t * (t - IntegerPolynomial({1})) * IntegerPolynomial({-1, 2}) *
+                              IntegerPolynomial({-2, 1}) * IntegerPolynomial({-2, 0, 9});
   const auto roots = sturm::roots_in_unit_interval(f * f);
   ASSERT_EQ(roots.size(), 4);
   int below_half = 0;
   for (const auto& root : roots) {
     EXPECT_EQ(root.sign(f), 0);
-    below_half += root.sign(Polynomial({-1, 2})) < 0 ? 1 : 0;
+    below_half += root.sign(IntegerPolynomial({-1, 2})) < 0 ? 1 : 0;
   }
   EXPECT_EQ(below_half, 2);
 }
@@ -33,19 +32,19 @@ TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
 TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
   // 2^602 ((t - 1/2)² - 2^-600)
   const Integer scale = Integer(1) << 602;
-  const auto roots = sturm::roots_in_unit_interval(Polynomial({scale / 4 - 4, -scale, scale}));
+  const auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({scale / 4 - 4, -scale, scale}));
   ASSERT_EQ(roots.size(), 2);
-  EXPECT_EQ(roots[0].sign(Polynomial({-1, 2})) * roots[1].sign(Polynomial({-1, 2})), -1);
+  EXPECT_EQ(roots[0].sign(IntegerPolynomial({-1, 2})) * roots[1].sign(IntegerPolynomial({-1, 2})), -1);
 }
 
 TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
   // f = -(3t - 1)(t - 3): one root, 1/3, in [0, 1]; 1 - 4t is negative there.
-  const Polynomial f({-3, 10, -3});
+  const IntegerPolynomial f({-3, 10, -3});
   const auto roots = sturm::roots_in_unit_interval(f);
   ASSERT_EQ(roots.size(), 1);
-  EXPECT_EQ(roots[0].sign(Polynomial({1, -4})), -1);
-  EXPECT_EQ(roots[0].sign(Polynomial({-1, 3})), 0);
-  EXPECT_EQ(roots[0].sign(Polynomial({0, 0, 0, 0, 1})), 1);
+  EXPECT_EQ(roots[0].sign(IntegerPolynomial({1, -4})), -1);
+  EXPECT_EQ(roots[0].sign(IntegerPolynomial({-1, 3})), 0);
+  EXPECT_EQ(roots[0].sign(IntegerPolynomial({0, 0, 0, 0, 1})), 1);
 }
 
 TEST(CountRoots, OneTwoAndThree) {
@@ -63,14 +62,14 @@ TEST(CountRoots, KnowsTheBoundary) {
   EXPECT_TRUE(count_roots(Query{}).planar);
 }
 
-class Agreement : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Range, Agreement, ::testing::Values(1, 2, 3));
+class SturmAgainstExact : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Range, SturmAgainstExact, ::testing::Values(1, 2, 3));
 
-TEST_P(Agreement, WithTheFirstAnswerOnSmallIntegers) {
-  std::mt19937_64 random(5);
-  for (int i = 0; i < 2000; ++i) {
-    const Query query = testing::integer_query(random, kinds[static_cast<std::size_t>(i) % 2], GetParam());
-    ASSERT_EQ(count_roots(query).collision, collides_exactly(query)) << "case " << i;
+TEST_P(SturmAgainstExact, AgreeOnSmallIntegers) {
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Random random(5, 0, i);
+    const Query query = testing::integer_query(random, testing::kind_of_case(i), GetParam());
+    ASSERT_EQ(count_roots(query).collision, collides_exactly(query)) << testing::repeat(i, query);
   }
 }
 

@@ -7,25 +7,22 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
 
 #include "oracle/oracle.hpp"
+#include "tests/random_queries.hpp"
 
 namespace nearmiss {
 namespace {
 
 /// Small integers, so that primitives often touch, are degenerate, or lie in one plane; each primitive has one
 /// velocity.
-Query translating_query(std::mt19937_64& random, Kind kind, bool rest) {
-  std::uniform_int_distribution<int> coordinate(-3, 3);
+Query translating_query(Random& random, Kind kind, bool rest) {
   Query query{.kind = kind};
   std::array<Vector3<double>, 2> velocities;
-  for (auto& velocity : velocities)
-    velocity = {double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
+  for (auto& velocity : velocities) velocity = random.integer_vector(3);
   if (rest) velocities[1] = velocities[0];
   for (int i = 0; i < 4; ++i) {
-    const Vector3<double> p{double(coordinate(random)), double(coordinate(random)),
-                            double(coordinate(random))};
+    const Vector3<double> p = random.integer_vector(3);
     query.set_start(i, p);
     query.set_end(i, p + velocities[i < split(kind) ? 0 : 1]);
   }
@@ -47,19 +44,19 @@ TEST(Translation, AVelocityThatIsNoDoubleIsNotRounded) {
 }
 
 TEST(Translation, AgreesWithExactArithmetic) {
-  std::mt19937_64 random(1);
   int met = 0;
   int apart = 0;
-  for (int n = 0; n < 40000; ++n) {
+  for (std::size_t n = 0; n < 40000; ++n) {
     const bool rest = n % 3 == 0;
-    const Query query = translating_query(random, kinds[static_cast<std::size_t>(n % 2)], rest);
+    Random random(1, 0, n);
+    const Query query = translating_query(random, testing::kind_of_case(n), rest);
     const RelativeMotion motion = relative_motion(query);
-    ASSERT_NE(motion, RelativeMotion::other) << n;
-    ASSERT_TRUE(!rest || motion == RelativeMotion::rest) << n;
+    ASSERT_NE(motion, RelativeMotion::other) << testing::repeat(n, query);
+    ASSERT_TRUE(!rest || motion == RelativeMotion::rest) << testing::repeat(n, query);
     const auto answer = meets_by_translation(query);
     if (!answer) continue;
     ++(*answer ? met : apart);
-    ASSERT_EQ(*answer, collides_exactly(query)) << n;
+    ASSERT_EQ(*answer, collides_exactly(query)) << testing::repeat(n, query);
   }
   EXPECT_GT(met, 2000);
   EXPECT_GT(apart, 10000);

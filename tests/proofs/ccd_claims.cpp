@@ -44,11 +44,11 @@ std::function<Problem()> vertices_of(Reach reach, VertexPart part) {
   return [=] { return exact_vertices(reach, part); };
 }
 
-void append(std::vector<Claim>& all, std::vector<Claim> more) {
+void append(std::vector<CcdClaim>& all, std::vector<CcdClaim> more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-std::vector<Claim> printed_claims() {
+std::vector<CcdClaim> printed_claims() {
   constexpr auto here = "printed_errors, ccd/constraints.hpp";
   constexpr auto paper = "the paper, 4.4";
   return {
@@ -78,11 +78,11 @@ std::vector<Claim> printed_claims() {
       {"VV: x.v", "the paper, 4.2", 9, proven::dot, b2, exact, vertices_of(near, VertexPart::xv)},
       {"VV: v.v", "the paper, 4.2", 9, proven::dot, b2, exact, vertices_of(near, VertexPart::vv)},
       {"VV: time", "the paper, 4.2", 12, proven::time, "eps B/b", exact, vertices_of(near, VertexPart::time),
-       Claim::underflow_of_time},
+       CcdClaim::underflow_of_time},
   };
 }
 
-std::vector<Claim> full_claims() {
+std::vector<CcdClaim> full_claims() {
   constexpr auto here = "full_errors, ccd/constraints.hpp";
   return {
       {"area", here, factor(full.area), proven::normal, b2, edges,
@@ -108,10 +108,10 @@ std::vector<Claim> full_claims() {
 }
 
 /// Bounds that stand beside constants of the paper in the audit alone.
-std::vector<Claim> audited_claims() {
+std::vector<CcdClaim> audited_claims() {
   const auto only = [](std::string_view name, std::string_view constant, double bound, std::string_view unit,
                        std::string_view how, const std::function<Problem()>& problem) {
-    return Claim{name, constant, bound, bound, unit, how, problem};
+    return CcdClaim{name, constant, bound, bound, unit, how, problem};
   };
   return {
       only("EE: weight, far p", "weight_far, ccd/proven.hpp", proven::weight_far, b4, edges,
@@ -123,9 +123,9 @@ std::vector<Claim> audited_claims() {
 }
 
 /// The parts of δ.
-std::vector<Claim> delta_claims() {
+std::vector<CcdClaim> delta_claims() {
   constexpr auto here = "delta, ccd/proven.hpp";
-  std::vector<Claim> all;
+  std::vector<CcdClaim> all;
   for (const Reach reach : {near, far}) {
     const bool is_far = reach == far;
     const double distance = is_far ? proven::squared_distance_far : proven::squared_distance;
@@ -135,15 +135,15 @@ std::vector<Claim> delta_claims() {
                    vertices_of(reach, VertexPart::squared_distance)});
     all.push_back({is_far ? "VV of EE: vectors" : "VV: vectors", here, vectors, vectors, b2,
                    "Gappa, rounding of vectors alone", [=] { return vertices(reach); },
-                   Claim::underflow_of_vectors, true});
+                   CcdClaim::underflow_of_vectors, true});
     if (is_far)
       all.push_back({"VV of EE: time", here, time, time, "eps B/b", exact,
-                     vertices_of(reach, VertexPart::time), Claim::underflow_of_time});
+                     vertices_of(reach, VertexPart::time), CcdClaim::underflow_of_time});
   }
   return all;
 }
 
-std::vector<Claim> cubic_claims() {
+std::vector<CcdClaim> cubic_claims() {
   constexpr auto here = "coplanarity, ccd/cubic.hpp";
   const auto of_exact = [](CubicPart part) { return [=] { return exact_cubic(part); }; };
   return {
@@ -165,7 +165,7 @@ std::vector<Claim> cubic_claims() {
   };
 }
 
-std::vector<Claim> other_claims() {
+std::vector<CcdClaim> other_claims() {
   constexpr auto motion = "bound_needs, ccd/motion.hpp";
   constexpr auto margin = "bound_margin - bound_needs, ccd/motion.hpp";
   constexpr auto culled = "weight_error + spread_error, ccd/ve_culling.hpp";
@@ -197,8 +197,8 @@ std::vector<Claim> other_claims() {
 
 }  // namespace
 
-std::vector<Claim> ccd_claims() {
-  std::vector<Claim> all = printed_claims();
+std::vector<CcdClaim> ccd_claims() {
+  std::vector<CcdClaim> all = printed_claims();
   append(all, full_claims());
   append(all, audited_claims());
   append(all, delta_claims());

@@ -17,10 +17,9 @@ namespace {
 
 constexpr Kind vt = Kind::vertex_triangle;
 constexpr Kind ee = Kind::edge_edge;
-using Comparisons = std::vector<std::pair<Traced, Traced>>;
 
 /// The coordinates of four vertices at both times.
-struct Points {
+struct TracedPoints {
   std::array<Traced, 24> x;
 };
 
@@ -31,8 +30,8 @@ constexpr std::array<double, 24> falling_vertex{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0
 constexpr std::array<double, 24> falling_edge{-1, 0, 1,  1, 0, 1,  0, -1, 0, 0, 1, 0,
                                               -1, 0, -1, 1, 0, -1, 0, -1, 0, 0, 1, 0};
 
-Points points(Trace& trace, Kind kind) {
-  Points all;
+TracedPoints points(Trace& trace, Kind kind) {
+  TracedPoints all;
   const auto& samples = kind == vt ? falling_vertex : falling_edge;
   for (std::size_t i = 0; i < 24; ++i) {
     const std::string name{'x', static_cast<char>('0' + i / 3 % 4), i < 12 ? 's' : 'e',
@@ -84,7 +83,7 @@ Problem configuration(Reach reach, ConfigurationPart part) {
     problem.degree = part == ConfigurationPart::normal ? 2 : 4;
     return problem;
   }
-  Comparisons kept;
+  TracedPairs kept;
   const KeptComparisons log(kept);
   Tolerances<Traced> tol{};
   if (part == ConfigurationPart::height) {
@@ -181,15 +180,15 @@ Culling culling() {
   if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), configuration, problem.time, tol))
     throw std::runtime_error("the sample of a collision is taken for none");
   // Decisions end with h > 1, then w < -slack and N·N + slack < w for each weight.
-  const auto& decisions = problem.trace->decisions();
-  const auto last = decisions.size() - 1;
-  const Decision& h_above_1 = decisions.at(last - 2 * configuration.weights.size());
+  const auto& branches = problem.trace->branches();
+  const auto last = branches.size() - 1;
+  const Branch& h_above_1 = branches.at(last - 2 * configuration.weights.size());
   if (h_above_1.left->operation != Operation::constant || h_above_1.left->value != 1)
     throw std::runtime_error("the last comparison but those of weights is not with 1");
   problem.inputs.push_back({Traced(h_above_1.right), 0, 1, 0});
-  problem.left = Traced(decisions[last].right);
-  problem.right = Traced(decisions[last].left);
-  return {problem, Traced(decisions[last].left->right)};
+  problem.left = Traced(branches[last].right);
+  problem.right = Traced(branches[last].left);
+  return {problem, Traced(branches[last].left->right)};
 }
 
 Problem spread_of(Culling culling) {
@@ -200,14 +199,14 @@ Problem spread_of(Culling culling) {
 
 Problem near_edge(Reach reach, bool F) {
   Problem problem = begun();
-  const Points x = points(*problem.trace, vt);
+  const TracedPoints x = points(*problem.trace, vt);
   const VertexEdge<Traced> ve{relative_motion<Traced>(x, 0, 1), relative_motion<Traced>(x, 2, 1), {}};
   const double most = reach == Reach::far ? 2 : 1;
   problem.motions = {{ve.x0i, most, most}, {ve.xji}};
   problem.degree = 2;
   Tolerances<Traced> tol{};
   if (F) tol.S = threshold(problem, "S");
-  Comparisons kept;
+  TracedPairs kept;
   detail::near_edge(ve, problem.time, tol, KeptComparisons(kept));
   std::tie(problem.left, problem.right) = kept.at(F ? 3 : 2);
   return problem;
@@ -215,7 +214,7 @@ Problem near_edge(Reach reach, bool F) {
 
 /// The squared distance of two vertices, at a time that is given in place of the computed one.
 Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
-  Comparisons kept;
+  TracedPairs kept;
   problem.time = *vertex_vertex(ji, Tolerances<Traced>{}, KeptComparisons(kept));
   problem.inputs = {{problem.time, 0, 1, 0}};
   problem.left = kept.at(0).first;

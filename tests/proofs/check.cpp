@@ -18,7 +18,7 @@ namespace {
 constexpr double largest_allowed = 0x1p20;
 
 /// The arithmetics that a claim is proven for.
-std::vector<Arithmetic> arithmetics(const Claim& claim) {
+std::vector<Arithmetic> arithmetics(const CcdClaim& claim) {
   std::vector<Arithmetic> all;
   for (const int bits : precisions) all.push_back({bits, {}, claim.vectors_alone});
   all.push_back({53, claim.underflow, claim.vectors_alone});
@@ -27,7 +27,7 @@ std::vector<Arithmetic> arithmetics(const Claim& claim) {
 
 }  // namespace
 
-std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prover& prover) {
+std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover) {
   std::vector<std::string> all;
   const auto fault = [&](const std::string& text) { all.push_back(fmt::format("{}: {}", claim.name, text)); };
   if (!(claim.proven <= claim.claimed))
@@ -61,7 +61,7 @@ std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness
   return all;
 }
 
-std::vector<std::string> faults(const std::vector<Claim>& claims,
+std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses) {
   std::vector<std::string> all;
   std::mutex mutex;
@@ -94,10 +94,10 @@ double seen(const std::map<std::string, Witness>& witnesses, std::string_view cl
 
 }  // namespace
 
-std::vector<TableRow> rows_of(const std::vector<Claim>& claims,
+std::vector<TableRow> rows_of(const std::vector<CcdClaim>& claims,
                               const std::map<std::string, Witness>& witnesses) {
   std::vector<TableRow> rows;
-  for (const Claim& claim : claims)
+  for (const CcdClaim& claim : claims)
     rows.push_back({std::string(claim.name), std::string(claim.constant), std::string(claim.how),
                     std::string(claim.unit), claim.claimed, claim.proven, seen(witnesses, claim.name)});
   return rows;

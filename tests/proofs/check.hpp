@@ -13,10 +13,10 @@ namespace nearmiss::proofs {
 /// What is wrong with a claim, for people; nothing if all of this holds: Gappa proves the proven error in every
 /// precision, and in double with underflow; no result overflows; seen <= proven <= claimed; the witness has exactly
 /// the error that is recorded with it.
-std::vector<std::string> faults(const Claim& claim, const Witness& witness, Prover& prover);
+std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
 /// The same for all claims with the witnesses of a file, by two threads.
-std::vector<std::string> faults(const std::vector<Claim>& claims,
+std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
 /// What is wrong with a claim about oracle/ likewise: seen <= proven <= claimed, and what the witness shows.
@@ -29,7 +29,7 @@ struct TableRow {
 };
 
 /// The rows of claims about ccd/, and of those about oracle/.
-std::vector<TableRow> rows_of(const std::vector<Claim>& claims,
+std::vector<TableRow> rows_of(const std::vector<CcdClaim>& claims,
                               const std::map<std::string, Witness>& witnesses);
 std::vector<TableRow> rows_of(const std::vector<OracleClaim>& claims,
                               const std::map<std::string, Witness>& witnesses);

@@ -10,7 +10,7 @@
 namespace nearmiss::proofs {
 
 /// One bound that the code relies on, or that the paper has.
-struct Claim {
+struct CcdClaim {
   std::string_view name;      ///< unique
   std::string_view constant;  ///< identifier and file
   double claimed;
@@ -34,6 +34,6 @@ struct Claim {
 inline constexpr int precisions[] = {11, 24, 53, 64, 113, 256};
 
 /// All claims about ccd/, by file.
-std::vector<Claim> ccd_claims();
+std::vector<CcdClaim> ccd_claims();
 
 }  // namespace nearmiss::proofs

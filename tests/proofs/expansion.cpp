@@ -195,9 +195,10 @@ Expansion expand(const Program& program, int result, const Roundings& arithmetic
   return Expander(program, arithmetic).of(result);
 }
 
-Shares bound(const Expansion& terms, const MagnitudeOf& magnitude_of, const std::vector<std::string>& times) {
+BoundTerms bound(const Expansion& terms, const MagnitudeOf& magnitude_of,
+                 const std::vector<std::string>& times) {
   std::map<Monomial, InTimes> by_monomial;
-  Shares shares;
+  BoundTerms shares;
   for (const Term& term : terms) {
     Monomial magnitudes;
     std::vector<int> powers(2 * times.size());
@@ -211,7 +212,7 @@ Shares bound(const Expansion& terms, const MagnitudeOf& magnitude_of, const std:
       if (!is_time) magnitudes[magnitude_of(name)] += power;
     }
     by_monomial[magnitudes][powers] += abs(term.coefficient);
-    Share& share = shares[magnitudes];
+    BoundTerm& share = shares[magnitudes];
     share.roundings = std::max(share.roundings, term.roundings);
   }
   for (const auto& [monomial, polynomial] : by_monomial)

@@ -51,11 +51,11 @@ Expansion expand(const Traced& expression, const Roundings& arithmetic = in_doub
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
 /// A bound of |terms| of one sort: coefficient · monomial, with the most roundings that one of them has.
-struct Share {
+struct BoundTerm {
   Rational coefficient;
   int roundings = 0;
 };
-using Shares = std::map<Monomial, Share>;
+using BoundTerms = std::map<Monomial, BoundTerm>;
 
 /// The name of what bounds the magnitude of an input.
 using MagnitudeOf = std::function<std::string(const std::string&)>;
@@ -63,6 +63,7 @@ using MagnitudeOf = std::function<std::string(const std::string&)>;
 /// Σ |coefficient| Π |input| of terms, sorted by monomials of magnitudes, for all times in [0, 1]: with respect to
 /// each t of `times`, what belongs to a monomial is a polynomial in t and 1 - t with coefficients that are not
 /// negative, and the largest of its Bernstein coefficients bounds it.
-Shares bound(const Expansion& terms, const MagnitudeOf& magnitude_of, const std::vector<std::string>& times);
+BoundTerms bound(const Expansion& terms, const MagnitudeOf& magnitude_of,
+                 const std::vector<std::string>& times);
 
 }  // namespace nearmiss::proofs

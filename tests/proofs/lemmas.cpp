@@ -46,7 +46,7 @@ std::string convex_hints(const char* combination, const char* start, const char*
 /// The script on a motion.
 class MotionScript {
  public:
-  MotionScript(const Motion& motion, const Arithmetic& arithmetic)
+  MotionScript(const BoundedMotion& motion, const Arithmetic& arithmetic)
       : arithmetic_(arithmetic),
         ranges_(fmt::format("D in {} /\\ E in {} /\\ V in {} /\\ t in [0, 1]",
                             interval(-motion.start, motion.start), interval(-motion.end, motion.end),
@@ -91,8 +91,8 @@ class MotionScript {
 
 }  // namespace
 
-std::map<std::string, Enclosure> bounds_in(const std::string& output) {
-  std::map<std::string, Enclosure> bounds;
+std::map<std::string, ProvenRange> bounds_in(const std::string& output) {
+  std::map<std::string, ProvenRange> bounds;
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
     const auto in = line.find(" in [");
@@ -110,14 +110,15 @@ Lemmas::Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithme
       arithmetic_(arithmetic),
       left_(program_.add(problem.left)),
       right_(program_.add(problem.right)) {
-  for (const Range& input : problem.inputs)
+  for (const BoundedExpression& input : problem.inputs)
     leaves_[program_.add(input.expression)] = {input.lowest, input.highest};
-  for (const Range& fact : problem.facts) facts_[program_.add(fact.expression)] = {fact.lowest, fact.highest};
-  for (const Motion& motion : problem.motions) know_motion(motion, problem.time);
+  for (const BoundedExpression& fact : problem.facts)
+    facts_[program_.add(fact.expression)] = {fact.lowest, fact.highest};
+  for (const BoundedMotion& motion : problem.motions) know_motion(motion, problem.time);
   know_extremes();
 }
 
-void Lemmas::know_motion(const Motion& motion, const Traced& time) {
+void Lemmas::know_motion(const BoundedMotion& motion, const Traced& time) {
   const double u = std::ldexp(1, -arithmetic_.bits);
   const double reach = std::max(motion.start, motion.end);
   const auto at = motion.vector.at(time);
@@ -134,10 +135,11 @@ void Lemmas::know_motion(const Motion& motion, const Traced& time) {
     const bool rounded = program_[x].operation == Operation::subtract;
     const MotionScript script(motion, arithmetic_);
     const auto found = bounds_in(prover_.run(rounded ? script.rounded() : script.exact()).text);
-    const auto error = rounded ? Leaf::Error::absolute : Leaf::Error::none;
-    leaves_[x] = {-motion.start, motion.start, rounded ? Leaf::Error::relative : Leaf::Error::none, u};
+    const auto error = rounded ? Leaf::ErrorKind::absolute : Leaf::ErrorKind::none;
+    leaves_[x] = {-motion.start, motion.start, rounded ? Leaf::ErrorKind::relative : Leaf::ErrorKind::none,
+                  u};
     leaves_[v] = {-motion.velocity, motion.velocity, error, rounded ? found.at("v - V").magnitude() : 0};
-    leaves_[moved] = {-reach, reach, Leaf::Error::absolute, found.at("x - X").magnitude()};
+    leaves_[moved] = {-reach, reach, Leaf::ErrorKind::absolute, found.at("x - X").magnitude()};
   }
 }
 
@@ -176,12 +178,12 @@ void Lemmas::operands(int index, std::set<int>& found) {
   if (program_[index].right >= 0) operands(program_[index].right, found);
 }
 
-Enclosure Lemmas::range(int index, const std::map<int, Enclosure>& known) {
+ProvenRange Lemmas::range(int index, const std::map<int, ProvenRange>& known) {
   if (const auto operand = known.find(index); operand != known.end()) return operand->second;
   const Instruction& one = program_[index];
-  const Enclosure a = range(one.left, known);
+  const ProvenRange a = range(one.left, known);
   if (one.operation == Operation::absolute) return {0, a.magnitude()};
-  const Enclosure b = range(one.right, known);
+  const ProvenRange b = range(one.right, known);
   if (one.operation == Operation::largest)
     return {std::max(a.lowest, b.lowest), std::max(a.highest, b.highest)};
   return {std::min(a.lowest, b.lowest), std::min(a.highest, b.highest)};
@@ -200,19 +202,20 @@ void Lemmas::know_extreme(int index) {
       goals.push_back(fmt::format("{} - {} in ?", lemma.computed(each), Script::exact(each)));
   }
   const auto bounds = bounds_in(prover_.run(lemma.text(goals)).text);
-  std::map<int, Enclosure> ranges;
+  std::map<int, ProvenRange> ranges;
   double error = 0;
   for (const int each : found) {
     const Instruction& one = program_[each];
     const bool constant = one.operation == Operation::constant;
-    ranges[each] = constant ? Enclosure{one.constant, one.constant} : bounds.at(Script::exact(each));
+    ranges[each] = constant ? ProvenRange{one.constant, one.constant} : bounds.at(Script::exact(each));
     const auto difference = bounds.find(fmt::format("{} - {}", lemma.computed(each), Script::exact(each)));
     if (difference != bounds.end()) error = std::max(error, difference->second.magnitude());
   }
-  Enclosure all = range(index, ranges);
+  ProvenRange all = range(index, ranges);
   if (const auto fact = facts_.find(index); fact != facts_.end())
     all = {std::max(all.lowest, fact->second.lowest), std::min(all.highest, fact->second.highest)};
-  leaves_[index] = {all.lowest, all.highest, error == 0 ? Leaf::Error::none : Leaf::Error::absolute, error};
+  leaves_[index] = {all.lowest, all.highest, error == 0 ? Leaf::ErrorKind::none : Leaf::ErrorKind::absolute,
+                    error};
 }
 
 std::string Lemmas::range_script() {

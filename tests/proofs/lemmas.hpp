@@ -11,13 +11,13 @@
 namespace nearmiss::proofs {
 
 /// What Gappa found: lowest and highest value, rounded outwards to double.
-struct Enclosure {
+struct ProvenRange {
   double lowest, highest;
   [[nodiscard]] double magnitude() const { return std::max(-lowest, highest); }
 };
 
 /// The enclosures that Gappa printed, by expression.
-std::map<std::string, Enclosure> bounds_in(const std::string& output);
+std::map<std::string, ProvenRange> bounds_in(const std::string& output);
 
 /// The lemmas of one problem, proven as they are made.
 class Lemmas {
@@ -30,12 +30,12 @@ class Lemmas {
   std::string range_script();
 
  private:
-  void know_motion(const Motion& motion, const Traced& time);
+  void know_motion(const BoundedMotion& motion, const Traced& time);
   void know_extremes();
   void know_extreme(int index);
   std::set<int> needed();
   void operands(int index, std::set<int>& found);
-  Enclosure range(int index, const std::map<int, Enclosure>& operands);
+  ProvenRange range(int index, const std::map<int, ProvenRange>& operands);
   [[nodiscard]] Script script() const { return {program_, arithmetic_, leaves_, facts_}; }
 
   Prover& prover_;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "oracle/patch.hpp"
+#include "oracle/filter/step_part.hpp"
 
 namespace nearmiss::proofs {
 

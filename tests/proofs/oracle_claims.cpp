@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/search.hpp"
+#include "oracle/filter/search.hpp"
 #include "tests/proofs/oracle_claim.hpp"
 #include "tests/proofs/oracle_errors.hpp"
 #include "tests/proofs/oracle_proofs.hpp"
@@ -23,7 +23,7 @@ OracleClaim rounding(std::string name, double claimed, Results results, const st
   const std::string unit = vectors.size() == 3 ? "U M" : "U w";
   name += words ? ", in double words" : ", in double";
   return {name,
-          "oracle/patch.hpp",
+          "oracle/filter/step_part.hpp",
           unit,
           claimed,
           "Gappa",
@@ -79,8 +79,8 @@ std::function<Inputs(Random&)> draw_from(const std::map<std::string, std::pair<d
   };
 }
 
-constexpr auto patch = "oracle/patch.hpp";
-constexpr auto bernstein = "oracle/bernstein.hpp";
+constexpr auto patch = "oracle/filter/step_part.hpp";
+constexpr auto bernstein = "oracle/arithmetic/bernstein.hpp";
 constexpr auto gappa = "Gappa";
 
 void add_polynomials(std::vector<OracleClaim>& claims) {
@@ -125,8 +125,8 @@ void add_others(std::vector<OracleClaim>& claims) {
        draw_from({{"t", {0.5, 1}}, {"h", {0, 0x1p-50}}})});
   add({"upper_halves", bernstein, "2^-52", upper_halves * 0x1p52, gappa, proven_upper_halves,
        seen_upper_halves, [](Random& random) { return draw_words(random, 1); }});
-  add({"zoom_rounding", "oracle/search.hpp", "2^-52", zoom_rounding * 0x1p52, gappa, proven_zoom_rounding,
-       seen_zoom, draw_from({{"b", {0, 1}}, {"e", {0, 1}}, {"x", {0, 1}}})});
+  add({"zoom_rounding", "oracle/filter/search.hpp", "2^-52", zoom_rounding * 0x1p52, gappa,
+       proven_zoom_rounding, seen_zoom, draw_from({{"b", {0, 1}}, {"e", {0, 1}}, {"x", {0, 1}}})});
   add({"roundoff, of double", bernstein, "2^-53", roundoff<double> * 0x1p53, gappa, proven_roundoff,
        seen_roundoff, draw_from({{"x", {0, 0x1p-52}}})});
   add({"roundoff, of products of double words", bernstein, "2^-103", roundoff<DoubleWord> * 0x1p103, gappa,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "oracle/search.hpp"
+#include "oracle/filter/search.hpp"
 #include "tests/proofs/factors.hpp"
 #include "tests/proofs/gappa_process.hpp"
 
@@ -52,7 +52,7 @@ double proven_growth(int roundings) {
 /// How often H must be added: underflow of what is computed and of the bound, and `more` of the latter.
 template <class Real>
 double proven_underflow(Results results, Leaves leaves, int more) {
-  const Precision precision = precision_of<Real>();
+  const ValuePrecision precision = precision_of<Real>();
   Trace trace;
   std::set<std::string> scripts;
   for (const Bounded& each : results(trace, leaves)) {
@@ -95,7 +95,7 @@ int roundings_near() {
 
 template <class Real>
 double proven_rounding(Results results) {
-  const Precision precision = precision_of<Real>();
+  const ValuePrecision precision = precision_of<Real>();
   Trace trace;
   std::set<std::string> scripts;
   for (const Bounded& each : results(trace, Leaves::exact)) {

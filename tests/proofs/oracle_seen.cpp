@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "oracle/search.hpp"
+#include "oracle/filter/search.hpp"
 
 namespace nearmiss::proofs {
 

@@ -49,14 +49,14 @@ Expansion with_underflow(const Expansion& terms) {
   return some;
 }
 
-Share share(const Shares& shares, const Monomial& monomial) {
+BoundTerm share(const BoundTerms& shares, const Monomial& monomial) {
   const auto found = shares.find(monomial);
-  return found == shares.end() ? Share{0, 0} : found->second;
+  return found == shares.end() ? BoundTerm{0, 0} : found->second;
 }
 
 }  // namespace
 
-Needs needs_of(const Bounded& bounded, const Precision& precision) {
+Needs needs_of(const Bounded& bounded, const ValuePrecision& precision) {
   const Expansion value = expand(bounded.value, precision.roundings);
   const Expansion error = expand(bounded.error);
   Expansion leaves;
@@ -67,23 +67,23 @@ Needs needs_of(const Bounded& bounded, const Precision& precision) {
           bound_of(without_underflow(error)), bound_of(with_underflow(error))};
 }
 
-std::vector<std::string> scripts_of(const Bounded& bounded, const Precision& precision) {
+std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision) {
   const Needs needs = needs_of(bounded, precision);
   std::set<Monomial> monomials;
-  for (const Shares* shares : {&needs.values, &needs.leaves, &needs.underflows, &needs.bound_underflows})
+  for (const BoundTerms* shares : {&needs.values, &needs.leaves, &needs.underflows, &needs.bound_underflows})
     for (const auto& [monomial, each] : *shares) monomials.insert(monomial);
   constexpr double u = 0x1p-53;
   std::vector<std::string> scripts;
   for (const Monomial& monomial : monomials) {
     Factors factors;
-    const auto times = [&](const Share& s, double size) {
+    const auto times = [&](const BoundTerm& s, double size) {
       return fmt::format("{} * {}", script_text(s.coefficient), factors.product(s.roundings, size));
     };
     // Written as products: half of the smallest double is none.
-    const auto underflow = [&](const Share& s, double size, double of_smallest) {
+    const auto underflow = [&](const BoundTerm& s, double size, double of_smallest) {
       return fmt::format("{} * {:a} * {:a}", times(s, size), of_smallest, certified::smallest);
     };
-    const Share value = share(needs.values, monomial);
+    const BoundTerm value = share(needs.values, monomial);
     const int leaves = bounded.leaves == Leaves::rounded_once ? degree(monomial) : 0;
     const std::string roundings = fmt::format("{} * ({} - {})", script_text(value.coefficient),
                                               factors.product(value.roundings, precision.roundoff),

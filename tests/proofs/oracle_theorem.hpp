@@ -10,7 +10,7 @@
 namespace nearmiss::proofs {
 
 /// The arithmetic of values; bounds are computed in double.
-struct Precision {
+struct ValuePrecision {
   double roundoff;   ///< U
   double underflow;  ///< H, what a product that underflows may miss by, of the smallest double
   Roundings roundings;
@@ -18,7 +18,7 @@ struct Precision {
 };
 
 template <class Real>
-Precision precision_of() {
+ValuePrecision precision_of() {
   constexpr bool word = std::is_same_v<Real, TracedWord>;
   return {certified::roundoff<Real>, certified::product_underflow<Real>, word ? in_double_words : in_double,
           word};
@@ -33,18 +33,18 @@ struct Bounded {
 
 /// What the error of a value is made of, by monomials in magnitudes and errors of its leaves.
 struct Needs {
-  Shares values;            ///< |terms| in exact arithmetic: roundings multiply them
-  Shares leaves;            ///< what given errors of leaves add, in exact arithmetic
-  Shares underflows;        ///< times H
-  Shares bound;             ///< what the bound offers, but for its own roundings
-  Shares bound_underflows;  ///< what the bound may be too small by, times that of doubles
+  BoundTerms values;            ///< |terms| in exact arithmetic: roundings multiply them
+  BoundTerms leaves;            ///< what given errors of leaves add, in exact arithmetic
+  BoundTerms underflows;        ///< times H
+  BoundTerms bound;             ///< what the bound offers, but for its own roundings
+  BoundTerms bound_underflows;  ///< what the bound may be too small by, times that of doubles
 };
-Needs needs_of(const Bounded& bounded, const Precision& precision);
+Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
 /// For each monomial the script whose goal says that the bound's share covers the error's. All of them
 /// together say that |value - exact value| <= error for all leaves and times. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
 /// Π (1 + δ) over the roundings of a term, Π (1 + λ) over its leaves where these are rounded once.
-std::vector<std::string> scripts_of(const Bounded& bounded, const Precision& precision);
+std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
 
 }  // namespace nearmiss::proofs

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string>
 
-#include "oracle/patch.hpp"
+#include "oracle/filter/step_part.hpp"
 #include "tests/proofs/traced.hpp"
 
 namespace nearmiss::proofs {

@@ -10,14 +10,14 @@
 namespace nearmiss::proofs {
 
 /// A vector x(t) = x + t v and bounds of what it stands for, in units of B, for every component.
-struct Motion {
+struct BoundedMotion {
   Moving<Traced> vector;
   double start = 1, end = 1;  ///< of |x(0)|, |x(1)|, and so of all |x(t)| the larger one
   double velocity = 1;        ///< of |v|
 };
 
 /// An exact value within [lowest, highest] B^degree.
-struct Range {
+struct BoundedExpression {
   Traced expression;
   double lowest, highest;
   int degree;
@@ -31,10 +31,10 @@ struct Range {
 struct Problem {
   std::shared_ptr<Trace> trace;  ///< of the inputs
   Traced time;
-  std::vector<Motion> motions;  ///< of coordinates that are inputs, or with x and v as inputs
-  std::vector<Range> inputs;    ///< exact numbers
+  std::vector<BoundedMotion> motions;     ///< of coordinates that are inputs, or with x and v as inputs
+  std::vector<BoundedExpression> inputs;  ///< exact numbers
   /// Of expressions of these: what interval arithmetic does not see.
-  std::vector<Range> facts;
+  std::vector<BoundedExpression> facts;
   Traced left, right;  ///< the error of left - right, where the subtraction itself is not rounded
   int degree = 0;      ///< in units of B^degree
 };

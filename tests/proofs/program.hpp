@@ -38,10 +38,10 @@ class Program {
   }
 
  private:
-  using Key = std::tuple<Operation, int, int, std::uint64_t, std::string>;
+  using InstructionKey = std::tuple<Operation, int, int, std::uint64_t, std::string>;
 
   std::vector<Instruction> instructions_;
-  std::map<Key, int> known_;
+  std::map<InstructionKey, int> known_;
 };
 
 inline int Program::add(const Node& node) {
@@ -49,7 +49,8 @@ inline int Program::add(const Node& node) {
   if (node.left) one.left = add(*node.left);
   if (node.right) one.right = add(*node.right);
   if (node.operation == Operation::constant) one.constant = node.value;
-  const Key key{one.operation, one.left, one.right, std::bit_cast<std::uint64_t>(one.constant), one.name};
+  const InstructionKey key{one.operation, one.left, one.right, std::bit_cast<std::uint64_t>(one.constant),
+                           one.name};
   const auto [place, is_new] = known_.emplace(key, static_cast<int>(instructions_.size()));
   if (is_new) instructions_.push_back(std::move(one));
   return place->second;

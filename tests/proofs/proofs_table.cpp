@@ -14,7 +14,7 @@ using namespace nearmiss::proofs;
 namespace {
 
 /// The largest error of a claim among known witnesses, its own and those of others with the same inputs.
-std::optional<Witness> best_known(const Claim& claim, const std::map<std::string, Witness>& witnesses) {
+std::optional<Witness> best_known(const CcdClaim& claim, const std::map<std::string, Witness>& witnesses) {
   const Measure measure(claim);
   std::optional<Witness> best;
   for (const auto& [name, witness] : witnesses) {
@@ -26,9 +26,9 @@ std::optional<Witness> best_known(const Claim& claim, const std::map<std::string
 }
 
 /// Looks for a larger error of each claim, from the witnesses that are known.
-void search_all(const std::vector<Claim>& claims, std::map<std::string, Witness>& witnesses, double seconds,
-                std::uint64_t seed) {
-  for (const Claim& claim : claims) {
+void search_all(const std::vector<CcdClaim>& claims, std::map<std::string, Witness>& witnesses,
+                double seconds, std::uint64_t seed) {
+  for (const CcdClaim& claim : claims) {
     const Witness found = search(claim, best_known(claim, witnesses), seconds, seed);
     fmt::print(stderr, "{}: {:.4g}\n", claim.name, found.error);
     witnesses[std::string(claim.name)] = found;
@@ -59,7 +59,7 @@ void check_all(const std::map<std::string, Witness>& witnesses,
   for (const OracleClaim& claim : oracle_claims())
     show(claim.name, claim.constant() + ", " + claim.file, faults(claim, oracle_witnesses.at(claim.name)));
   Prover prover;
-  for (const Claim& claim : ccd_claims())
+  for (const CcdClaim& claim : ccd_claims())
     show(claim.name, claim.constant, faults(claim, witnesses.at(std::string(claim.name)), prover));
 }
 
@@ -69,50 +69,62 @@ std::map<std::string, Witness> known_witnesses(const std::string& file) {
   return read_witnesses(file);
 }
 
+/// What the command line asks for.
+struct Request {
+  double seconds = 0;
+  int steps = 0;
+  std::uint64_t seed = 0;
+  std::string name;
+  bool check = false;
+};
+
+void add_options(CLI::App& app, Request& request) {
+  app.add_option("--search", request.seconds,
+                 "Search for larger errors in ccd/ for this many seconds per row, and keep them");
+  app.add_option("--search-oracle", request.steps,
+                 "Search for larger errors in oracle/ in this many steps per row, and keep them");
+  app.add_option("--seed", request.seed, "Seed of the search");
+  app.add_option("--script", request.name, "Print the last Gappa script of this row, for double");
+  app.add_flag("--check", request.check, "Print for every row whether it holds, and what is wrong");
+}
+
+void print_script(std::string_view name) {
+  for (const CcdClaim& claim : ccd_claims())
+    if (claim.name == name)
+      fmt::print("{}",
+                 Prover().script(claim.problem(), {53, {}, claim.vectors_alone}, claim.proven * 0x1p-52));
+}
+
+void run(const Request& request) {
+  const std::string file = NEARMISS_WITNESSES "/ccd.txt";
+  const std::string oracle_file = NEARMISS_WITNESSES "/oracle.txt";
+  if (!request.name.empty()) return print_script(request.name);
+  auto witnesses = known_witnesses(file);
+  auto oracle_witnesses = known_witnesses(oracle_file);
+  if (request.check) return check_all(witnesses, oracle_witnesses);
+  if (request.seconds > 0) {
+    search_all(ccd_claims(), witnesses, request.seconds, request.seed);
+    write_witnesses(file, witnesses);
+  }
+  if (request.steps > 0) {
+    search_all(oracle_claims(), oracle_witnesses, request.steps, request.seed);
+    write_witnesses(oracle_file, oracle_witnesses);
+  }
+  auto rows = rows_of(oracle_claims(), oracle_witnesses);
+  const auto of_ccd = rows_of(ccd_claims(), witnesses);
+  rows.insert(rows.end(), of_ccd.begin(), of_ccd.end());
+  fmt::print("{}", table_of(rows));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("The table of claims about rounding errors: what is claimed, proven, and seen");
-  double seconds = 0;
-  std::uint64_t seed = 0;
-  std::string name;
-  int steps = 0;
-  app.add_option("--search", seconds,
-                 "Search for larger errors in ccd/ for this many seconds each, and keep them");
-  app.add_option("--search-oracle", steps,
-                 "Search for larger errors in oracle/ in this many steps each, and keep them");
-  app.add_option("--seed", seed, "Seed of the search");
-  app.add_option("--script", name, "Print the last script for Gappa of this claim, in double");
-  bool check = false;
-  app.add_flag("--check", check, "Say of every row whether it holds, and what is wrong");
+  Request request;
+  add_options(app, request);
   CLI11_PARSE(app, argc, argv);
   try {
-    const std::string file = NEARMISS_WITNESSES "/ccd.txt";
-    const std::string oracle_file = NEARMISS_WITNESSES "/oracle.txt";
-    const auto claims = ccd_claims();
-    auto witnesses = known_witnesses(file);
-    auto oracle_witnesses = known_witnesses(oracle_file);
-    for (const Claim& claim : claims)
-      if (claim.name == name)
-        fmt::print("{}",
-                   Prover().script(claim.problem(), {53, {}, claim.vectors_alone}, claim.proven * 0x1p-52));
-    if (!name.empty()) return 0;
-    if (check) {
-      check_all(witnesses, oracle_witnesses);
-      return 0;
-    }
-    if (seconds > 0) {
-      search_all(claims, witnesses, seconds, seed);
-      write_witnesses(file, witnesses);
-    }
-    if (steps > 0) {
-      search_all(oracle_claims(), oracle_witnesses, steps, seed);
-      write_witnesses(oracle_file, oracle_witnesses);
-    }
-    auto rows = rows_of(oracle_claims(), oracle_witnesses);
-    const auto of_ccd = rows_of(claims, witnesses);
-    rows.insert(rows.end(), of_ccd.begin(), of_ccd.end());
-    fmt::print("{}", table_of(rows));
+    run(request);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

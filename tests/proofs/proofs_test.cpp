@@ -21,13 +21,13 @@ const std::map<std::string, Witness>& witnesses() {
   return all;
 }
 
-Claim claim_of(std::string_view name) {
-  for (const Claim& claim : ccd_claims())
+CcdClaim claim_of(std::string_view name) {
+  for (const CcdClaim& claim : ccd_claims())
     if (claim.name == name) return claim;
   throw std::invalid_argument("no such claim");
 }
 
-std::vector<std::string> faults_of(const Claim& claim, const Witness& witness) {
+std::vector<std::string> faults_of(const CcdClaim& claim, const Witness& witness) {
   Prover prover;
   return faults(claim, witness, prover);
 }
@@ -38,7 +38,7 @@ TEST(ProofsClaims, HoldInEveryPrecisionAndAtTheirWitnesses) {
 
 TEST(ProofsClaims, HaveNamesOfTheirOwnAndAWitnessEach) {
   std::vector<std::string> names;
-  for (const Claim& claim : ccd_claims()) names.emplace_back(claim.name);
+  for (const CcdClaim& claim : ccd_claims()) names.emplace_back(claim.name);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   std::vector<std::string> seen;
@@ -49,20 +49,20 @@ TEST(ProofsClaims, HaveNamesOfTheirOwnAndAWitnessEach) {
 // Gappa would prove less if its script meant less than the formula.
 TEST(ProofsClaims, HaveNoProofOfLessThanAnErrorThatIsThere) {
   Prover prover;
-  for (const Claim& claim : ccd_claims()) {
+  for (const CcdClaim& claim : ccd_claims()) {
     const double best = prover.error(claim.problem(), {53, {}, claim.vectors_alone});
     EXPECT_GE(best * 0x1p52, witnesses().at(std::string(claim.name)).error) << claim.name;
   }
 }
 
 TEST(ProofsClaims, FailWhereLessIsClaimedThanProven) {
-  Claim claim = claim_of("VT: N");
+  CcdClaim claim = claim_of("VT: N");
   claim.claimed = claim.proven * 0.999;
   EXPECT_THAT(faults_of(claim, witnesses().at("VT: N")), ElementsAre(HasSubstr("is claimed")));
 }
 
 TEST(ProofsClaims, FailWhereGappaProvesNoSuchBound) {
-  Claim claim = claim_of("VT: N");
+  CcdClaim claim = claim_of("VT: N");
   claim.proven = 10.01;  // 10.02 with 11 bits
   EXPECT_THAT(faults_of(claim, witnesses().at("VT: N")),
               ElementsAre("VT: N: Gappa does not prove 10.01 with 11 bits"));
@@ -71,7 +71,7 @@ TEST(ProofsClaims, FailWhereGappaProvesNoSuchBound) {
 }
 
 TEST(ProofsClaims, FailWhereTheFormulaIsAnother) {
-  Claim claim = claim_of("VT: N");
+  CcdClaim claim = claim_of("VT: N");
   claim.problem = [] {
     Problem problem = configuration(Kind::vertex_triangle, Reach::near, ConfigurationPart::normal);
     problem.left *= 1 + Traced(0x1p-5);  // one more rounding
@@ -81,14 +81,14 @@ TEST(ProofsClaims, FailWhereTheFormulaIsAnother) {
 }
 
 TEST(ProofsClaims, FailWhereMoreIsSeenThanProven) {
-  Claim claim = claim_of("VV: v.v");
+  CcdClaim claim = claim_of("VV: v.v");
   claim.proven = 3;
   EXPECT_THAT(faults_of(claim, witnesses().at("VV: v.v")),
               ::testing::Contains(HasSubstr("is seen, 3 proven")));
 }
 
 TEST(ProofsClaims, FailWhereTheWitnessHasAnotherError) {
-  const Claim claim = claim_of("VV: v.v");
+  const CcdClaim claim = claim_of("VV: v.v");
   Witness witness = witnesses().at("VV: v.v");
   witness.error = std::nextafter(witness.error, 0);
   EXPECT_THAT(faults_of(claim, witness), ElementsAre(HasSubstr("the witness has an error of")));

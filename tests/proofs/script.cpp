@@ -62,9 +62,9 @@ void Script::write(int index) {
 
 void Script::write_leaf(int index, const Leaf& leaf) {
   suppose(exact(index), leaf.lowest, leaf.highest);
-  if (leaf.kind == Leaf::Error::none) return;
+  if (leaf.kind == Leaf::ErrorKind::none) return;
   inexact_.insert(index);
-  const char* compared = leaf.kind == Leaf::Error::relative ? "-/" : "-";
+  const char* compared = leaf.kind == Leaf::ErrorKind::relative ? "-/" : "-";
   suppose(fmt::format("{} {} {}", computed(index), compared, exact(index)), -leaf.error, leaf.error);
 }
 

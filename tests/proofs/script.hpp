@@ -18,7 +18,7 @@ std::string interval(double lowest, double highest);
 /// What a script knows of a number that it does not compute.
 struct Leaf {
   double lowest, highest;  ///< of the exact value
-  enum class Error : std::uint8_t { none, relative, absolute } kind = Error::none;
+  enum class ErrorKind : std::uint8_t { none, relative, absolute } kind = ErrorKind::none;
   double error = 0;  ///< at most this
 };
 

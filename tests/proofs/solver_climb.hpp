@@ -10,7 +10,7 @@
 namespace nearmiss::proofs {
 
 /// How much is searched; a pure function of the seed.
-struct Climb {
+struct ClimbEffort {
   int rounds;
   int steps;  ///< of each round, after a quarter of them at random
   std::uint64_t seed = 1;
@@ -18,7 +18,7 @@ struct Climb {
 
 /// The largest value(problem) found. `draw(random)` makes a problem, `change(random, problem)` another one near it.
 template <class Draw, class Change, class Value>
-double highest(const Climb& climb, const Draw& draw, const Change& change, const Value& value) {
+double highest(const ClimbEffort& climb, const Draw& draw, const Change& change, const Value& value) {
   double highest = 0;
   for (int round = 0; round < climb.rounds; ++round) {
     Random random(climb.seed, 0, static_cast<std::uint64_t>(round));

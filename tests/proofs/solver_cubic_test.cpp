@@ -24,7 +24,7 @@ Cubic<T> cubic(const Coefficients& k) {
 
 /// 0, the computed critical points, and 1.
 std::vector<double> nodes_of(const Coefficients& k) {
-  Times<MpfrFloat, 2> critical;
+  CandidateTimes<MpfrFloat, 2> critical;
   detail::find_critical_times(critical, cubic<MpfrFloat>(k));
   std::vector<double> nodes{0};
   for (const MpfrFloat& t : critical) nodes.push_back(static_cast<double>(t));
@@ -35,7 +35,7 @@ std::vector<double> nodes_of(const Coefficients& k) {
 /// What must be looked at of the interval between two nodes: its ends and the exact critical points in it. (Double is
 /// far finer than the numbers of few bits that are on trial.)
 std::vector<double> places_between(const Coefficients& k, double left, double right) {
-  Times<double, 2> critical;
+  CandidateTimes<double, 2> critical;
   solve_quadratic(critical, 3 * k[0], 2 * k[1], k[2]);
   std::vector<double> places{left};
   for (const double t : critical)
@@ -90,7 +90,7 @@ Coefficients changed(Random& random, Coefficients k, int bits) {
 }
 
 template <class Value>
-double highest_of(int bits, const Climb& climb, const char* name, const Value& value) {
+double highest_of(int bits, const ClimbEffort& climb, const char* name, const Value& value) {
   const MpfrFloat::PrecisionScope precision(bits);
   const double found = highest(
       climb, drawn, [&](Random& random, const Coefficients& k) { return changed(random, k, bits); },

@@ -15,7 +15,7 @@ namespace nearmiss::proofs {
 namespace {
 
 /// x_0i (within 2 and 1), x_ji (within 1) and S: numbers that the thread's precision has, taken as exact.
-struct Problem {
+struct EdgeProblem {
   std::array<double, 12> xv;
   double S;
 
@@ -29,42 +29,42 @@ struct Problem {
   }
 };
 
-Problem snapped(Problem p) {
+EdgeProblem snapped(EdgeProblem p) {
   for (std::size_t i = 0; i < 12; ++i)
-    p.xv[i] = std::clamp(proofs::snapped(p.xv[i]), -Problem::size(i), Problem::size(i));
+    p.xv[i] = std::clamp(proofs::snapped(p.xv[i]), -EdgeProblem::size(i), EdgeProblem::size(i));
   p.S = proofs::snapped(p.S);
   return p;
 }
 
-Problem drawn(Random& random) {
-  Problem p{};
-  for (std::size_t i = 0; i < 12; ++i) p.xv[i] = draw_number(random, Problem::size(i));
+EdgeProblem drawn(Random& random) {
+  EdgeProblem p{};
+  for (std::size_t i = 0; i < 12; ++i) p.xv[i] = draw_number(random, EdgeProblem::size(i));
   p.S = random.one_in(2) ? random.log_uniform(1e-4, 2) : 0;
   return snapped(p);
 }
 
-Problem changed(Random& random, Problem p, int bits) {
+EdgeProblem changed(Random& random, EdgeProblem p, int bits) {
   for (int count = random.integer(1, 3); count > 0; --count) {
     const auto i = static_cast<std::size_t>(random.integer(0, 12));
     if (i == 12)
       p.S = std::abs(changed_number(random, p.S, 1, bits));
     else
-      p.xv[i] = changed_number(random, p.xv[i], Problem::size(i), bits);
+      p.xv[i] = changed_number(random, p.xv[i], EdgeProblem::size(i), bits);
   }
   return snapped(p);
 }
 
-struct Place {
+struct Checkpoint {
   double t;
   bool candidate;
   double F;
 };
 
-/// 0, 1, all candidates of cases 2 and 4 as they are computed, and all places where the exact F turns, in order: between
+/// 0, 1, all candidates of cases 2 and 4 as they are computed, and all checkpoints where the exact F turns, in order: between
 /// two of them F rises or falls. (Double is far finer than the numbers of few bits that are on trial.)
-std::vector<Place> places_of(const Problem& p, double rho) {
-  std::vector<Place> places;
-  const auto add = [&](double t, bool candidate) { places.push_back({t, candidate, 0}); };
+std::vector<Checkpoint> checkpoints_of(const EdgeProblem& p, double rho) {
+  std::vector<Checkpoint> checkpoints;
+  const auto add = [&](double t, bool candidate) { checkpoints.push_back({t, candidate, 0}); };
   add(0, true);
   add(1, true);
   const auto coarse_edge = p.moving<MpfrFloat>(6);
@@ -79,12 +79,13 @@ std::vector<Place> places_of(const Problem& p, double rho) {
   for (const double t : detail::zero_components(exact)) add(t, false);
   for (const double t : detail::piece_minima(exact, edge, p.S)) add(t, false);
   for (const double t : detail::equal_components(edge)) add(t, false);
-  for (Place& each : places) {
+  for (Checkpoint& each : checkpoints) {
     const Vector3<double> e = edge.at(each.t);
     each.F = vertex.at(each.t).cross(e).lpNorm<1>() - p.S * max_component(e);
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.t < b.t; });
-  return places;
+  std::sort(checkpoints.begin(), checkpoints.end(),
+            [](const Checkpoint& a, const Checkpoint& b) { return a.t < b.t; });
+  return checkpoints;
 }
 
 /// How much F rises from a place to the nearest candidate on one side, at most on the way.
@@ -99,22 +100,23 @@ double rise_to_candidate(Iterator from, Iterator end) {
 }
 
 /// The largest rise to the better of both sides, over the bound, with coefficients below ρ dropped.
-double rise_ratio(const Problem& p, int bits, double rho) {
-  const auto places = places_of(p, rho);
+double rise_ratio(const EdgeProblem& p, int bits, double rho) {
+  const auto checkpoints = checkpoints_of(p, rho);
   double rise = 0;
-  for (auto each = places.begin(); each != places.end(); ++each)
-    rise = std::max(rise, std::min(rise_to_candidate(each, places.end()),
-                                   rise_to_candidate(std::make_reverse_iterator(each + 1), places.rend())));
+  for (auto each = checkpoints.begin(); each != checkpoints.end(); ++each)
+    rise =
+        std::max(rise, std::min(rise_to_candidate(each, checkpoints.end()),
+                                rise_to_candidate(std::make_reverse_iterator(each + 1), checkpoints.rend())));
   const double u = roundoff(bits);
   const auto bounds = edge_bounds(u, 2, 3, 2);  // of exact vectors
   return rise / (edge_difference(u, bounds) + edge_rise(u, bounds, p.S) + 12 * rho);
 }
 
-double highest_rise(int bits, double rho, const Climb& climb) {
+double highest_rise(int bits, double rho, const ClimbEffort& climb) {
   const MpfrFloat::PrecisionScope precision(bits);
   const double found = highest(
-      climb, drawn, [&](Random& random, const Problem& p) { return changed(random, p, bits); },
-      [&](const Problem& p) { return rise_ratio(p, bits, rho); });
+      climb, drawn, [&](Random& random, const EdgeProblem& p) { return changed(random, p, bits); },
+      [&](const EdgeProblem& p) { return rise_ratio(p, bits, rho); });
   ::testing::Test::RecordProperty("of " + std::to_string(bits) + " bits", std::to_string(found));
   return found;
 }
@@ -163,8 +165,8 @@ TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
 
 /// A vertex that is within R of an edge, at a time when the edge is not short, with numbers that the thread's precision
 /// has; nothing where rounding puts it farther away.
-std::optional<Problem> within_R(Random& random, double R) {
-  Problem p = drawn(random);
+std::optional<EdgeProblem> within_R(Random& random, double R) {
+  EdgeProblem p = drawn(random);
   const auto edge = p.moving<double>(6);
   const double t = random.one_in(4) ? random.integer(0, 1) : random.uniform();
   const Vector3<double> e = edge.at(t);

@@ -12,21 +12,22 @@
 namespace nearmiss::proofs {
 namespace {
 
-using Real = boost::multiprecision::number<
+using WideReal = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<300, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;
 
 /// a t² + b t + c, numbers that the thread's precision has.
-using Quadratic = std::array<double, 3>;
+using QuadraticCoefficients = std::array<double, 3>;
 
-/// The c' that the rounding of b² and of 4ac makes of c; for all products of doubles here Real is exact.
-Real constant_of_roots(const Quadratic& p) {
+/// The c' that the rounding of b² and of 4ac makes of c; for all products of doubles here WideReal is exact.
+WideReal constant_of_roots(const QuadraticCoefficients& p) {
   const auto [a, b, c] = p;
   const MpfrFloat square = MpfrFloat(b) * MpfrFloat(b);
   const MpfrFloat product = 4 * MpfrFloat(a) * MpfrFloat(c);
-  const Real b2 = Real(b) * b;
-  const Real of_product = c == 0 ? Real(1) : Real(static_cast<double>(product)) / (4 * Real(a) * c);
-  const Real of_square = b == 0 ? Real(1) : b2 / static_cast<double>(square);
+  const WideReal b2 = WideReal(b) * b;
+  const WideReal of_product =
+      c == 0 ? WideReal(1) : WideReal(static_cast<double>(product)) / (4 * WideReal(a) * c);
+  const WideReal of_square = b == 0 ? WideReal(1) : b2 / static_cast<double>(square);
   return c * of_product * of_square;
 }
 
@@ -37,25 +38,25 @@ struct Distances {
   double factor = 0;
 };
 
-Distances distances(const Quadratic& p, int bits) {
+Distances distances(const QuadraticCoefficients& p, int bits) {
   const QuadraticErrors<double> errors(roundoff(bits), false);
   const auto [a, b, c] = p;
   Distances all;
   if (a == 0) return all;  // linear: one rounding
-  const Real changed = constant_of_roots(p);
+  const WideReal changed = constant_of_roots(p);
   if (c != 0) all.constant = std::abs(static_cast<double>(changed / c - 1)) / errors.constant;
-  const Real disc = Real(b) * b - 4 * Real(a) * changed;
+  const WideReal disc = WideReal(b) * b - 4 * WideReal(a) * changed;
   if (disc < 0) return all;
-  Times<MpfrFloat, 2> times;
+  CandidateTimes<MpfrFloat, 2> times;
   solve_quadratic(times, MpfrFloat(a), MpfrFloat(b), MpfrFloat(c));
   for (const int sign : {1, -1}) {
-    const Real root = (-b + sign * sqrt(disc)) / (2 * Real(a));
+    const WideReal root = (-b + sign * sqrt(disc)) / (2 * WideReal(a));
     if (root < 0 || root > 1) continue;
-    const auto apart = [&](const Real& time) {
-      return static_cast<double>(root == 0 ? Real(abs(time)) : Real(abs(time / root - 1)));
+    const auto apart = [&](const WideReal& time) {
+      return static_cast<double>(root == 0 ? WideReal(abs(time)) : WideReal(abs(time / root - 1)));
     };
     double nearest = apart(1);  // t = 1 stands for a root that comes out beyond
-    for (const MpfrFloat& t : times) nearest = std::min(nearest, apart(Real(static_cast<double>(t))));
+    for (const MpfrFloat& t : times) nearest = std::min(nearest, apart(WideReal(static_cast<double>(t))));
     all.factor = std::max(all.factor, nearest / errors.factor);
   }
   return all;
@@ -94,7 +95,7 @@ TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
 /// The largest of one distance that is found.
 double highest_distance(int bits, double Distances::*which) {
   const MpfrFloat::PrecisionScope precision(bits);
-  const auto rounded = [](Quadratic p) {
+  const auto rounded = [](QuadraticCoefficients p) {
     for (double& x : p) x = snapped(x);
     return p;
   };
@@ -104,13 +105,13 @@ double highest_distance(int bits, double Distances::*which) {
     const double other = random.one_in(2) ? random.uniform(-2, 2) : root;
     return rounded({a, -a * (root + other), a * root * other});
   };
-  const auto change = [&](Random& random, Quadratic p) {
+  const auto change = [&](Random& random, QuadraticCoefficients p) {
     double& x = p[static_cast<std::size_t>(random.integer(0, 2))];
     x = changed_number(random, x, 36, bits);
     return rounded(p);
   };
   const double found = highest({.rounds = 6, .steps = 1000}, draw, change,
-                               [&](const Quadratic& p) { return distances(p, bits).*which; });
+                               [&](const QuadraticCoefficients& p) { return distances(p, bits).*which; });
   ::testing::Test::RecordProperty("of " + std::to_string(bits) + " bits", std::to_string(found));
   return found;
 }

@@ -11,25 +11,25 @@ namespace nearmiss::proofs {
 using Fraction = boost::multiprecision::cpp_rational;
 
 /// A polynomial, from the constant coefficient upwards.
-using Polynomial = std::vector<Fraction>;
+using FractionPolynomial = std::vector<Fraction>;
 
-inline Polynomial sum(Polynomial a, const Polynomial& b, const Fraction& factor = 1) {
+inline FractionPolynomial sum(FractionPolynomial a, const FractionPolynomial& b, const Fraction& factor = 1) {
   if (a.size() < b.size()) a.resize(b.size());
   for (std::size_t i = 0; i < b.size(); ++i) a[i] += factor * b[i];
   return a;
 }
 
-inline Polynomial product(const Polynomial& a, const Polynomial& b) {
-  Polynomial c(a.size() + b.size() - 1);
+inline FractionPolynomial product(const FractionPolynomial& a, const FractionPolynomial& b) {
+  FractionPolynomial c(a.size() + b.size() - 1);
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
   return c;
 }
 
 /// A polynomial on [0, end] lies between the smallest and the largest of these.
-inline Polynomial bernstein_coefficients(const Polynomial& p, const Fraction& end) {
+inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, const Fraction& end) {
   const std::size_t degree = p.size() - 1;
-  Polynomial all(p.size());
+  FractionPolynomial all(p.size());
   // Coefficient i is Σ_j (i choose j) / (degree choose j) p_j end^j.
   for (std::size_t i = 0; i <= degree; ++i) {
     Fraction factor = 1;
@@ -43,10 +43,10 @@ inline Polynomial bernstein_coefficients(const Polynomial& p, const Fraction& en
 
 /// Whether these show that a polynomial is nowhere on [0, end] negative, or everywhere positive. (False says
 /// nothing.)
-inline bool is_nonnegative(const Polynomial& p, const Fraction& end) {
+inline bool is_nonnegative(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b >= 0; });
 }
-inline bool is_positive(const Polynomial& p, const Fraction& end) {
+inline bool is_positive(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b > 0; });
 }
 
@@ -56,10 +56,10 @@ class RationalFunction {
  public:
   RationalFunction(int constant) : numerator_{constant}, denominator_{1} {}
   RationalFunction(const Fraction& constant) : numerator_{constant}, denominator_{1} {}
-  static RationalFunction variable() { return {Polynomial{0, 1}, Polynomial{1}}; }
+  static RationalFunction variable() { return {FractionPolynomial{0, 1}, FractionPolynomial{1}}; }
 
-  [[nodiscard]] const Polynomial& numerator() const { return numerator_; }
-  [[nodiscard]] const Polynomial& denominator() const { return denominator_; }
+  [[nodiscard]] const FractionPolynomial& numerator() const { return numerator_; }
+  [[nodiscard]] const FractionPolynomial& denominator() const { return denominator_; }
 
   friend RationalFunction operator+(const RationalFunction& a, const RationalFunction& b) {
     return a.plus(b, 1);
@@ -76,14 +76,14 @@ class RationalFunction {
 
   /// Whether exact arithmetic shows that a <= b on all of [0, end], and that neither has a pole there.
   friend bool is_at_most(const RationalFunction& a, const RationalFunction& b, const Fraction& end) {
-    const Polynomial left = product(a.numerator_, b.denominator_);
-    const Polynomial right = product(b.numerator_, a.denominator_);
+    const FractionPolynomial left = product(a.numerator_, b.denominator_);
+    const FractionPolynomial right = product(b.numerator_, a.denominator_);
     return is_positive(a.denominator_, end) && is_positive(b.denominator_, end) &&
            is_nonnegative(sum(right, left, -1), end);
   }
 
  private:
-  RationalFunction(Polynomial numerator, Polynomial denominator)
+  RationalFunction(FractionPolynomial numerator, FractionPolynomial denominator)
       : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {}
 
   [[nodiscard]] RationalFunction plus(const RationalFunction& b, const Fraction& sign) const {
@@ -92,7 +92,7 @@ class RationalFunction {
             product(denominator_, b.denominator_)};
   }
 
-  Polynomial numerator_, denominator_;
+  FractionPolynomial numerator_, denominator_;
 };
 
 }  // namespace nearmiss::proofs

@@ -46,7 +46,7 @@ struct Node {
 /// A comparison that a template made: left < right, left <= right or left == right. Code after it is reached
 /// under its outcome alone, so a proof about what comes after must have the outcome as a hypothesis, or must
 /// not depend on it.
-struct Decision {
+struct Branch {
   enum class Relation : std::uint8_t { less, at_most, equal } relation;
   std::shared_ptr<const Node> left, right;
   bool outcome;
@@ -64,11 +64,11 @@ class Trace {
   Traced input(std::string name, double sample);
 
   /// All comparisons until now, in their order.
-  [[nodiscard]] const std::vector<Decision>& decisions() const { return decisions_; }
-  void record(Decision decision) { decisions_.push_back(std::move(decision)); }
+  [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
+  void record(Branch branch) { branches_.push_back(std::move(branch)); }
 
  private:
-  std::vector<Decision> decisions_;
+  std::vector<Branch> branches_;
 };
 
 /// A scalar for the templates of ccd/ and oracle/: each operation makes a node. Comparisons of expressions
@@ -118,13 +118,13 @@ class Traced {
   friend bool isfinite(const Traced& a) { return std::isfinite(a.sample()); }
 
   friend bool operator<(const Traced& a, const Traced& b) {
-    return decided(Decision::Relation::less, a, b, a.sample() < b.sample());
+    return decided(Branch::Relation::less, a, b, a.sample() < b.sample());
   }
   friend bool operator<=(const Traced& a, const Traced& b) {
-    return decided(Decision::Relation::at_most, a, b, a.sample() <= b.sample());
+    return decided(Branch::Relation::at_most, a, b, a.sample() <= b.sample());
   }
   friend bool operator==(const Traced& a, const Traced& b) {
-    return decided(Decision::Relation::equal, a, b, a.sample() == b.sample());
+    return decided(Branch::Relation::equal, a, b, a.sample() == b.sample());
   }
   friend bool operator>(const Traced& a, const Traced& b) { return b < a; }
   friend bool operator>=(const Traced& a, const Traced& b) { return b <= a; }
@@ -140,7 +140,7 @@ class Traced {
                                               .trace = alone ? a.node_->trace : b->node_->trace}));
   }
 
-  static bool decided(Decision::Relation relation, const Traced& a, const Traced& b, bool outcome) {
+  static bool decided(Branch::Relation relation, const Traced& a, const Traced& b, bool outcome) {
     Trace* trace = a.node_->trace != nullptr ? a.node_->trace : b.node_->trace;
     if (trace != nullptr) trace->record({relation, a.node_, b.node_, outcome});
     return outcome;
@@ -154,11 +154,13 @@ inline Traced Trace::input(std::string name, double sample) {
       Node{.operation = Operation::input, .value = sample, .name = std::move(name), .trace = this}));
 }
 
+using TracedPairs = std::vector<std::pair<Traced, Traced>>;
+
 /// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
 struct KeptComparisons : AllSteps {
-  std::vector<std::pair<Traced, Traced>>* comparisons;  ///< left, right of left <= right
+  TracedPairs* comparisons;  ///< left, right of left <= right
 
-  explicit KeptComparisons(std::vector<std::pair<Traced, Traced>>& kept) : comparisons(&kept) {}
+  explicit KeptComparisons(TracedPairs& kept) : comparisons(&kept) {}
 };
 
 inline bool at_most(const Traced& a, const Traced& b, const KeptComparisons& steps) {

@@ -41,13 +41,13 @@ TEST(ProofsTraced, MaximaAreNodesAndComparisonsAreRecorded) {
   Trace trace;
   const Vector3<Traced> v(trace.input("x", 1), trace.input("y", -3), trace.input("z", 2));
   EXPECT_EQ(max_component(v).sample(), 3);
-  EXPECT_TRUE(trace.decisions().empty());
+  EXPECT_TRUE(trace.branches().empty());
   EXPECT_EQ(std::max(v[0], v[1]).sample(), 1);
-  ASSERT_EQ(trace.decisions().size(), 1);
-  EXPECT_EQ(trace.decisions()[0].relation, Decision::Relation::less);
-  EXPECT_FALSE(trace.decisions()[0].outcome);
+  ASSERT_EQ(trace.branches().size(), 1);
+  EXPECT_EQ(trace.branches()[0].relation, Branch::Relation::less);
+  EXPECT_FALSE(trace.branches()[0].outcome);
   EXPECT_TRUE(Traced(1) < Traced(2));
-  EXPECT_EQ(trace.decisions().size(), 1);  // no input, no decision
+  EXPECT_EQ(trace.branches().size(), 1);  // no input, no decision
 }
 
 // The templates of ccd/ compute with recorded numbers what they compute with doubles; sums of three have

@@ -43,7 +43,7 @@ void write_witnesses(const std::filesystem::path& file, const std::map<std::stri
   if (!lines.flush()) throw std::runtime_error(file.string() + " cannot be written");
 }
 
-Measure::Measure(const Claim& claim) : vectors_alone_(claim.vectors_alone) {
+Measure::Measure(const CcdClaim& claim) : vectors_alone_(claim.vectors_alone) {
   const Problem problem = claim.problem();
   left_ = program_.add(problem.left);
   right_ = program_.add(problem.right);
@@ -190,7 +190,8 @@ Inputs Measure::changed(Random& random, const Inputs& inputs) const {
   return next;
 }
 
-Witness search(const Claim& claim, const std::optional<Witness>& start, double seconds, std::uint64_t seed) {
+Witness search(const CcdClaim& claim, const std::optional<Witness>& start, double seconds,
+               std::uint64_t seed) {
   using Clock = std::chrono::steady_clock;
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));

@@ -30,7 +30,7 @@ void write_witnesses(const std::filesystem::path& file, const std::map<std::stri
 /// Measures errors of a problem in double, B being the smallest for which the inputs are within bounds.
 class Measure {
  public:
-  explicit Measure(const Claim& claim);
+  explicit Measure(const CcdClaim& claim);
 
   /// The error in the claim's unit, truncated to double from the exact one; nothing where inputs are out of
   /// bounds for every B.
@@ -74,6 +74,7 @@ class Measure {
 };
 
 /// Climbs from random inputs, and from `start` where there is one, to large errors for a time in seconds.
-Witness search(const Claim& claim, const std::optional<Witness>& start, double seconds, std::uint64_t seed);
+Witness search(const CcdClaim& claim, const std::optional<Witness>& start, double seconds,
+               std::uint64_t seed);
 
 }  // namespace nearmiss::proofs

@@ -4,8 +4,8 @@ function(nearmiss_precompile)
   set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
     <CGAL/Exact_predicates_inexact_constructions_kernel.h> <boost/multiprecision/gmp.hpp> <Eigen/Core> <Eigen/Geometry>)
   target_precompile_headers(nearmiss_oracle PRIVATE ${numbers} <algorithm> <functional> <memory> <optional> <sstream> <vector>)
-  set(oracle ${PROJECT_SOURCE_DIR}/oracle)
-  set_source_files_properties(${oracle}/batch_sse2.cpp ${oracle}/batch_avx2.cpp ${oracle}/batch_avx512.cpp DIRECTORY oracle
+  set(filter ${PROJECT_SOURCE_DIR}/oracle/filter)
+  set_source_files_properties(${filter}/batch_sse2.cpp ${filter}/batch_avx2.cpp ${filter}/batch_avx512.cpp DIRECTORY oracle
     PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   target_precompile_headers(oracle_tests PRIVATE ${numbers} <gtest/gtest.h> <gmock/gmock.h> <random> <vector>)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/oracle/root_test.cpp DIRECTORY tests PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

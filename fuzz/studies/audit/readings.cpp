@@ -131,7 +131,7 @@ Readings quadratic_residual(const AuditSample& s) {
     kappa = std::max(kappa, a.bound().error() + b.bound().error() + c.bound().error() +
                                 quadratic_error(a.bound().coefficient, c.bound().coefficient));
     if (b.exact() * b.exact() < 4 * a.exact() * c.exact()) continue;  // no root to be missed
-    Times<double, 2> times;
+    CandidateTimes<double, 2> times;
     solve_quadratic(times, a.value(), b.value(), c.value());
     for (const double t : times) {
       const Rational residual = (a.exact() * t + b.exact()) * t + c.exact();

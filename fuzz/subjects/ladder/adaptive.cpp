@@ -7,7 +7,7 @@
 
 #include "fuzz/subjects/batch_subject.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
-#include "oracle/filter.hpp"
+#include "oracle/filter/filter.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

@@ -1,0 +1,158 @@
+// Polynomials on [0, 1] in Bernstein form with a bound of their rounding errors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "oracle/arithmetic/double_word.hpp"
+
+namespace nearmiss::certified {
+
+/// The relative error of one sum, difference or product, rounding to nearest: u = 2^-53 for double, 2^-103 >=
+/// 5u² for a double word.
+template <class Real>
+inline constexpr double roundoff = 0x1p-53;
+template <>
+inline constexpr double roundoff<DoubleWord> = 0x1p-103;
+
+/// The smallest positive double; what is below 2^-1022 is a multiple of it.
+inline constexpr double smallest = 0x1p-1074;
+
+/// What underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of it costs at
+/// most a half.
+///
+/// A product of double words has four products in its lower half, and two more beside it. Its lower half is
+/// summed up exactly where nothing underflows. Where something does, the product is below 2^107 units, so its
+/// lower half is below 2^54, and the sums that lead to it are below 2^81, 2^81 and 2^56. A sum of multiples of
+/// the unit is exact below 2^53, and far above that it rounds the error away; in between it may double it. That
+/// can happen to the first two sums or to the third, not to all: 3 + 1/2 + 1/2 at most, and 1 for the products
+/// beside it.
+template <class Real>
+inline constexpr double product_underflow = 0.5;
+template <>
+inline constexpr double product_underflow<DoubleWord> = 8;
+
+/// What bounds, magnitudes and times are computed in: double, or a double for each of many lanes.
+template <class Real>
+struct BoundOf {
+  using Type = double;
+};
+template <class Real>
+using Bound = typename BoundOf<Real>::Type;
+
+/// A number as its bound's type has it.
+inline double approximate(double x) { return x; }
+inline double approximate(const DoubleWord& x) { return x.hi; }
+
+/// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 where that is not
+/// sure. A NaN or an infinite error makes nothing sure. (A double word's upper half is within a factor of 1 ±
+/// 2^-53 of it: `error` has room for that.)
+template <class Real, std::size_t n>
+int common_sign(const std::array<Real, n>& numbers, double error) {
+  bool positive = true;
+  bool negative = true;
+  for (const Real& x : numbers) {
+    positive &= approximate(x) > error;
+    negative &= approximate(x) < -error;
+  }
+  return positive ? 1 : negative ? -1 : 0;
+}
+
+// Constants of Bernstein::error_near.
+inline constexpr double spread_growth = 1.01;
+inline constexpr double slope_errors = 3;
+inline constexpr double end_rounding = 0x1p-54;  ///< half the distance of doubles below 1
+inline constexpr double upper_halves = 0x1p-52;  ///< a difference of upper halves by that of double words
+
+/// A polynomial of degree n - 1 by its Bernstein coefficients, each within `error` of exact, and so is every
+/// value and every coefficient on a part of [0, 1] that the functions below compute.
+template <class Real, std::size_t n>
+struct Bernstein {
+  std::array<Real, n> b;
+  Bound<Real> error;
+
+  [[nodiscard]] Bound<Real> at(const Bound<Real>& t) const {
+    std::array<Real, n> row = b;
+    const DeCasteljauStep step(t);
+    for (std::size_t left = n - 1; left > 0; --left) step.take(row, left);
+    return approximate(row[0]);
+  }
+
+  /// The coefficients on [lo, hi]: the polynomial is in their convex hull there. Coefficient i is the value
+  /// of the polar form at n - 1 - i times lo and i times hi, so each is n - 1 levels of de Casteljau from b.
+  [[nodiscard]] std::array<Real, n> on(const Bound<Real>& lo, const Bound<Real>& hi) const {
+    if constexpr (std::is_same_v<Bound<Real>, double>) {
+      if (lo == 0 && hi == 1) return b;
+    }
+    const DeCasteljauStep to_lo(lo);
+    const DeCasteljauStep to_hi(hi);
+    std::array<Real, n> part;
+    if constexpr (n == 3) {
+      std::array<Real, n> low = b;
+      std::array<Real, n> high = b;
+      to_lo.take(low, 2);
+      to_hi.take(high, 2);
+      part = {to_lo.between(low[0], low[1]), to_hi.between(low[0], low[1]), to_hi.between(high[0], high[1])};
+    } else {
+      static_assert(n == 4);
+      std::array<Real, n> low = b;
+      std::array<Real, n> high = b;
+      to_lo.take(low, 3);
+      to_lo.take(low, 2);
+      to_hi.take(high, 3);
+      to_hi.take(high, 2);
+      part = {to_lo.between(low[0], low[1]), to_hi.between(low[0], low[1]), to_lo.between(high[0], high[1]),
+              to_hi.between(high[0], high[1])};
+    }
+    return part;
+  }
+
+  /// The sign that the polynomial certainly has on all of [lo, hi], or 0.
+  [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
+
+  /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, each
+  /// b_i within `error`: quicker, and as good where h is small.
+  [[nodiscard]] int sign_near(double t, double h) const {
+    return common_sign(std::array<double, 1>{at(t)}, error_near(h));
+  }
+
+  /// What the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
+  /// rounded, by at most `end_rounding`. The slope of exact coefficients exceeds that of computed ones by two of
+  /// their errors at most; `spread_growth` makes up for the roundings here.
+  [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
+    using std::abs;
+    using std::max;
+    Bound<Real> steepest = abs(approximate(b[1]) - approximate(b[0]));
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      steepest = max(steepest, Bound<Real>(abs(approximate(b[i + 1]) - approximate(b[i]))));
+    if constexpr (std::is_same_v<Real, DoubleWord>) steepest += upper_halves * largest();
+    const Bound<Real> spread =
+        spread_growth * (n - 1) * (h + end_rounding) * (steepest + slope_errors * error);
+    return spread_growth * (error + spread);
+  }
+
+ private:
+  /// The largest magnitude of a coefficient's upper half.
+  [[nodiscard]] double largest() const {
+    double all = 0;
+    for (const Real& x : b) all = std::max(all, std::abs(approximate(x)));
+    return all;
+  }
+
+  /// A step of de Casteljau at a time: s = 1 - t, products, sum.
+  struct DeCasteljauStep {
+    Real t, s;
+
+    explicit DeCasteljauStep(const Bound<Real>& time) : t(time), s(Real(1) - t) {}
+    [[nodiscard]] Real between(const Real& x, const Real& y) const { return s * x + t * y; }
+    /// Replaces row[0 .. count] by count values between neighbours.
+    void take(std::array<Real, n>& row, std::size_t count) const {
+      for (std::size_t i = 0; i < count; ++i) row[i] = between(row[i], row[i + 1]);
+    }
+  };
+};
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,32 @@
+// The smallest distance of two primitives over the step.
+#pragma once
+
+#include "ccd/query.hpp"
+#include "oracle/distance/needed_distance.hpp"
+
+namespace nearmiss {
+
+/// lo <= the exact value <= hi.
+struct Enclosure {
+  double lo = 0;
+  double hi = 0;
+};
+
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
+/// or they are as near to each other as doubles can be.
+Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
+
+/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with
+/// lo >= needed(hi), or as near to that as doubles of the distance can be.
+Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
+
+/// The same from above, to a part in a thousand, and near 1 to 1e-9; infinite where the unit is 0.
+double closest_ratio(const Query& query, double unit);
+
+/// A time in [0, 1] at which the primitives are about as near to each other as they come: for pictures.
+double closest_time(const Query& query);
+
+/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.
+bool distance_exceeds(const Query& query, double bound);
+
+}  // namespace nearmiss

@@ -1,0 +1,234 @@
+#include "oracle/distance/approach.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "oracle/distance/moment.hpp"
+#include "oracle/distance/wide.hpp"
+
+namespace nearmiss::certified {
+
+namespace {
+
+/// The search with times, and positions where they have to be precise, in one type of numbers.
+template <class Real>
+class DistanceSearch {
+ public:
+  DistanceSearch(const VertexDifferences& differences, const NeededDistance& needed)
+      : differences_(differences), needed_(needed) {}
+
+  Approach run() {
+    times_.reserve(16);
+    times_.push_back(look_at(Real(0)));
+    times_.push_back(look_at(Real(1)));
+    descend(times_[0], times_[1]);
+    constexpr int most_gaps = 300;
+    for (int i = 0; i < most_gaps && required_ > 0; ++i) {
+      const auto gap = first_gap();
+      if (!gap) return {std::min(required_, upper_), upper_, best_time_, true};
+      if (!look_into(*gap)) break;
+    }
+    return {0, upper_, best_time_, required_ <= 0};
+  }
+
+ private:
+  struct SampledTime {
+    Real t;
+    Moment moment;
+    bool is_covered = false;  ///< from here to the next time
+  };
+
+  /// A part of the step that no certified bound covers: between the end of what the time `before` covers and
+  /// the begin of what the next one does.
+  struct Gap {
+    std::size_t before;
+    double width, covered_before, covered_behind;
+  };
+
+  [[nodiscard]] VerticesAt<double> rough_vertices(const Real& t) const {
+    return {differences_, to_double(t)};
+  }
+
+  SampledTime look_precisely(const Real& t) {
+    SampledTime time{t, look(VerticesAt<Real>(differences_, t)), false};
+    time.moment.is_precise = true;
+    note(time);
+    return time;
+  }
+
+  /// In double where that is enough; then at the double nearest to t.
+  SampledTime look_at(const Real& t) {
+    SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
+    note(time);
+    return resolves(time.moment) ? time : look_precisely(t);
+  }
+  /// The same between two times, where the nearest double may be one of them.
+  SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
+    const Real rough(to_double(t));
+    return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
+  }
+
+  /// Whether a moment's errors are small against its distance and against what is required.
+  [[nodiscard]] bool resolves(const Moment& moment) const {
+    const Separation& separation = moment.separations[0];
+    const double error = separation.products[0].errors[0];
+    const double least = std::max(required_, 0.3 * moment.upper);
+    constexpr double small = 0.03;
+    return error <= small * least * separation.length[0] && separation.products[0].coefficients[0] > 0 &&
+           points_error<double>(differences_) <= small * moment.upper;
+  }
+
+  void note(const SampledTime& time) {
+    if (!(time.moment.upper < upper_)) return;
+    upper_ = time.moment.upper;
+    best_time_ = to_double(time.t);
+    required_ = needed_(upper_);
+  }
+
+  /// Goes down to a minimum of the distance between a and b, if it falls behind a and grows before b: by each end's
+  /// guess of where the minimum is, or by halves if these do not help.
+  void descend(SampledTime a, SampledTime b) {
+    if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
+    constexpr int most_steps = 60;
+    int slow_steps = 0;
+    double width = to_double(b.t - a.t);
+    for (int i = 0; i < most_steps && required_ > 0; ++i) {
+      const Real t = slow_steps < 2 ? guess_between(a, b, width) : a.t + Real(0.5 * width);
+      if (!(a.t < t && t < b.t)) return;
+      const SampledTime next = look_between(a, t, b);
+      insert(next);
+      constexpr double little = 0.9;
+      if (next.moment.predicted >= little * next.moment.upper || next.moment.slope == 0) return;
+      (next.moment.slope < 0 ? a : b) = next;
+      const double before = width;
+      width = to_double(b.t - a.t);
+      slow_steps = 2 * width > before && slow_steps < 2 ? slow_steps + 1 : 0;
+    }
+  }
+
+  /// The minimum as the end with the steeper slope predicts it; the middle if no prediction is between both ends.
+  static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
+    const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
+    const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
+    if (!a_is_inside && !b_is_inside) return a.t + Real(0.5 * width);
+    const bool from_a =
+        a_is_inside && (!b_is_inside || -a.moment.slope * b.moment.upper >= b.moment.slope * a.moment.upper);
+    return from_a ? a.t + Real(a.moment.step) : b.t + Real(b.moment.step);
+  }
+
+  void insert(const SampledTime& time) {
+    times_.insert(std::upper_bound(times_.begin(), times_.end(), time,
+                                   [](const SampledTime& a, const SampledTime& b) { return a.t < b.t; }),
+                  time);
+  }
+
+  [[nodiscard]] double covered(const SampledTime& time, int direction, double most) const {
+    double farthest = 0;
+    for (const Separation& separation : time.moment.separations) {
+      farthest = std::max(farthest, certified_reach(separation, required_, direction, most));
+      if (farthest >= most) break;
+    }
+    return farthest;
+  }
+
+  std::optional<Gap> first_gap() {
+    for (std::size_t i = 0; i + 1 < times_.size(); ++i) {
+      if (times_[i].is_covered) continue;  // what is required only falls
+      const double width = to_double(times_[i + 1].t - times_[i].t) * (1 + 0x1p-48);
+      const double before = covered(times_[i], 1, width);
+      const double behind = before < width ? covered(times_[i + 1], -1, width) : 0;
+      times_[i].is_covered = before + behind >= width;
+      if (!times_[i].is_covered) return Gap{i, width, before, behind};
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a gap is so much wider than what is covered that nothing is known of most of it.
+  static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
+
+  /// Whether anything could be done about a gap.
+  bool look_into(const Gap& gap) {
+    SampledTime& a = times_[gap.before];
+    SampledTime& b = times_[gap.before + 1];
+    const bool a_is_improved = 2 * gap.covered_before < gap.width && improve(a, gap.covered_before);
+    const bool b_is_improved = 2 * gap.covered_behind < gap.width && improve(b, gap.covered_behind);
+    if (a_is_improved || b_is_improved) return true;
+    if (gap.covered_before == 0 && gap.covered_behind == 0) return false;
+
+    const Real t = guess_in(gap);
+    if (!(a.t < t && t < b.t)) return false;
+    const SampledTime before = a;  // times_ grows
+    const SampledTime behind = b;
+    const SampledTime next = look_between(before, t, behind);
+    insert(next);
+    constexpr double near = 2;
+    if (!is_wide(gap.covered_before + gap.covered_behind, gap.width) && next.moment.upper > near * upper_)
+      return true;
+    descend(before, next);
+    descend(next, behind);
+    return true;
+  }
+
+  /// A new minimum that an end of the gap predicts in it, if there is one; else some other time in it.
+  [[nodiscard]] Real guess_in(const Gap& gap) const {
+    const auto sees = [&](const Moment& moment, double step) {
+      constexpr double little = 0.5;
+      return gap.covered_before < step && step < gap.width - gap.covered_behind &&
+             moment.predicted < little * upper_;
+    };
+    const SampledTime& a = times_[gap.before];
+    const SampledTime& b = times_[gap.before + 1];
+    std::optional<Real> guess;
+    if (sees(a.moment, a.moment.step))
+      guess = a.t + Real(a.moment.step);
+    else if (sees(b.moment, gap.width + b.moment.step))
+      guess = b.t + Real(b.moment.step);
+    return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
+  }
+
+  /// A time in a gap: behind the end that covers less, since that is where the distance is small, a few times as far
+  /// away as that covers; or its middle, if it is wide.
+  [[nodiscard]] Real inside(const Gap& gap) const {
+    const double open = gap.width - gap.covered_before - gap.covered_behind;
+    const bool is_before = gap.covered_before <= gap.covered_behind;
+    const double less = is_before ? gap.covered_before : gap.covered_behind;
+    const double near = less > 0 ? less : 1e-3 * std::max(gap.covered_before, gap.covered_behind);
+    const double step =
+        is_wide(near, open) ? 0.5 * open : std::min(0.5 * open, std::max(8 * near, std::sqrt(near * open)));
+    return is_before ? times_[gap.before].t + Real(less + step)
+                     : times_[gap.before + 1].t - Real(less + step);
+  }
+
+  /// Adds separations to a time, or makes it precise where it covers nothing; false where both is done.
+  bool improve(SampledTime& time, double covered) {
+    if (!time.moment.has_all) {
+      if (time.moment.is_precise)
+        add_other_separations(time.moment, VerticesAt<Real>(differences_, time.t));
+      else
+        add_other_separations(time.moment, rough_vertices(time.t));
+      return true;
+    }
+    if (time.moment.is_precise || covered > 0) return false;
+    time = look_precisely(time.t);  // and is_covered is found anew
+    return true;
+  }
+
+  const VertexDifferences& differences_;
+  const NeededDistance& needed_;
+  std::vector<SampledTime> times_;
+  double upper_ = std::numeric_limits<double>::infinity();
+  double required_ = std::numeric_limits<double>::infinity();
+  double best_time_ = 0;
+};
+
+}  // namespace
+
+Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed) {
+  const Approach approach = DistanceSearch<DoubleWord>(differences, needed).run();
+  if (approach.enough) return approach;
+  return DistanceSearch<Wide>(differences, needed).run();
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,121 @@
+// The closest points of the two primitives of a query at one time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "oracle/distance/vertex_differences.hpp"
+
+namespace nearmiss::certified {
+
+inline DoubleWord quotient(const DoubleWord& a, const DoubleWord& b) {
+  const double first = a.hi / b.hi;
+  const DoubleWord rest = a - DoubleWord(first) * b;
+  return DoubleWord(first) + DoubleWord(rest.hi / b.hi);
+}
+template <class Real>
+Real quotient(const Real& a, const Real& b) {
+  return a / b;
+}
+
+/// The parts of the primitives in which closest points are.
+struct ClosestFeatures {
+  enum class Combination : std::uint8_t {
+    vertices,         ///< of each primitive: `vertex` and `from`
+    vertex_and_edge,  ///< `vertex` of one, and the edge `from`, `to` of the other or of its triangle
+    interiors,        ///< within vertex and triangle, or within both edges
+  };
+  Combination combination{};
+  std::size_t vertex = 0, from = 0, to = 0;
+};
+
+/// Points of the two primitives, and how far apart they are. That they are closest is a guess, but that they are points
+/// of the primitives is not: their weights are not negative and add up to 1, but for a triangle's, where rounding may
+/// add 2 U (points_error in moment.hpp).
+template <class Real>
+struct ClosestPoints {
+  ClosestFeatures features;
+  Vec<Real> difference;  ///< from the second primitive's point to the first one's
+  Vec<Real> velocity;    ///< its derivative, with these weights
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// The first vertex of the second primitive.
+constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size_t>(split(kind)); }
+
+namespace detail {
+
+template <class Real>
+void take_closer(ClosestPoints<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
+                 const Vec<Real>& velocity) {
+  const double squared = to_double(dot(difference, difference));
+  // A tie goes to the later candidate: the interiors come last, and have the normal.
+  if (squared <= best.squared_distance) best = {features, difference, velocity, squared};
+}
+
+/// A vertex and the edge (from, to) of the other primitive.
+template <class Real>
+void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t from, std::size_t to,
+                   ClosestPoints<Real>& best) {
+  const Vec<Real> p = x.position(vertex, from);
+  const Vec<Real> edge = x.position(to, from);
+  const Real squared_length = dot(edge, edge);
+  Real weight(0);
+  if (to_double(squared_length) > 0) weight = quotient(dot(p, edge), squared_length);
+  ClosestFeatures features{ClosestFeatures::Combination::vertex_and_edge, vertex, from, to};
+  if (!(to_double(weight) > 0)) {
+    weight = Real(0);
+    features = {ClosestFeatures::Combination::vertices, vertex, from, to};
+  } else if (!(to_double(Real(1) - weight) > 0)) {
+    weight = Real(1);
+    features = {ClosestFeatures::Combination::vertices, vertex, to, from};
+  }
+  const Vec<Real> difference = p - weight * edge;
+  const Vec<Real> velocity = x.velocity(vertex, from) - weight * x.velocity(to, from);
+  const bool in_first = vertex < second_primitive(x.differences().kind());
+  take_closer(best, features, in_first ? difference : -difference, in_first ? velocity : -velocity);
+}
+
+/// Within triangle or edges, where the normal N at p = q a + r b + N c has its foot: with the weights a, b >= 0,
+/// a + b <= 1 for a triangle, a, b <= 1 for edges.
+template <class Real>
+void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
+  const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
+  const NormalPairs pairs = normal_pairs(x.differences().kind());
+  const Vec<Real> p = x.position(pairs.p);
+  const Vec<Real> q = x.position(pairs.q);
+  const Vec<Real> r = x.position(pairs.r);
+  const Vec<Real> N = cross(q, r);
+  const Real squared = dot(N, N);
+  if (!(to_double(squared) > 0)) return;
+  const Real a = quotient(dot(N, cross(p, r)), squared);
+  const Real b = quotient(dot(N, cross(q, p)), squared);
+  const auto is_positive = [](const Real& w) { return to_double(w) >= 0; };
+  const bool is_inside =
+      is_triangle ? is_positive(Real(1) - a - b) : is_positive(Real(1) - a) && is_positive(Real(1) - b);
+  if (!(is_positive(a) && is_positive(b) && is_inside)) return;
+  take_closer(best, {ClosestFeatures::Combination::interiors}, p - (a * q + b * r),
+              x.velocity(pairs.p) - (a * x.velocity(pairs.q) + b * x.velocity(pairs.r)));
+}
+
+}  // namespace detail
+
+template <class Real>
+ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
+  ClosestPoints<Real> best;
+  if (x.differences().kind() == Kind::vertex_triangle) {
+    detail::consider_edge(x, 0, 1, 2, best);
+    detail::consider_edge(x, 0, 2, 3, best);
+    detail::consider_edge(x, 0, 3, 1, best);
+  } else {
+    detail::consider_edge(x, 0, 2, 3, best);
+    detail::consider_edge(x, 1, 2, 3, best);
+    detail::consider_edge(x, 2, 0, 1, best);
+    detail::consider_edge(x, 3, 0, 1, best);
+  }
+  detail::consider_interiors(x, best);
+  return best;
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,132 @@
+// The two primitives at one time of the step: how near they are, and bounds of how near they come around it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstddef>
+
+#include "oracle/arithmetic/guess.hpp"
+#include "oracle/distance/separation.hpp"
+
+namespace nearmiss::certified {
+
+/// Everything about one time that the search for the smallest distance wants to know, in the unit of
+/// VertexDifferences.
+struct Moment {
+  bool is_precise = false;   ///< computed in the search's type of time, else in double
+  ClosestFeatures features;  ///< of points that are closest, by guess
+  double upper = 0;          ///< the distance is certainly at most this
+  double slope = 0;          ///< whether it grows: its sign, by guess
+  double step = 0;           ///< how far away from here it is smallest, by guess
+  double predicted = 0;      ///< the distance there, by guess
+  Vec<double> direction{};   ///< from the second primitive's closest point to the first one's, or zero
+
+  /// The one that fits the features best; then others, where they have been asked for.
+  boost::container::small_vector<Separation, 1> separations;
+  bool has_all = false;
+};
+
+namespace detail {
+
+inline Vec<double> direction_of(const Vec<double>& v) {
+  const double size = length(v);
+  return size > 0 ? (1 / size) * v : Vec<double>{};
+}
+
+/// For features that move linearly, as d + s v, with a component of v along them left out.
+inline void predict(Moment& moment, const Vec<double>& difference, const Vec<double>& velocity) {
+  const double squared_speed = dot(velocity, velocity);
+  const double squared_distance = dot(difference, difference);
+  moment.slope = dot(difference, velocity);
+  moment.step = squared_speed > 0 ? -moment.slope / squared_speed : 0;
+  moment.predicted = std::sqrt(std::max(0.0, squared_distance + moment.slope * moment.step));
+}
+
+/// For interiors: the distance is |F| / |N|, and N changes little while F goes to zero, or to its extremum. (The
+/// difference of the points says less: while they slide along each other, rounding is all of its component along
+/// the velocity.)
+inline void predict(Moment& moment, double distance, const Powers<double>& F) {
+  moment.predicted = distance;
+  if (!(F.c[0] > 0)) return;
+  moment.slope = F.c[1] / F.c[0];
+  if (const auto root = root_near_zero(F)) {
+    moment.step = *root;
+    moment.predicted = 0;
+  } else {
+    moment.step = extremum_near_zero(F);
+    moment.predicted = distance * std::max(0.0, F.at(moment.step) / F.c[0]);
+  }
+}
+
+}  // namespace detail
+
+/// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences, which
+/// are rounded four times each, with exact weights up to 1: at most three more roundings. The weights of interiors may
+/// add up to 1 + 2 U.
+template <class Real>
+double points_error(const VertexDifferences& differences) {
+  return 12 * roundoff<Real> * differences.total_reach();
+}
+
+template <class Real>
+Moment look(const VerticesAt<Real>& x) {
+  const ClosestPoints<Real> closest = closest_points(x);
+  const ClosestFeatures& features = closest.features;
+  Moment moment;
+  moment.features = features;
+  const double distance = std::sqrt(closest.squared_distance);
+  moment.upper = distance * (1 + 0x1p-48) + points_error<Real>(x.differences()) + least_distance;
+  const Vec<double> difference = to_double(closest.difference);
+  const Vec<double> velocity = to_double(closest.velocity);
+  moment.direction = detail::direction_of(difference);
+  switch (features.combination) {
+    case ClosestFeatures::Combination::vertices:
+      detail::predict(moment, difference, velocity);
+      moment.separations.push_back(separate_by_constant(x, moment.direction));
+      break;
+    case ClosestFeatures::Combination::vertex_and_edge: {
+      const Vec<double> edge = to_double(x.position(features.to, features.from));
+      detail::predict(moment, difference, velocity - (dot(velocity, edge) / dot(edge, edge)) * edge);
+      moment.separations.push_back(separate_by_edge(x, features.from, features.to, moment.direction));
+      break;
+    }
+    case ClosestFeatures::Combination::interiors:
+      moment.separations.push_back(separate_by_normal(x));
+      detail::predict(moment, distance, {moment.separations[0].products[0].coefficients});
+      break;
+  }
+  return moment;
+}
+
+/// Adds the separations that fit the features less well at this time, but may do so for longer: if edges are nearly
+/// parallel, the normal turns much faster than the direction between the closest points.
+template <class Real>
+void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
+  moment.has_all = true;
+  const ClosestFeatures& features = moment.features;
+  Vec<double> direction = moment.direction;
+  if (features.combination == ClosestFeatures::Combination::interiors) {
+    // Rounding turns the normal less than the difference of points so near.
+    const NormalPairs pairs = normal_pairs(x.differences().kind());
+    direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
+    if (dot(direction, moment.direction) < 0) direction = -direction;
+  } else {
+    moment.separations.push_back(separate_by_normal(x));
+  }
+  if (features.combination != ClosestFeatures::Combination::vertices)
+    moment.separations.push_back(separate_by_constant(x, direction));
+  const auto add_edge = [&](std::size_t from, std::size_t to) {
+    const bool is_there = features.combination == ClosestFeatures::Combination::vertex_and_edge &&
+                          features.from + features.to == from + to &&
+                          (features.from == from || features.from == to);
+    if (!is_there) moment.separations.push_back(separate_by_edge(x, from, to, direction));
+  };
+  if (x.differences().kind() == Kind::vertex_triangle)
+    for (const std::size_t from : {1U, 2U, 3U}) add_edge(from, from % 3 + 1);
+  else
+    for (const std::size_t from : {0U, 2U}) add_edge(from, from + 1);
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,64 @@
+#include "oracle/distance/separation.hpp"
+
+#include "oracle/arithmetic/guess.hpp"
+
+namespace nearmiss::certified {
+
+namespace {
+
+/// The Bernstein coefficients on [0, end] of a cubic that is not negative at 0, less what rounding may have added to
+/// each.
+std::array<double, 4> on(const Powers<double>& cubic, double end) {
+  const std::array<double, 4>& p = cubic.c;
+  const double p1 = p[1] * end;
+  const double p2 = p[2] * end * end;
+  const double p3 = p[3] * end * end * end;
+  constexpr double rounding = 0x1p-49;
+  const double size1 = std::abs(p[0]) + std::abs(p1);
+  const double size2 = size1 + std::abs(p2);
+  const double size3 = size2 + std::abs(p3);
+  return {p[0], p[0] + p1 / 3 - rounding * size1, p[0] + (2 * p1 + p2) / 3 - rounding * size2,
+          p[0] + p1 + p2 + p3 - rounding * size3};
+}
+
+bool is_not_negative(const std::array<double, 4>& b) {
+  return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
+}
+
+/// An end in [0, most] up to which the cubic is certainly not negative: near the first root, but for speed.
+double not_negative_until(const Powers<double>& p, double most) {
+  const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
+  if (!(p.c[0] > 0)) return 0;
+  if (holds_until(most)) return most;
+  if (const auto root = root_near_zero(p); root && 0 < *root && *root < most) {
+    constexpr double less = 1 - 1e-3;
+    if (holds_until(*root * less)) return *root * less;
+  }
+  double end = most;
+  constexpr int most_steps = 200;
+  for (int i = 0; i < most_steps; ++i) {
+    end /= 4;
+    if (holds_until(end)) return holds_until(2 * end) ? 2 * end : end;
+  }
+  return 0;
+}
+
+}  // namespace
+
+double certified_reach(const Separation& separation, double distance, int direction, double most) {
+  double end = separation.count > 0 ? most : 0;
+  for (std::size_t n = 0; n < separation.count && end > 0; ++n) {
+    // product - errors - distance |n| as a polynomial in |s|, rounded down.
+    Powers<double> excess;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double c = separation.products[n].coefficients[i];
+      const double product = i % 2 == 1 && direction < 0 ? -c : c;
+      const double needed = separation.products[n].errors[i] + (i < 3 ? distance * separation.length[i] : 0);
+      excess.c[i] = product - needed - 0x1p-50 * (std::abs(product) + needed);
+    }
+    end = not_negative_until(excess, end);
+  }
+  return end;
+}
+
+}  // namespace nearmiss::certified

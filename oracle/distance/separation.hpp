@@ -1,0 +1,155 @@
+// Certified lower bounds of the distance of the two primitives around a time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "oracle/arithmetic/bernstein.hpp"
+#include "oracle/distance/closest.hpp"
+
+// For any vector n(t) the distance of the primitives, which are the convex hulls of their vertices, is at least the
+// smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first one and j of the second. Around a
+// time t0, with s = t - t0, three kinds of n make these products polynomials that lose nothing at t0 if n(t0) is
+// the direction between closest points:
+//
+// - constant: linear products;
+// - edge(t) × k with a constant k: quadratic; the products of both vertices of that edge are the same, so that
+//   the turning edge loses nothing;
+// - N(t), the normal of the triangle, or of both edges: all products are ±F, the coplanarity cubic.
+//
+// Errors of the coefficients. Each is a sum of products of one component of each of two or three vectors, and each such
+// product is rounded at most n times on its way into the coefficient, which leaves it within n U of itself (U =
+// roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the magnitudes of the
+// products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for two, to at most a b;
+// the components of a cross product make up a vector of at most 2/√3 a b. A vector x_i - x_j is within R = reach(i,
+// j), and its velocity within 2 R. So the errors, in units of U times the lengths, are:
+//
+//               n                lengths        error                       taken
+//   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
+//   (e × k)·x   13, 12, 9        1, 4, 4        15.1, 55.5, 41.6            16, 64, 64
+//   e × k       6, 4             1, 2           7, 9.3                      16, 32
+//   F           17, 17, 15, 11   1, 6, 12, 8    19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
+//   N           10, 9, 6         1, 4, 4        11.6, 41.6, 27.8            16, 64, 64
+//
+// tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
+//
+// The excess covers second orders in U and the rounding of the bounds themselves. Coefficients are rounded to
+// double: 2^-53 of each, taken 2^-52. Underflow, at most 2^-1018 for each of less than 100 operations, times 2^100
+// at most for the length of k, and 2^-536 for a length, is far below `least_distance`, which is added to each error.
+
+namespace nearmiss::certified {
+
+/// Distances below this, in the unit of VertexDifferences, are not resolved.
+inline constexpr double least_distance = 0x1p-500;
+
+/// A polynomial in s of degree 3, and bounds of its coefficients' errors.
+struct Product {
+  std::array<double, 4> coefficients{};
+  std::array<double, 4> errors{};
+};
+
+/// One direction n(s) with its products: at every s the distance is at least the smallest product over |n|, which is
+/// at most length[0] + length[1] |s| + length[2] s².
+struct Separation {
+  std::array<Product, 4> products{};
+  std::size_t count = 0;
+  std::array<double, 3> length{};
+
+  void add(const std::array<double, 4>& coefficients, const std::array<double, 4>& errors) {
+    Product product{coefficients, errors};
+    for (std::size_t i = 0; i < 4; ++i)
+      product.errors[i] += 0x1p-52 * std::abs(coefficients[i]) + least_distance;
+    products[count++] = product;
+  }
+};
+
+/// An upper bound of the length of a vector that is known to `error`, with each component rounded to double.
+inline double longest(const Vec<double>& v, double error) {
+  return length(v) * (1 + 0x1p-48) + error + least_distance;
+}
+
+/// With n = `direction`, from the second primitive to the first.
+template <class Real>
+Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& direction) {
+  const VertexDifferences& differences = x.differences();
+  Separation separation;
+  separation.length = {longest(direction, 0), 0, 0};
+  const Vec<Real> n = of_double<Real>(direction);
+  const std::size_t second = second_primitive(differences.kind());
+  for (std::size_t i = 0; i < second; ++i)
+    for (std::size_t j = second; j < 4; ++j) {
+      const double error = 8 * roundoff<Real> * separation.length[0] * differences.reach(i, j);
+      separation.add({to_double(dot(n, x.position(i, j))), to_double(dot(n, x.velocity(i, j))), 0, 0},
+                     {error, 2 * error, 0, 0});
+    }
+  return separation;
+}
+
+/// With n = (x_to - x_from) × k, as near to `direction` as such an n can be.
+template <class Real>
+Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::size_t to,
+                            const Vec<double>& direction) {
+  const VertexDifferences& differences = x.differences();
+  const Vec<Real> edge = x.position(to, from);
+  const Vec<double> rough_edge = to_double(edge);
+  const double squared_length = dot(rough_edge, rough_edge);
+  constexpr double too_short = 0x1p-200;  // k would be too large for underflow to be harmless
+  if (!(squared_length > too_short)) return {};
+  const Vec<double> key =
+      (1 / squared_length) * cross(direction, rough_edge);  // e × (d × e) = |e|² d for d at right angles to e
+  const Vec<Real> k = of_double<Real>(key);
+  const Vec<Real> n0 = cross(edge, k);
+  const Vec<Real> n1 = cross(x.velocity(to, from), k);
+  const double unit = roundoff<Real> * differences.reach(to, from) * length(key);
+
+  Separation separation;
+  separation.length = {longest(to_double(n0), 16 * unit), longest(to_double(n1), 32 * unit), 0};
+  const auto add = [&](std::size_t i, std::size_t j) {
+    const Vec<Real> p = x.position(i, j);
+    const Vec<Real> w = x.velocity(i, j);
+    const double error = 16 * unit * differences.reach(i, j);
+    separation.add({to_double(dot(n0, p)), to_double(dot(n0, w) + dot(n1, p)), to_double(dot(n1, w)), 0},
+                   {error, 4 * error, 4 * error, 0});
+  };
+  const std::size_t second = second_primitive(differences.kind());
+  // `to` has the same products as `from`.
+  for (std::size_t i = 0; i < second; ++i)
+    for (std::size_t j = second; j < 4; ++j)
+      if (i != to && j != to) add(i, j);
+  return separation;
+}
+
+/// With the normal.
+template <class Real>
+Separation separate_by_normal(const VerticesAt<Real>& x) {
+  const VertexDifferences& differences = x.differences();
+  const NormalPairs pairs = normal_pairs(differences.kind());
+  const Vec<Real> q = x.position(pairs.q);
+  const Vec<Real> r = x.position(pairs.r);
+  const Vec<Real> p = x.position(pairs.p);
+  const Vec<Real> v = x.velocity(pairs.q);
+  const Vec<Real> w = x.velocity(pairs.r);
+  const Vec<Real> u = x.velocity(pairs.p);
+  const Vec<Real> N0 = cross(q, r);
+  const Vec<Real> N1 = cross(v, r) + cross(q, w);
+  const Vec<Real> N2 = cross(v, w);
+  const double area = roundoff<Real> * differences.reach(pairs.q) * differences.reach(pairs.r);
+
+  Separation separation;
+  separation.length = {longest(to_double(N0), 16 * area), longest(to_double(N1), 64 * area),
+                       longest(to_double(N2), 64 * area)};
+  std::array<double, 4> F{to_double(dot(N0, p)), to_double(dot(N1, p) + dot(N0, u)),
+                          to_double(dot(N2, p) + dot(N1, u)), to_double(dot(N2, u))};
+  if (F[0] < 0)
+    for (double& c : F) c = -c;
+  const double volume = area * differences.reach(pairs.p);
+  separation.add(F, {24 * volume, 144 * volume, 288 * volume, 192 * volume});
+  return separation;
+}
+
+/// How far from t0, forward (1) or backward (-1), the distance is certainly at least `distance`; `most` at most.
+double certified_reach(const Separation& separation, double distance, int direction, double most);
+
+}  // namespace nearmiss::certified

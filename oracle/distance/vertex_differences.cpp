@@ -1,0 +1,53 @@
+#include "oracle/distance/vertex_differences.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss::certified {
+
+namespace {
+
+constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+}  // namespace
+
+VertexDifferences::VertexDifferences(const Query& query)
+    : kind_(query.kind), exponent_(0), pairs_{}, total_reach_(0) {
+  double largest = 0;
+  // Sets all differences of coordinates times a factor; whether they are finite.
+  const auto subtract = [&](double factor) {
+    largest = 0;
+    bool finite = true;
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair)
+      for (std::size_t time = 0; time < 2; ++time)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto coordinate = [&](std::size_t i) { return factor * query.x[12 * time + 3 * i + k]; };
+          const DoubleWord value = two_sum(coordinate(pairs[pair][0]), -coordinate(pairs[pair][1]));
+          pairs_[pair].at[time][k] = value;
+          finite = finite && std::isfinite(value.hi) && std::isfinite(value.lo);
+          largest = std::max(largest, std::abs(value.hi));
+        }
+    return finite;
+  };
+  if (!subtract(1)) {
+    subtract(0.5);
+    exponent_ = 1;
+  }
+  const int size = largest > 0 ? std::ilogb(largest) : 0;
+  exponent_ += size;
+  const double half = std::ldexp(1.0, -size / 2);
+  const double other_half = std::ldexp(1.0, -size - -size / 2);
+  for (VertexDifference& pair : pairs_) {
+    double reach = 0;
+    for (Vec<DoubleWord>& v : pair.at)
+      for (DoubleWord& c : v) {
+        c = {c.hi * half * other_half, c.lo * half * other_half};
+        reach = std::max(reach, std::abs(c.hi));
+      }
+    constexpr double root_of_three = 1.7320508075688777;  // rounded up
+    pair.reach = root_of_three * reach;
+    total_reach_ += pair.reach;
+  }
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,114 @@
+// Positions of a query's vertices relative to each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+#include "ccd/query.hpp"
+#include "oracle/arithmetic/double_word.hpp"
+#include "oracle/arithmetic/vectors.hpp"
+
+namespace nearmiss::certified {
+
+/// The difference of two vertices, x_to - x_from.
+struct VertexPair {
+  std::size_t to, from;
+};
+
+/// The vectors p, q and r with the normal N = q × r and the coplanarity cubic F = ±N · p: x0 - x1, x2 - x1 and x3 -
+/// x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
+struct NormalPairs {
+  VertexPair p, q, r;
+};
+constexpr NormalPairs normal_pairs(Kind kind) {
+  if (kind == Kind::vertex_triangle) return {{0, 1}, {2, 1}, {3, 1}};
+  return {{0, 2}, {0, 1}, {3, 2}};
+}
+
+/// The differences x_i - x_j of all pairs of vertices at both ends of the step, in a unit of their own,
+/// 2^exponent, in which the largest component is between 1 and 2 (all are 0 if all vertices coincide).
+///
+/// A difference of doubles is a double word exactly. Bringing it to the unit is exact too, but for underflow:
+/// by at most 2^-1073 of the unit, far below `least_distance`. Differences that would overflow are taken of
+/// halves; what halving loses is far below that as well.
+class VertexDifferences {
+ public:
+  explicit VertexDifferences(const Query& query);
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] int exponent() const { return exponent_; }
+  /// The largest distance of x_i and x_j over [0, 1] is at most this.
+  [[nodiscard]] double reach(std::size_t i, std::size_t j) const { return pair_of(i, j).reach; }
+  [[nodiscard]] double reach(VertexPair pair) const { return reach(pair.to, pair.from); }
+  /// The sum of all six.
+  [[nodiscard]] double total_reach() const { return total_reach_; }
+
+  /// A component of x_i - x_j at the start (0) or the end (1) of the step.
+  [[nodiscard]] DoubleWord at(std::size_t time, std::size_t i, std::size_t j, std::size_t k) const {
+    const DoubleWord& value = pair_of(i, j).at[time][k];
+    return i < j ? value : -value;
+  }
+
+ private:
+  struct VertexDifference {
+    std::array<Vec<DoubleWord>, 2> at;
+    double reach;
+  };
+  /// i != j.
+  [[nodiscard]] const VertexDifference& pair_of(std::size_t i, std::size_t j) const {
+    constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
+        {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
+    return pairs_[numbers[i][j]];
+  }
+
+  Kind kind_;
+  int exponent_;
+  std::array<VertexDifference, 6> pairs_;  // (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)
+  double total_reach_;
+};
+
+/// The vertices at one time. Each component of a position is made of two products that are rounded at most four
+/// times: 1 - t, product and sum, and in double the difference itself, which with more than 106 bits is the
+/// rounded sum of a double word's halves. A velocity is rounded twice, and at most twice as large.
+template <class Real>
+class VerticesAt {
+ public:
+  VerticesAt(const VertexDifferences& differences, const Real& t)
+      : differences_(differences), t_(t), early_(Real(1) - t) {}
+
+  [[nodiscard]] const VertexDifferences& differences() const { return differences_; }
+
+  /// x_i - x_j.
+  [[nodiscard]] Vec<Real> position(std::size_t i, std::size_t j) const {
+    return of(i, j, [&](const Real& start, const Real& end) { return early_ * start + t_ * end; });
+  }
+  [[nodiscard]] Vec<Real> position(VertexPair pair) const { return position(pair.to, pair.from); }
+  /// Its derivative by t.
+  [[nodiscard]] Vec<Real> velocity(std::size_t i, std::size_t j) const {
+    return of(i, j, [](const Real& start, const Real& end) { return end - start; });
+  }
+  [[nodiscard]] Vec<Real> velocity(VertexPair pair) const { return velocity(pair.to, pair.from); }
+
+ private:
+  template <class Formula>
+  [[nodiscard]] Vec<Real> of(std::size_t i, std::size_t j, const Formula& formula) const {
+    const auto real = [&](std::size_t time, std::size_t k) {
+      const DoubleWord value = differences_.at(time, i, j, k);
+      if constexpr (std::is_same_v<Real, double>)
+        return value.hi;
+      else if constexpr (std::is_same_v<Real, DoubleWord>)
+        return value;
+      else
+        return Real(value.hi) + Real(value.lo);
+    };
+    Vec<Real> v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = formula(real(0, k), real(1, k));
+    return v;
+  }
+
+  const VertexDifferences& differences_;
+  Real t_, early_;
+};
+
+}  // namespace nearmiss::certified

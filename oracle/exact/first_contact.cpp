@@ -1,0 +1,100 @@
+// At each root of a polynomial that all first contacts share, signs of polynomials decide whether the primitives meet.
+#include "oracle/exact/first_contact.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace nearmiss::exact {
+
+namespace {
+
+/// How the primitives meet at a time at which all four points are in one plane (see Predicates), if they do.
+std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int side = t.sign_of(predicates.N()[k]);
+    if (side == 0) continue;
+    Meeting meeting;
+    for (const Polynomial& weight : predicates.weights(k)) {
+      const int s = t.sign_of(weight);
+      if (s == -side) return std::nullopt;
+      meeting.vanishing_weights += s == 0 ? 1 : 0;
+    }
+    return meeting;
+  }
+  int vanishing_weights = 0;
+  for (const OnSegment& on : predicates.segments()) {
+    if (std::any_of(on.cross.begin(), on.cross.end(), [&](const Polynomial& c) { return t.sign_of(c) != 0; }))
+      continue;
+    const int beyond = t.sign_of(on.dot);  // zero at an end of the segment
+    if (beyond <= 0) vanishing_weights = std::max(vanishing_weights, beyond == 0 ? 2 : 1);
+  }
+  if (vanishing_weights == 0) return std::nullopt;
+  return Meeting{vanishing_weights, true};
+}
+
+/// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any, where F is zero
+/// identically; or it is t = 0.
+///
+/// Where a component N_k of the normal is not zero identically they are N_k and its weights. For the set of
+/// colliding times is closed, so it has a least element t*; were t* neither 0 nor a root of one of them that
+/// is not identically zero, N_k would not be zero and none of them would change its sign in a neighbourhood
+/// of t*, and there would be collisions before t*. Where N is zero identically, the same holds for what
+/// decides about the segments. Of those with the same roots, as the three components of what stays in one
+/// plane, one is enough.
+std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
+  std::vector<Polynomial> deciding;
+  const auto add = [&](const Polynomial& p) {
+    const auto same = [&](const Polynomial& q) { return are_proportional(p, q); };
+    if (p.degree() > 0 && std::none_of(deciding.begin(), deciding.end(), same)) deciding.push_back(p);
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (predicates.N()[k].is_zero()) continue;
+    add(predicates.N()[k]);
+    for (const Polynomial& weight : predicates.weights(k)) add(weight);
+    return deciding;
+  }
+  for (const OnSegment& on : predicates.segments()) {
+    for (const Polynomial& c : on.cross) add(c);
+    add(on.dot);
+  }
+  return deciding;
+}
+
+}  // namespace
+
+std::optional<FirstContact> first_contact(Predicates& predicates) {
+  const Polynomial& F = predicates.F();
+  if (!F.is_zero()) {
+    for (Root& t : roots_in_step(F))
+      if (const auto meeting = meet_at(predicates, t)) return FirstContact{t, *meeting};
+    return std::nullopt;
+  }
+  Root start{Number(0)};
+  if (const auto meeting = meet_at(predicates, start)) return FirstContact{start, *meeting};
+  std::optional<FirstContact> first;
+  for (const Polynomial& p : deciding_polynomials(predicates)) {
+    if (first && OnInterval(p, 0, first->time.hi()).changes() == 0) continue;  // no root before
+    for (Root& t : roots_in_step(p)) {
+      if (first && !t.is_below(first->time)) break;
+      const auto meeting = meet_at(predicates, t);
+      if (!meeting) continue;
+      first = {t, *meeting};
+      break;
+    }
+  }
+  return first;
+}
+
+bool any_collision(const Query& query) {
+  Predicates predicates(query);
+  const auto meet = [&](Root& t) { return meet_at(predicates, t).has_value(); };
+  const auto meet_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, meet); };
+  const Polynomial& F = predicates.F();
+  if (!F.is_zero()) return meet_at_a_root(F);  // only there are the points in one plane
+  Root start{Number(0)};
+  if (meet(start)) return true;
+  const auto deciding = deciding_polynomials(predicates);
+  return std::any_of(deciding.begin(), deciding.end(), meet_at_a_root);
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,45 @@
+#include "oracle/exact/moving.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearmiss::exact {
+
+PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k) {
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  return a[i] * b[j] - a[j] * b[i];
+}
+
+PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
+  return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
+}
+
+Number unit(const Query& query) {
+  double largest = 0;
+  for (const double c : query.x) largest = std::max(largest, std::abs(c));
+  if (largest == 0) return 1;
+  const int exponent = -3 - std::ilogb(largest);  // in two factors: a double need not reach it
+  return Number(std::ldexp(1.0, exponent / 2)) * Number(std::ldexp(1.0, exponent - exponent / 2));
+}
+
+std::array<PolynomialVector, 4> moving_points(const Query& query, const Number& scale) {
+  std::array<PolynomialVector, 4> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Number start = Number(query.x[3 * i + k]) * scale;
+      const Number end = Number(query.x[12 + 3 * i + k]) * scale;
+      points[i][k] = Polynomial({start, end - start});
+    }
+  return points;
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,153 @@
+#include "oracle/exact/polynomial.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace nearmiss::exact {
+
+int sign(const Number& x) { return static_cast<int>(CGAL::sign(x)); }
+
+Polynomial::Polynomial(std::vector<Number> coefficients) : a_(std::move(coefficients)) {
+  while (!a_.empty() && CGAL::is_zero(a_.back())) a_.pop_back();
+}
+
+Number Polynomial::operator()(const Number& t) const {
+  if (is_zero()) return 0;
+  Number value = leading();
+  for (std::size_t i = a_.size() - 1; i > 0; --i) value = value * t + a_[i - 1];
+  return value;
+}
+
+Polynomial Polynomial::derivative() const {
+  std::vector<Number> d;
+  for (std::size_t i = 1; i < a_.size(); ++i) d.push_back(a_[i] * Number(static_cast<int>(i)));
+  return Polynomial(std::move(d));
+}
+
+namespace {
+
+/// Coefficient by coefficient, 0 behind the last one.
+template <class Combine>
+Polynomial by_coefficients(const Polynomial& p, const Polynomial& q, const Combine& combine) {
+  static const Number zero = 0;
+  const auto& a = p.coefficients();
+  const auto& b = q.coefficients();
+  std::vector<Number> result;
+  result.reserve(std::max(a.size(), b.size()));
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+    result.push_back(combine(i < a.size() ? a[i] : zero, i < b.size() ? b[i] : zero));
+  return Polynomial(std::move(result));
+}
+
+}  // namespace
+
+Polynomial operator+(const Polynomial& p, const Polynomial& q) {
+  return by_coefficients(p, q, [](const Number& x, const Number& y) { return x + y; });
+}
+
+Polynomial operator-(const Polynomial& p, const Polynomial& q) {
+  return by_coefficients(p, q, [](const Number& x, const Number& y) { return x - y; });
+}
+
+Polynomial operator*(const Polynomial& p, const Polynomial& q) {
+  if (p.is_zero() || q.is_zero()) return {};
+  const std::size_t size = p.a_.size() + q.a_.size() - 1;
+  std::vector<Number> product;
+  product.reserve(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t first = k < q.a_.size() ? 0 : k + 1 - q.a_.size();
+    Number sum = p.a_[first] * q.a_[k - first];
+    for (std::size_t i = first + 1; i < p.a_.size() && i <= k; ++i) sum = sum + p.a_[i] * q.a_[k - i];
+    product.push_back(std::move(sum));
+  }
+  return Polynomial(std::move(product));
+}
+
+bool are_proportional(const Polynomial& p, const Polynomial& q) {
+  if (p.degree() != q.degree()) return false;
+  const auto& a = p.coefficients();
+  const auto& b = q.coefficients();
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    if (a[i] * q.leading() != b[i] * p.leading()) return false;
+  return true;
+}
+
+namespace {
+
+/// The remainder of c p by q, where c is |the leading coefficient of q|^(1 + the difference of degrees).
+Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
+  const Division division = divide(p, q);
+  const Polynomial factor({sign(q.leading()) > 0 ? q.leading() : -q.leading()});
+  Polynomial remainder = division.remainder;
+  for (int i = division.steps; i <= p.degree() - q.degree(); ++i) remainder = factor * remainder;
+  return remainder;
+}
+
+}  // namespace
+
+Division divide(const Polynomial& p, const Polynomial& q) {
+  Division division{{}, p, 0};
+  auto& [quotient, remainder, steps] = division;
+  const int side = sign(q.leading());
+  const Polynomial factor({side > 0 ? q.leading() : -q.leading()});
+  for (; remainder.degree() >= q.degree(); ++steps) {
+    std::vector<Number> term(static_cast<std::size_t>(remainder.degree() - q.degree()) + 1);
+    term.back() = side > 0 ? remainder.leading() : -remainder.leading();
+    const Polynomial step(std::move(term));
+    quotient = factor * quotient + step;
+    remainder = factor * remainder - step * q;
+  }
+  return division;
+}
+
+std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
+  // Subresultants, but for their signs: what they can be divided by is known, and they stay as short as
+  // determinants of p's and q's coefficients are.
+  std::vector<Polynomial> sequence{p, q};
+  Number g = 1;
+  Number h = 1;
+  for (;;) {
+    const Polynomial& a = sequence[sequence.size() - 2];
+    const Polynomial& b = sequence.back();
+    const int steps = a.degree() - b.degree();
+    const Number lead = sign(b.leading()) > 0 ? b.leading() : -b.leading();
+    const Polynomial remainder = pseudo_remainder(a, b);
+    if (remainder.is_zero()) return sequence;
+    Number factor = -g;
+    for (int i = 0; i < steps; ++i) factor = factor * h;
+    std::vector<Number> next = remainder.coefficients();
+    for (Number& c : next) c = c / factor;
+    g = lead;
+    Number power = 1;
+    for (int i = 0; i < steps; ++i) power = power * g;
+    for (int i = 1; i < steps; ++i) power = power / h;
+    if (steps > 0) h = power;
+    sequence.emplace_back(std::move(next));
+    if (sequence.back().degree() == 0) return sequence;
+  }
+}
+
+Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
+  if (p.is_zero()) return q;
+  if (q.is_zero()) return p;
+  return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
+}
+
+Polynomial square_free(const Polynomial& p) {
+  if (p.degree() < 2) return p;
+  const Polynomial common = greatest_common_divisor(p, p.derivative());
+  return common.degree() < 1 ? p : divide(p, common).quotient;
+}
+
+int sign_changes(const std::vector<Number>& numbers) {
+  int changes = 0;
+  int last = 0;
+  for (const Number& c : numbers) {
+    const int s = sign(c);
+    if (s != 0 && last != 0 && s != last) ++changes;
+    if (s != 0) last = s;
+  }
+  return changes;
+}
+
+}  // namespace nearmiss::exact

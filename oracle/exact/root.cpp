@@ -1,0 +1,326 @@
+#include "oracle/exact/root.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace nearmiss::exact {
+
+namespace {
+
+/// How well double knows where something is in an interval, if it is well conditioned.
+constexpr double around = 0x1p-44;
+
+/// The numbers, not all zero, in double, times a power of two that brings the largest near 1.
+std::vector<double> in_proportion(const std::vector<Number>& numbers) {
+  std::vector<double> result;
+  result.reserve(numbers.size());
+  double largest = 0;
+  for (const Number& x : numbers) {
+    result.push_back(CGAL::to_double(x));
+    largest = std::max(largest, std::abs(result.back()));
+  }
+  if (largest > 0x1p-500 && largest < 0x1p500) return result;
+  std::vector<Number> scaled;
+  for (const Number& x : numbers) scaled.push_back(x * Number(largest < 1 ? 0x1p800 : 0x1p-800));
+  return in_proportion(scaled);
+}
+
+// Below, a polynomial in double is by its Bernstein coefficients times binomial coefficients, c_i of s^i (1 -
+// s)^(n - i), as OnInterval has it.
+
+std::vector<double> derivative(const std::vector<double>& c) {
+  const std::size_t n = c.size() - 1;
+  std::vector<double> d;
+  for (std::size_t i = 0; i < n; ++i)
+    d.push_back(static_cast<double>(i + 1) * c[i + 1] - static_cast<double>(n - i) * c[i]);
+  return d;
+}
+
+double value_at(const std::vector<double>& c, double s) {
+  double value = c[0];
+  double power = 1;
+  for (std::size_t i = 1; i < c.size(); ++i) {
+    power *= s;
+    value = value * (1 - s) + power * c[i];
+  }
+  return value;
+}
+
+/// x / y, or a number whose size tells no more than that it is large.
+double ratio(const Number& x, const Number& y) {
+  const std::vector<double> both = in_proportion({x, y});
+  return std::clamp(both[0] / both[1], -0x1p60, 0x1p60);
+}
+
+/// lo + part (hi - lo).
+Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
+
+/// Guesses which number between two positive ones has the fewest bits: the higher one without those behind
+/// the first in which they differ, of 53. Else it is the higher one.
+double simplest_between(const Number& lower, const Number& higher) {
+  const double lo = CGAL::to_double(lower);
+  const double hi = CGAL::to_double(higher);
+  if (!(0 < lo && lo < hi)) return hi;
+  const int unit = std::ilogb(hi) - 52;
+  const auto a = static_cast<std::uint64_t>(std::ldexp(lo, -unit));
+  const auto b = static_cast<std::uint64_t>(std::ldexp(hi, -unit));
+  const std::uint64_t kept = a == b ? ~std::uint64_t{0} : ~(std::bit_floor(a ^ b) - 1);
+  return std::ldexp(static_cast<double>(b & kept), unit);
+}
+
+/// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero
+/// at 0 and 1.
+int count_roots_inside(const Polynomial& p) {
+  const std::vector<Polynomial> chain = remainders(p, p.derivative());
+  const auto changes_at = [&](const Number& t) {
+    std::vector<Number> values;
+    for (const Polynomial& each : chain) values.push_back(each(t));
+    return sign_changes(values);
+  };
+  return changes_at(0) - changes_at(1);
+}
+
+/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was come
+/// across as a number; or neither, where they were not found.
+struct Isolated {
+  std::vector<Root> roots;
+  std::optional<Number> number;
+  bool found = true;
+};
+
+/// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an
+/// extremum, which two close roots have between them, and in the middle. Gives up after so many cuts. The
+/// number of roots, where it is known, spares a search for what is none, such as a pair of close complex
+/// roots.
+Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
+                 std::optional<std::size_t> missing) {
+  struct Subinterval {
+    Number lo, hi;
+    bool guess;
+  };
+  Isolated isolated;
+  std::vector<Subinterval> parts{{0, 1, true}};  // the lowest one last
+  for (int cuts = 0; !parts.empty() && missing != 0;) {
+    const Subinterval part = std::move(parts.back());
+    parts.pop_back();
+    const OnInterval on(*p, part.lo, part.hi);
+    const int changes = on.changes();
+    if (changes == 1) {
+      isolated.roots.emplace_back(p, part.lo, part.hi);
+      if (missing) --*missing;
+    }
+    if (changes < 2) continue;
+    if (++cuts > most_cuts) return {{}, {}, false};
+    const double extremum = part.guess ? on.guess_extremum() : 0.5;
+    const double around_it = part.guess ? around : 0;
+    Number hi = part.hi;
+    for (const double at : {extremum + around_it, extremum - around_it}) {
+      if (!(at > 0 && at < 1)) continue;
+      const Number lo = between(part.lo, part.hi, at);
+      if (hi <= lo) continue;
+      if (p->sign_at(lo) == 0) return {{}, lo};
+      parts.push_back({lo, hi, !part.guess});
+      hi = lo;
+    }
+    parts.push_back({part.lo, hi, !part.guess});
+  }
+  return isolated;
+}
+
+}  // namespace
+
+OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
+  // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
+  // (1 + x)^(n - i).
+  c_.reserve(p.coefficients().size());
+  c_.push_back(p.leading());
+  for (auto i = static_cast<std::size_t>(p.degree()); i-- > 0;) {
+    const Number& a = p.coefficients()[i];
+    const std::size_t last = c_.size();
+    c_.push_back(c_.back() * hi + a);
+    std::size_t binomial = 1;
+    for (std::size_t k = last - 1; k > 0; --k) {
+      binomial = binomial * (k + 1) / (last - k);
+      c_[k] = c_[k] * lo + c_[k - 1] * hi + a * Number(binomial);
+    }
+    c_[0] = c_[0] * lo + a;
+  }
+}
+
+int OnInterval::only_sign() const {
+  if (changes() > 0) return 0;
+  for (const Number& c : c_)
+    if (const int s = sign(c); s != 0) return s;
+  return 0;
+}
+
+double OnInterval::guess_root(int sign_at_lo) const {
+  const std::vector<double> c = in_proportion(c_);
+  double lo = 0;
+  double hi = 1;
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    const double value = value_at(c, middle);
+    ((value > 0) - (value < 0) == sign_at_lo ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+double OnInterval::guess_extremum() const {
+  const std::vector<double> slope = derivative(in_proportion(c_));
+  const std::vector<double> bend = derivative(slope);
+  double s = 0.5;
+  // Newton's method, which comes nearer only by halves where two roots are close.
+  for (int i = 0; i < 60; ++i) {
+    const double value = value_at(slope, s);
+    if (value == 0) break;
+    const double next = std::clamp(s - value / value_at(bend, s), 0.0, 1.0);
+    if (std::isnan(next)) return 0.5;
+    const bool stands = std::abs(next - s) < 0x1p-48;
+    s = next;
+    if (stands) break;
+  }
+  return s;
+}
+
+Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
+    : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(p_->sign_at(lo)) {}
+
+/// Keeps the part that has the root, `at` in the interval.
+void Root::cut(const Number& at) {
+  const int side = p_->sign_at(at);
+  if (side == 0)
+    *this = Root(at);
+  else
+    (side == sign_at_lo_ ? lo_ : hi_) = at;
+}
+
+void Root::refine() {
+  if (is_number()) return;
+  ++refinements_;
+  const Number lo = lo_;
+  const Number width = hi_ - lo_;
+  const OnInterval on(*p_, lo_, hi_);
+  // In a small interval p is nearly linear: steps along the chord give the root's digits, some at a time.
+  Number guess = lo + Number(on.guess_root(sign_at_lo_)) * width;
+  Number unit = width;
+  Number magnifier = 1;
+  for (int i = 1; i < chord_steps_; ++i) {
+    unit = unit * Number(around);
+    magnifier = magnifier * Number(1 / around);
+    guess = guess - unit * Number(ratio((*p_)(guess)*magnifier, on.rise()));
+  }
+  const Number radius = unit * Number(8 * around);
+  const Number below = guess - radius;
+  const Number above = guess + radius;
+  // Roots that are numbers of few bits are frequent, and signs at them are quick.
+  for (const Number& at : {Number(simplest_between(below, above)), below, above})
+    if (!is_number() && lo_ < at && at < hi_) cut(at);
+  const bool found = hi_ - lo_ <= Number(2) * radius;
+  chord_steps_ = found ? std::min(2 * chord_steps_, 64) : 1;
+  if (Number(2) * (hi_ - lo_) > width) cut(between(lo_, hi_, 0.5));
+}
+
+/// A divisor of p has a root where p's only one is, a simple one, if and only if its sign changes there.
+bool Root::is_root_of(const Polynomial& q) const {
+  const Polynomial common = greatest_common_divisor(*p_, q);
+  return common.degree() > 0 && common.sign_at(lo_) != common.sign_at(hi_);
+}
+
+int Root::sign_of(const Polynomial& q) {
+  if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
+  if (!is_number() && are_proportional(*p_, q)) return 0;
+  constexpr int patience = 2;  // of a sign that is not zero, twice 44 bits nearly always tell
+  for (bool can_be_zero = true;;) {
+    if (is_number()) return q.sign_at(lo_);
+    if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
+    if (can_be_zero && refinements_ >= patience) {
+      if (is_root_of(q)) return 0;
+      can_be_zero = false;
+    }
+    refine();
+  }
+}
+
+bool Root::is(const Number& number) const {
+  if (is_number()) return lo_ == number;
+  return lo_ < number && number < hi_ && p_->sign_at(number) == 0;
+}
+
+std::optional<CGAL::Gmpq> Root::as_rational() {
+  using CGAL::Gmpq;
+  using CGAL::Gmpz;
+  if (is_number()) return Gmpq(lo_);
+  // With coefficients times a power of two that makes them integers, the denominator divides the leading one.
+  Gmpz multiple = 1;
+  for (const Number& a : p_->coefficients()) multiple = std::max(multiple, Gmpq(a).denominator());
+  const Gmpz denominator = (Gmpq(p_->leading()) * Gmpq(multiple)).numerator();
+  const Gmpq size = CGAL::abs(Gmpq(denominator));
+  while (!is_number() && size * Gmpq(hi_ - lo_) >= 1) refine();
+  if (is_number()) return Gmpq(lo_);
+  // There is at most one multiple of 1 / size in the open interval.
+  const Gmpq lowest = size * Gmpq(lo_);
+  Gmpz above;
+  mpz_fdiv_q(above.mpz(), lowest.numerator().mpz(), lowest.denominator().mpz());
+  const Gmpq t = Gmpq(above + 1) / size;
+  Gmpq value = 0;
+  for (int i = p_->degree(); i >= 0; --i)
+    value = value * t + Gmpq(p_->coefficients()[static_cast<std::size_t>(i)]);
+  if (t < Gmpq(hi_) && CGAL::is_zero(value)) return t;
+  return std::nullopt;
+}
+
+bool Root::is_same(const Root& other) const {
+  if (other.is_number()) return is(other.lo_);
+  if (is_number()) return other.is(lo_);
+  // Each polynomial has at most one root where both intervals are, and none at the ends of its own.
+  const Number& lo = std::max(lo_, other.lo_);
+  const Number& hi = std::min(hi_, other.hi_);
+  if (hi <= lo) return false;
+  const Polynomial common = greatest_common_divisor(*p_, *other.p_);
+  return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
+}
+
+bool Root::is_below(Root& other) {
+  if (is_same(other)) return false;
+  while (hi_ > other.lo_ && other.hi_ > lo_) (other.hi_ - other.lo_ < hi_ - lo_ ? *this : other).refine();
+  return hi_ <= other.lo_;
+}
+
+std::vector<Root> roots_in_step(const Polynomial& p) {
+  auto rest = std::make_shared<const Polynomial>(p);
+  std::vector<Root> numbers;
+  const auto take_out = [&](const Number& root) {
+    numbers.emplace_back(root);
+    while (rest->degree() > 0 && rest->sign_at(root) == 0)
+      rest = std::make_shared<const Polynomial>(divide(*rest, Polynomial({-root, Number(1)})).quotient);
+  };
+  for (const Number& end : {Number(0), Number(1)})
+    if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
+  // First without any effort; where a few cuts do not part the roots, some may be multiple ones.
+  constexpr int few = 12;
+  std::vector<Root> roots;
+  for (bool is_simple = false; rest->degree() > 0;) {
+    Isolated isolated = is_simple ? isolate(rest, std::numeric_limits<int>::max(), count_roots_inside(*rest))
+                                  : isolate(rest, few, std::nullopt);
+    if (isolated.number) {
+      take_out(*isolated.number);
+    } else if (isolated.found) {
+      roots = std::move(isolated.roots);
+      break;
+    } else {
+      rest = std::make_shared<const Polynomial>(square_free(*rest));
+      is_simple = true;
+    }
+  }
+  for (Root& number : numbers)
+    roots.insert(std::find_if(roots.begin(), roots.end(), [&](Root& root) { return number.is_below(root); }),
+                 number);
+  return roots;
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,85 @@
+// Real roots of polynomials in [0, 1], and signs of polynomials at them.
+#pragma once
+
+#include <CGAL/Gmpq.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "oracle/exact/polynomial.hpp"
+
+namespace nearmiss::exact {
+
+/// A polynomial on an interval by its Bernstein coefficients, times binomial coefficients. In the open
+/// interval there are as many roots as signs change along them, or fewer by an even number.
+class OnInterval {
+ public:
+  /// Not the zero polynomial.
+  OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
+
+  [[nodiscard]] int changes() const { return sign_changes(c_); }
+  /// The sign on the open interval, where the coefficients tell; else 0.
+  [[nodiscard]] int only_sign() const;
+
+  /// The value at the upper end less that at the lower one.
+  [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
+
+  /// Guesses where in [0, 1] of the interval the only root is, given the sign at the lower end.
+  [[nodiscard]] double guess_root(int sign_at_lo) const;
+  /// Guesses where in [0, 1] of the interval there may be an extremum.
+  [[nodiscard]] double guess_extremum() const;
+
+ private:
+  std::vector<Number> c_;
+};
+
+/// A real root of a polynomial: a number itself, or the only root in an open interval.
+class Root {
+ public:
+  explicit Root(const Number& number) : lo_(number), hi_(number) {}
+  /// The only root of p in (lo, hi), a simple one; p is not zero at the ends.
+  Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi);
+
+  /// lo <= the root <= hi; equal where the root is that number, else the root is neither.
+  [[nodiscard]] const Number& lo() const { return lo_; }
+  [[nodiscard]] const Number& hi() const { return hi_; }
+
+  /// The sign of another polynomial at the root; makes the interval smaller where it has to.
+  int sign_of(const Polynomial& q);
+  /// Makes the interval smaller, to half at least.
+  void refine();
+  /// Whether the root is this number.
+  [[nodiscard]] bool is(const Number& number) const;
+  /// The root, if it is rational: looks for it as far as a fraction with the leading coefficient as
+  /// denominator.
+  std::optional<CGAL::Gmpq> as_rational();
+  /// Whether this root is smaller than the other one.
+  bool is_below(Root& other);
+
+ private:
+  [[nodiscard]] bool is_number() const { return !p_; }
+  [[nodiscard]] bool is_root_of(const Polynomial& q) const;
+  [[nodiscard]] bool is_same(const Root& other) const;
+  void cut(const Number& at);
+
+  std::shared_ptr<const Polynomial> p_;
+  Number lo_, hi_;
+  int sign_at_lo_ = 0;
+  int refinements_ = 0;
+  int chord_steps_ = 1;
+};
+
+/// The distinct real roots of p in [0, 1], p not zero, ascending.
+std::vector<Root> roots_in_step(const Polynomial& p);
+
+/// Whether `holds(t)` for one of them, a Root& t.
+template <class Holds>
+bool holds_at_a_root(const Polynomial& p, const Holds& holds) {
+  auto roots = roots_in_step(p);
+  return std::any_of(roots.begin(), roots.end(), holds);
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,304 @@
+// The certified filter for many queries of one kind at once: patch.hpp's arithmetic in lanes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "oracle/filter/batch_look.hpp"
+#include "oracle/filter/filter.hpp"
+#include "oracle/filter/instruction_sets.hpp"
+#include "oracle/filter/lanes.hpp"
+#include "oracle/filter/planes.hpp"
+#include "oracle/filter/step_part.hpp"
+
+namespace nearmiss::certified {
+
+/// Goes through the queries stage by stage, each time with those that are left side by side in n lanes:
+/// moving planes; F of one sign; then parts of the step, as ContactSearch does, but with fewer means: what is hard
+/// is left undecided. What is computed in a lane depends on its query alone, so n changes no answer.
+template <int n, Kind kind>
+class BatchFilter {
+ public:
+  explicit BatchFilter(double caution) : caution_(caution) {}
+
+  /// Looks at those of the queries that are of its kind, at most batch_size; decides stages[i], which was
+  /// `undecided`, or leaves it so.
+  void run(const Query* queries, std::size_t count, FilterStage* stages, const Query* ahead) {
+    queries_ = queries;
+    ahead_ = ahead;
+    const Rows all(count, [&](std::size_t q) { return queries[q].kind == kind; });
+    const Rows crossing = cull_by_planes(all, stages);
+    const Rows unsure = cull_by_sign(crossing, stages);
+    prepare_weights(unsure);
+    search(unsure, stages);
+  }
+
+ private:
+  using Real = Lanes<n>;
+  using Mask = typename Real::Mask;
+  using Column = std::array<double, batch_size + n>;
+  static constexpr std::size_t weight_count = kind == Kind::vertex_triangle ? 3 : 4;
+
+  /// Numbers of queries, taken n at a time.
+  class Rows {
+   public:
+    Rows() = default;
+    /// Those of the first `count` rows for which `wanted` holds.
+    template <class Wanted>
+    Rows(std::size_t count, const Wanted& wanted) {
+      std::size_t size = 0;
+      for (std::size_t row = 0; row < count; ++row) {
+        rows_[size] = static_cast<std::uint8_t>(row);
+        size += wanted(row) ? 1 : 0;
+      }
+      size_ = size;
+    }
+    void add(std::size_t row) { add_if(true, row); }
+    /// Without a branch, which could only be guessed.
+    void add_if(bool wanted, std::size_t row) {
+      rows_[size_] = static_cast<std::uint8_t>(row);
+      size_ += wanted ? 1 : 0;
+    }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return rows_[i]; }
+    /// Rows first .. first + n - 1; behind the last one there are others, whose lanes mean nothing.
+    [[nodiscard]] const std::uint8_t* pack(std::size_t first) const { return rows_.data() + first; }
+
+   private:
+    std::array<std::uint8_t, batch_size + n> rows_{};
+    std::size_t size_ = 0;
+  };
+
+  /// Numbers of lanes as an array: `visit(lane, number)`.
+  template <class Visit>
+  static void for_lanes(const typename Real::IntegerLanes& bits, std::size_t count, const Visit& visit) {
+    std::array<std::int64_t, n> numbers;
+    std::memcpy(numbers.data(), &bits, sizeof(bits));
+    for (std::size_t l = 0; l < std::min<std::size_t>(n, count); ++l) visit(l, numbers[l]);
+  }
+
+  /// The points of the queries in a pack of rows.
+  struct PointLanes {
+    std::array<Real, 24> x;  ///< in the order of Query::x
+    const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
+      return x[12 * time + 3 * vertex + k];
+    }
+  };
+  [[nodiscard]] PointLanes points(const std::uint8_t* rows) const {
+    PointLanes points;
+    for (std::size_t i = 0; i < 24; i += n) {
+      Real* const columns = &points.x[i];
+      for (std::size_t l = 0; l < n; ++l) columns[l] = Real::load(&queries_[rows[l]].x[i]);
+      Real::transpose(columns);
+    }
+    return points;
+  }
+
+  /// Into the nearest cache, line by line.
+  static void fetch(const Query& query) {
+    const auto* const bytes = reinterpret_cast<const char*>(&query);
+    for (std::size_t line = 0; line < sizeof(Query); line += 64) __builtin_prefetch(bytes + line);
+    __builtin_prefetch(bytes + sizeof(Query) - 1);
+  }
+
+  Rows cull_by_planes(const Rows& rows, FilterStage* stages) const {
+    Rows left;
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      for (std::size_t l = 0; l < n; ++l) fetch(ahead_[rows[i + l]]);
+      const PointLanes x = points(rows.pack(i));
+      const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
+      // Four sums at a time, for additions wait for each other; finite only where all coordinates are.
+      std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
+      for (std::size_t c = 4; c < 24; c += 4)
+        for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
+      const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
+      constexpr int separated = 1;
+      constexpr int unsure = 2;
+      for_lanes((finite & apart).as(separated) | (finite & (!apart)).as(unsure), rows.size() - i,
+                [&](std::size_t l, std::int64_t code) {
+                  const std::size_t row = rows[i + l];
+                  stages[row] = code == separated ? FilterStage::planes : FilterStage::undecided;
+                  left.add_if(code == unsure, row);
+                });
+    }
+    return left;
+  }
+
+  Rows cull_by_sign(const Rows& rows, FilterStage* stages) {
+    Rows left;
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      const StepPart<Real> p = whole_step<Real>(points(rows.pack(i)));
+      auto F = coplanarity(p.a, p.b, p.c);
+      F.error = caution_ * F.error;
+      const auto [positive, negative] = certain_signs(F.b, F.error);
+      const Mask ends_known = (abs(F.b[0]) > F.error) & (abs(F.b[3]) > F.error);
+      constexpr int one_sign = 1;
+      constexpr int known = 2;
+      std::array<std::array<double, n>, 5> f;
+      for (std::size_t c = 0; c < 4; ++c) F.b[c].store(f[c].data());
+      F.error.store(f[4].data());
+      for_lanes((positive | negative).as(one_sign) | ends_known.as(known), rows.size() - i,
+                [&](std::size_t l, std::int64_t code) {
+                  const std::size_t row = rows[i + l];
+                  stages[row] = (code & one_sign) != 0 ? FilterStage::one_sign : FilterStage::undecided;
+                  if (code != known) return;
+                  for (std::size_t c = 0; c < 5; ++c) F_[c][left.size()] = f[c][l];
+                  left.add(row);
+                });
+    }
+    return left;
+  }
+
+  /// Keeps the weights in the component in which the normal is largest at t = 1/2.
+  void prepare_weights(const Rows& rows) {
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      const StepPart<Real> whole = whole_step<Real>(points(rows.pack(i)));
+      const auto twice_middle = [](const Motion<Real>& m) {
+        return Vec<Real>{m.start[0] + m.end[0], m.start[1] + m.end[1], m.start[2] + m.end[2]};
+      };
+      const Vec<Real> x21 = twice_middle(whole.x21);
+      const Vec<Real> x31 = twice_middle(whole.x31);
+      const Vec<Real> a = twice_middle(whole.a);
+      const Vec<Real> x32{x31[0] - x21[0], x31[1] - x21[1], x31[2] - x21[2]};
+      Vec<Real> normal;
+      for (std::size_t k = 0; k < 3; ++k)
+        normal[k] =
+            abs(kind == Kind::vertex_triangle ? cross_component(x21, x31, k) : cross_component(a, x32, k));
+      const Mask first = !(normal[0] < max(normal[1], normal[2]));
+      const Mask second = !(normal[1] < normal[2]);
+      // Component k is brought to the place of component 0, the other two behind it: only they are needed.
+      const auto choose = [&](const Vec<Real>& v) {
+        return Vec<Real>{Real(0), select(first, v[1], select(second, v[2], v[0])),
+                         select(first, v[2], select(second, v[0], v[1]))};
+      };
+      const auto turn = [&](const Motion<Real>& m) {
+        return Motion<Real>{choose(m.start), choose(m.end), choose(m.magnitude), true, {}};
+      };
+      const Weights<Real> weights(
+          kind, {0, 1, turn(whole.a), turn(whole.b), turn(whole.c), turn(whole.x21), turn(whole.x31)}, 0);
+      for (std::size_t w = 0; w < weight_count; ++w) {
+        for (std::size_t c = 0; c < 3; ++c) weights.w[w].b[c].store(&W_[4 * w + c][i]);
+        (caution_ * weights.w[w].error).store(&W_[4 * w + 3][i]);
+      }
+    }
+  }
+
+  using Quadratics = std::array<Bernstein<Real, 3>, weight_count>;
+  using Look = certified::Look<n>;
+
+  /// F and the weights of some queries, given how to take n numbers from a column.
+  template <class Take>
+  std::pair<Bernstein<Real, 4>, Quadratics> polynomials(const Take& take) const {
+    const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
+    Quadratics weights;
+    for (std::size_t w = 0; w < weight_count; ++w)
+      weights[w] = {{take(W_[4 * w]), take(W_[4 * w + 1]), take(W_[4 * w + 2])}, take(W_[4 * w + 3])};
+    return {F, weights};
+  }
+
+  /// A part of the step of a query; its place is that in the list of the queries that are searched.
+  struct PendingPart {
+    double lo, hi;
+    std::uint8_t place;
+    std::uint8_t depth;
+  };
+  /// Parts that are still to be looked at.
+  struct PendingParts {
+    static constexpr std::size_t room = 4 * batch_size;
+    std::array<PendingPart, room + n> parts;
+    std::size_t count = 0;
+
+    /// Adds the part [lo, hi] of `whole`, if it is not empty; false if there is no room or it is too small.
+    bool push(const PendingPart& whole, double lo, double hi) {
+      constexpr std::uint8_t deepest = 8;
+      if (whole.depth == deepest || count == room) return false;
+      if (lo < hi) parts[count++] = {lo, hi, whole.place, static_cast<std::uint8_t>(whole.depth + 1)};
+      return true;
+    }
+  };
+
+  /// Looks at the whole step of every query, then at the parts that are left, until none are.
+  void search(const Rows& rows, FilterStage* stages) const {
+    PendingParts parts;
+    PendingParts next;
+    for (std::size_t i = 0; i < rows.size(); ++i) stages[rows[i]] = FilterStage::weights;
+    look_at_steps(rows, stages, next);
+    while (next.count > 0) {
+      std::copy_n(next.parts.begin(), next.count, parts.parts.begin());
+      parts.count = std::exchange(next.count, 0);
+      std::fill_n(parts.parts.begin() + parts.count, n, PendingPart{0, 1, 0, 0});
+      look_at_parts(parts, rows, stages, next);
+    }
+  }
+
+  void look_at_steps(const Rows& rows, FilterStage* stages, PendingParts& next) const {
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      const auto [F, weights] = polynomials([&](const Column& c) { return Real::load(&c[i]); });
+      const auto whole = [&](std::size_t l) {
+        return PendingPart{0, 1, static_cast<std::uint8_t>(i + l), 0};
+      };
+      take_over(look(F, weights, Real(0), Real(1)), rows.size() - i, whole, rows, stages, next);
+    }
+  }
+
+  void look_at_parts(const PendingParts& parts, const Rows& rows, FilterStage* stages,
+                     PendingParts& next) const {
+    for (std::size_t i = 0; i < parts.count; i += n) {
+      const PendingPart* const pack = &parts.parts[i];
+      const auto [F, weights] = polynomials(
+          [&](const Column& c) { return Real::gather([&](std::size_t l) { return c[pack[l].place]; }); });
+      const Real lo = Real::gather([&](std::size_t l) { return pack[l].lo; });
+      const Real hi = Real::gather([&](std::size_t l) { return pack[l].hi; });
+      const auto part = [&](std::size_t l) { return pack[l]; };
+      take_over(look(F, weights, lo, hi), parts.count - i, part, rows, stages, next);
+    }
+  }
+
+  /// Sets the stages by what was seen in a pack of parts, and adds what has to be looked at next.
+  template <class PartOfLane>
+  static void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
+                        FilterStage* stages, PendingParts& next) {
+    std::array<double, n> left;
+    std::array<double, n> right;
+    seen.left.store(left.data());
+    seen.right.store(right.data());
+    for_lanes(seen.outcome, lanes, [&](std::size_t l, std::int64_t outcome) {
+      if (outcome == 0) return;
+      const PendingPart part = part_of_lane(l);
+      FilterStage& stage = stages[rows[part.place]];
+      if ((outcome & Look::collision) != 0) stage = FilterStage::sign_change;
+      if (stage == FilterStage::sign_change) return;
+      const auto push = [&](double lo, double hi) {
+        if (!next.push(part, lo, hi)) stage = FilterStage::undecided;
+      };
+      if ((outcome & Look::unknown) != 0) stage = FilterStage::undecided;
+      if ((outcome & Look::before) != 0) push(part.lo, left[l]);
+      if ((outcome & Look::middle) != 0) push(left[l], right[l]);
+      if ((outcome & Look::behind) != 0) push(right[l], part.hi);
+    });
+  }
+
+  double caution_;  ///< at least 1, the factor of all bounds
+  const Query* queries_ = nullptr;
+  const Query* ahead_ = nullptr;
+  // By place in the list of the queries that are searched; a pack of lanes may reach beyond its end.
+  std::array<Column, 5> F_;                 ///< Bernstein coefficients and error
+  std::array<Column, 4 * weight_count> W_;  ///< likewise, weight by weight
+};
+
+template <int n>
+void filter_batch(const Query* queries, std::size_t count, double caution, FilterStage* stages,
+                  const Query* ahead) {
+  std::fill_n(stages, count, FilterStage::undecided);
+  BatchFilter<n, Kind::vertex_triangle> vertex_triangle(caution);
+  vertex_triangle.run(queries, count, stages, ahead);
+  BatchFilter<n, Kind::edge_edge> edge_edge(caution);
+  edge_edge.run(queries, count, stages, ahead);
+}
+
+}  // namespace nearmiss::certified

@@ -1,0 +1,142 @@
+// What a part of the step shows, for many queries at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "oracle/arithmetic/bernstein.hpp"
+#include "oracle/arithmetic/guess.hpp"
+#include "oracle/filter/lanes.hpp"
+
+namespace nearmiss::certified {
+
+/// Where something is certainly positive or negative.
+template <int n>
+struct Signs {
+  typename Lanes<n>::Mask positive, negative;
+};
+
+/// Where all numbers certainly have the sign.
+template <int n, std::size_t count>
+Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n>& error) {
+  Signs<n> signs{numbers[0] > error, numbers[0] < -error};
+  for (std::size_t i = 1; i < count; ++i) {
+    signs.positive = signs.positive & (numbers[i] > error);
+    signs.negative = signs.negative & (numbers[i] < -error);
+  }
+  return signs;
+}
+
+/// Where weights certainly have one sign, and where two of them have opposite ones.
+template <int n>
+struct WeightSigns {
+  typename Lanes<n>::Mask agree, opposed;
+};
+
+/// Of the weights, given what tells the signs of one of them.
+template <int n, std::size_t count, class SignsOf>
+WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
+                            const SignsOf& signs_of) {
+  Signs<n> some = signs_of(weights[0]);
+  auto all = some.positive | some.negative;
+  for (std::size_t w = 1; w < count; ++w) {
+    const Signs<n> own = signs_of(weights[w]);
+    some = {some.positive | own.positive, some.negative | own.negative};
+    all = all & (own.positive | own.negative);
+  }
+  const auto opposed = some.positive & some.negative;
+  return {all & (!opposed), opposed};
+}
+
+/// What was seen in a part of the step, and which parts of it have to be looked at: [lo, left], [left,
+/// right] and [right, hi].
+template <int n>
+struct Look {
+  enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16 };
+  typename Lanes<n>::IntegerLanes outcome;
+  Lanes<n> left, right;
+};
+
+/// Where the sign of F is known at both ends [lo, hi] of a part, and where it differs.
+template <int n>
+struct EndSigns {
+  typename Lanes<n>::Mask rises, changes, known;
+
+  EndSigns(const Lanes<n>& at_left, const Lanes<n>& at_right, const Lanes<n>& error) {
+    const Signs<n> at_lo = certain_signs(std::array{at_left}, error);
+    const Signs<n> at_hi = certain_signs(std::array{at_right}, error);
+    rises = at_lo.negative & at_hi.positive;
+    changes = rises | (at_lo.positive & at_hi.negative);
+    known = (at_lo.positive | at_lo.negative) & (at_hi.positive | at_hi.negative);
+  }
+};
+
+/// A guess of F's root in [lo, hi], t, and [before, behind] around it, within h of t.
+template <int n>
+struct RootBracket {
+  Lanes<n> t, h, before, behind;
+  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes its sign in it
+
+  /// By Newton's method from the secant's root, given F's Bernstein coefficients f on [lo, hi].
+  RootBracket(const Bernstein<Lanes<n>, 4>& F, const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends,
+              const Lanes<n>& lo, const Lanes<n>& hi) {
+    using Real = Lanes<n>;
+    const Powers<Real> power = in_powers(F.b);
+    t = lo + (hi - lo) * (f[0] / (f[0] - f[3]));
+    Real step = 0;
+    Real slope = 0;
+    for (int i = 0; i < 4; ++i) {
+      slope = power.slope(t);
+      step = power.at(t) / slope;
+      t = min(max(t - step, lo), hi);
+    }
+    h = 2 * abs(step) + 4 * F.error / abs(slope) + 0x1p-50;
+    before = max(lo, t - h);
+    behind = min(hi, t + h);
+    const Real rise = select(ends.rises, Real(1), Real(-1));
+    holds = ends.changes & (h < 0.0625 * (hi - lo)) & (rise * F.at(before) < -F.error) &
+            (rise * F.at(behind) > F.error);
+  }
+};
+
+/// About where F has an extremum in [lo, hi], which divides a part in which F keeps its sign; else the middle.
+template <int n>
+Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,
+                  const Lanes<n>& hi) {
+  const Lanes<n> turn = extremum(f);
+  const auto usable = (!ends.changes) & (turn > 0x1p-6) & (turn < 1 - 0x1p-6);
+  return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
+}
+
+/// F and the weights of n queries on a part [lo, hi] of the step of each.
+template <int n, std::size_t count>
+Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
+             const Lanes<n>& lo, const Lanes<n>& hi) {
+  using Mask = typename Lanes<n>::Mask;
+  const auto f = F.on(lo, hi);
+  const Signs<n> whole = certain_signs(f, F.error);
+  const auto in_all =
+      weight_signs(weights, [&](const auto& w) { return certain_signs(w.on(lo, hi), w.error); });
+  const Mask dropped = whole.positive | whole.negative | in_all.opposed;
+  const EndSigns<n> ends(f[0], f[3], F.error);
+  const RootBracket<n> root(F, f, ends, lo, hi);
+  const auto near = weight_signs(
+      weights, [&](const auto& w) { return certain_signs(std::array{w.at(root.t)}, w.error_near(root.h)); });
+
+  Look<n> result;
+  const Lanes<n> divided = division(f, ends, lo, hi);
+  result.left = select(root.holds, root.before, divided);
+  result.right = select(root.holds, root.behind, divided);
+  const Signs<n> before = certain_signs(F.on(lo, result.left), F.error);
+  const Signs<n> behind = certain_signs(F.on(result.right, hi), F.error);
+  const Mask found = ends.changes & (in_all.agree | (root.holds & near.agree)) & (!dropped);
+  const Mask go_on = ends.known & (!dropped) & (!found);
+  result.outcome = found.as(Look<n>::collision) | ((!ends.known) & (!dropped)).as(Look<n>::unknown) |
+                   (go_on & (!(before.positive | before.negative))).as(Look<n>::before) |
+                   (go_on & root.holds & (!near.opposed)).as(Look<n>::middle) |
+                   (go_on & (!(behind.positive | behind.negative))).as(Look<n>::behind);
+  return result;
+}
+
+}  // namespace nearmiss::certified

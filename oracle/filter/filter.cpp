@@ -1,0 +1,114 @@
+#include "oracle/filter/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ccd/arithmetic.hpp"
+#include "oracle/filter/end_contact.hpp"
+#include "oracle/filter/instruction_sets.hpp"
+#include "oracle/filter/planes.hpp"
+#include "oracle/filter/search.hpp"
+
+namespace nearmiss {
+
+namespace certified {
+namespace {
+
+template <Kind kind, class Points>
+bool separated_by_a_plane(const Points& x) {
+  return separated_across_axes<kind>(x) || separated_across_diagonals<kind>(x);
+}
+
+template <class Real>
+FilterStage search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Real>& whole) {
+  return ContactSearch<Real>(query.kind, whole, whole, F, 0).run();
+}
+
+FilterStage search_in_double_words(const Query& query) {
+  const auto whole = whole_step<DoubleWord>(coordinates(query));
+  const auto F = coplanarity(whole.a, whole.b, whole.c);
+  if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
+  return search(query, F, whole);
+}
+
+[[gnu::noinline]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
+                                          const Bernstein<double, 4>& F) {
+  for (const int time : {0, 1})
+    if (!(std::abs(F.b[time == 0 ? 0 : 3]) > F.error) && touch_at_end(query, time))
+      return FilterStage::at_an_end;
+  const FilterStage stage = search(query, F, whole);
+  return stage == FilterStage::undecided ? search_in_double_words(query) : stage;
+}
+
+FilterBatch* filter_with(Instructions instructions) {
+  switch (instructions) {
+    case Instructions::avx512:
+      return filter_with_avx512;
+    case Instructions::avx2:
+      return filter_with_avx2;
+    default:
+      return filter_with_sse2;
+  }
+}
+
+void filter_all(std::span<const Query> queries, double caution, std::span<FilterStage> stages,
+                Instructions instructions) {
+  const PlainArithmetic guard;
+  FilterBatch* const filter_batch = filter_with(instructions);
+  for (std::size_t first = 0; first < queries.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, queries.size() - first);
+    const std::size_t ahead = std::min(first + batch_size, queries.size() - count);
+    filter_batch(&queries[first], count, caution, &stages[first], &queries[ahead]);
+  }
+}
+
+}  // namespace
+}  // namespace certified
+
+FilterStage filter(const Query& query) {
+  using namespace certified;
+  const PlainArithmetic guard;
+  if (!is_finite(query)) return FilterStage::undecided;
+  const auto x = coordinates(query);
+  if (query.kind == Kind::vertex_triangle ? separated_by_a_plane<Kind::vertex_triangle>(x)
+                                          : separated_by_a_plane<Kind::edge_edge>(x))
+    return FilterStage::planes;
+  StepPart<double> whole{
+      0, 1, difference<double>(x, 1, 0), difference<double>(x, 2, 0), difference<double>(x, 3, 0), {}, {}};
+  const auto F = coplanarity(whole.a, whole.b, whole.c);
+  if (common_sign(F.b, F.error) != 0) return FilterStage::one_sign;
+  whole.x21 = difference<double>(x, 2, 1);
+  whole.x31 = difference<double>(x, 3, 1);
+  return look_closer(query, whole, F);
+}
+
+bool has(Instructions instructions) {
+  switch (instructions) {
+    case Instructions::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl");
+    case Instructions::avx2:
+      return __builtin_cpu_supports("avx2");
+    default:
+      return true;
+  }
+}
+
+Instructions widest_instructions() {
+  static const Instructions widest = has(Instructions::avx512) ? Instructions::avx512
+                                     : has(Instructions::avx2) ? Instructions::avx2
+                                                               : Instructions::sse2;
+  return widest;
+}
+
+void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instructions instructions) {
+  certified::filter_all(queries, 1, stages, instructions);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (stages[i] == FilterStage::undecided) stages[i] = filter(queries[i]);
+}
+
+void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {
+  certified::filter_all(queries, caution, stages, widest_instructions());
+}
+
+}  // namespace nearmiss

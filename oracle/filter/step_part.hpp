@@ -1,0 +1,290 @@
+// A query over a part of the step: F and the weights as polynomials with certified errors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "ccd/query.hpp"
+#include "oracle/arithmetic/bernstein.hpp"
+#include "oracle/arithmetic/vectors.hpp"
+
+// A query is decided in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
+//   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
+//   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
+//   W3 = (b - a) × (c - a) = W0 + W1 + W2.
+// Where F = 0, the primitives meet only if, in every component, these agree in sign or are zero:
+//   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
+//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
+// For a meeting point makes each weight a number in [0, 1], and each W that number times N, N = 0 included.
+// So two of them with certainly opposite signs exclude a collision. If in one component all are certainly of
+// one sign, N is not zero there, and F = 0 is a collision: where F certainly changes its sign there is one.
+//
+// Rounding errors, in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. A
+// vector v comes with V, the largest magnitudes of its components as computed, and e_v, bounds of their
+// errors. tests/proofs/ derives each constant below again from this code, has Gappa prove it, and shows how
+// near to it an error can come.
+//
+// - A product x y of two components misses by at most X e_y + Y e_x + e_x e_y because of its factors.
+//
+// - W_k is made of at most four products: the middle Bernstein coefficient is half the sum of two differences
+//   of two. Let w be the sum of the magnitudes of two, l that of their factors' misses. Rounding: product,
+//   difference, sum: 3 U w; halving is exact. A level of de Casteljau: s = 1 - t, product, sum: 3, and s + t
+//   = 1 with both in [0, 1] keeps the result within the coefficients; two levels: 6.1 U (w + l). Together at
+//   most 9.2 U w + (1 + 6.1 U) l (8 are proven, since t itself is exact); taken: 10 U w + 1.01 l.
+//
+// - F is made of such sums, without the halving, and a third vector a. Misses of the factors:
+//   L = Σ (A_k l_k + e_a (w_k + l_k)). Rounding: 3 in the sums, product 1, two additions 2, the sum of two
+//   dot products 1, a division by 3 (in double words a product with a rounded 1/3) 2: 9 U M with M = Σ A_k
+//   w_k. Three levels of de Casteljau: 9.1 U (M + L). Together at most 18.3 U M + (1 + 9.1 U) L (16 are proven, 17
+//   in double words); taken: 20 U M + 1.01 L.
+//
+// - w, l, M and L are computed in double and may be too small by 12 · 2^-53 of themselves: far less than what
+//   is taken too much.
+//
+// - Underflow: a product misses by at most H more, `product_underflow` of the smallest double; halving and
+//   dividing by 3 too; sums are exact down there. W: 2 H or, in the middle, 3 H, and 2 H for each of two
+//   levels: 7 H. The bound's own products, with those of `error_near`, may lose 11 H. F: the products of b and c
+//   2 H Σ A_k, all others 9 H; L loses less than 10 H Σ (A_k + e_k), the rest of the bound 10 H. Taken: 32 H,
+//   and 32 H (1 + Σ (A_k + e_k)).
+//
+// - Overflow: sums of products are at most 2 w in W, and 3 M in F, but for rounding. The bounds are computed
+//   from 4 w and 4 M (`headroom`): if anything overflows on the way to a coefficient, or in what `Bernstein`
+//   makes of it, then these are infinite or NaN, and so is the error, which no comparison with it survives.
+//   (Differences of coordinates that overflow have infinite magnitudes. In double words a coefficient may be
+//   NaN before that.)
+
+namespace nearmiss::certified {
+
+inline constexpr double weight_rounding = 10;     ///< of U w
+inline constexpr double F_rounding = 20;          ///< of U M
+inline constexpr double two_leaves = 2.01;        ///< of U w, in l: both factors rounded once
+inline constexpr double three_leaves = 3.02;      ///< of U M, in L: all three
+inline constexpr double leaf_growth = 1.01;       ///< of l and L: what later roundings make of them
+inline constexpr double part_rounding = 4;        ///< of U V: a vector on a part of the step
+inline constexpr double underflow_products = 32;  ///< of H
+inline constexpr double headroom = 4;
+
+/// What is added for underflow.
+template <class Real>
+inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
+
+/// A vector that moves linearly over a part of the step.
+template <class Real>
+struct Motion {
+  Vec<Real> start, end;
+  Vec<Bound<Real>> magnitude;  ///< largest, by component, of both ends
+  bool rounded_once;  ///< every component is within a factor of 1 ± U of exact: then `error` is not given
+  Vec<Bound<Real>> error;  ///< of both ends, by component
+};
+
+template <class Real>
+Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
+  using std::abs;
+  using std::max;
+  Vec<Bound<Real>> m;
+  for (std::size_t k = 0; k < 3; ++k) m[k] = max(abs(approximate(v[k])), abs(approximate(w[k])));
+  return m;
+}
+
+/// x_i - x_j over the whole step, given `x(time, vertex, k)`: exact as double words, else rounded once.
+template <class Real, class Points>
+Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
+  constexpr bool is_exact = std::is_same_v<Real, DoubleWord>;
+  const auto at = [&](std::size_t time, std::size_t k) -> Real {
+    if constexpr (is_exact)
+      return two_sum(x(time, i, k), -x(time, j, k));
+    else
+      return x(time, i, k) - x(time, j, k);
+  };
+  Motion<Real> motion;
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.start[k] = at(0, k);
+    motion.end[k] = at(1, k);
+  }
+  motion.magnitude = larger_magnitude(motion.start, motion.end);
+  motion.rounded_once = !is_exact;
+  if constexpr (is_exact) motion.error = {0, 0, 0};
+  return motion;
+}
+
+/// The motion over [lo, hi] of its part of the step: 1 - t, products, sum: 3 roundings.
+template <class Real>
+Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
+  Motion<Real> part;
+  const auto at = [&](const Bound<Real>& t) {
+    const Real late(t);
+    const Real early = Real(1) - late;
+    Vec<Real> v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = early * whole.start[k] + late * whole.end[k];
+    return v;
+  };
+  part.start = at(lo);
+  part.end = at(hi);
+  part.magnitude = larger_magnitude(part.start, part.end);
+  part.rounded_once = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Bound<Real> error = whole.rounded_once ? roundoff<Real> * whole.magnitude[k] : whole.error[k];
+    part.error[k] =
+        leaf_growth * error + part_rounding * roundoff<Real> * whole.magnitude[k] + underflow<Real>;
+  }
+  return part;
+}
+
+/// `headroom` times the sum of the magnitudes of both products in component k of p × q, and what their
+/// factors' errors add to it.
+template <class Real>
+struct CrossBound {
+  Bound<Real> w4, l;
+};
+
+template <class Real>
+CrossBound<Real> cross_bound(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  const Bound<Real> w4 = headroom * (p.magnitude[i] * q.magnitude[j] + p.magnitude[j] * q.magnitude[i]);
+  if (p.rounded_once && q.rounded_once) return {w4, two_leaves / headroom * roundoff<Real> * w4};
+  const auto miss = [&](std::size_t m, std::size_t n) {
+    return p.magnitude[m] * q.error[n] + q.magnitude[n] * p.error[m] + p.error[m] * q.error[n];
+  };
+  return {w4, miss(i, j) + miss(j, i)};
+}
+
+/// Component k of p × q.
+template <class Real>
+Bernstein<Real, 3> cross_component(const Motion<Real>& p, const Motion<Real>& q, std::size_t k) {
+  const CrossBound<Real> bound = cross_bound(p, q, k);
+  return {{cross_component(p.start, q.start, k),
+           Real(0.5) * (cross_component(p.start, q.end, k) + cross_component(p.end, q.start, k)),
+           cross_component(p.end, q.end, k)},
+          weight_rounding / headroom * roundoff<Real> * bound.w4 + leaf_growth * bound.l + underflow<Real>};
+}
+
+template <class Real>
+Real third(const Real& x) {
+  return x / 3;
+}
+inline DoubleWord third(const DoubleWord& x) {
+  return x * DoubleWord{0x1.5555555555555p-2, 0x1.5555555555555p-56};  // 1/3 within 2^-108
+}
+
+/// F = a · (b × c).
+template <class Real>
+Bernstein<Real, 4> coplanarity(const Motion<Real>& a, const Motion<Real>& b, const Motion<Real>& c) {
+  Vec<Real> w0;
+  Vec<Real> w1;
+  Vec<Real> w2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    w0[k] = cross_component(b.start, c.start, k);
+    w1[k] = cross_component(b.start, c.end, k) + cross_component(b.end, c.start, k);
+    w2[k] = cross_component(b.end, c.end, k);
+  }
+  Bound<Real> M4 = 0;
+  Bound<Real> L = 0;
+  Bound<Real> reach = 0;  // Σ (A_k + e_k)
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CrossBound<Real> bound = cross_bound(b, c, k);
+    M4 += a.magnitude[k] * bound.w4;
+    reach += a.magnitude[k];
+    if (a.rounded_once) continue;
+    L += a.magnitude[k] * bound.l + a.error[k] * (bound.w4 / headroom + bound.l);
+    reach += a.error[k];
+  }
+  if (a.rounded_once) L = three_leaves / headroom * roundoff<Real> * M4;
+  return {{dot(a.start, w0), third(dot(a.end, w0) + dot(a.start, w1)),
+           third(dot(a.end, w1) + dot(a.start, w2)), dot(a.end, w2)},
+          F_rounding / headroom * roundoff<Real> * M4 + leaf_growth * L + underflow<Real> * (1 + reach)};
+}
+
+/// A query over the part [begin, end] of the step.
+template <class Real>
+struct StepPart {
+  double begin, end;
+  Motion<Real> a, b, c;   ///< x1 - x0, x2 - x0, x3 - x0
+  Motion<Real> x21, x31;  ///< x2 - x1 and x3 - x1, for the weight that has neither x0 (edge-edge)
+};
+
+template <class Real, class Points>
+StepPart<Real> whole_step(const Points& x) {
+  const auto difference = [&](std::size_t i, std::size_t j) { return certified::difference<Real>(x, i, j); };
+  return {0, 1, difference(1, 0), difference(2, 0), difference(3, 0), difference(2, 1), difference(3, 1)};
+}
+
+template <class Real>
+StepPart<Real> part_of(const StepPart<Real>& whole, double begin, double end) {
+  const auto part = [&](const Motion<Real>& motion) { return part_of(motion, begin, end); };
+  return {begin, end, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
+}
+
+/// The weights' quadratics in one component, with the signs in which they agree at a collision.
+template <class Real>
+struct Weights {
+  std::array<Bernstein<Real, 3>, 4> w;
+  std::size_t count;
+
+  Weights(Kind kind, const StepPart<Real>& p, std::size_t k) : count(kind == Kind::vertex_triangle ? 3 : 4) {
+    w[0] = cross_component(p.b, p.c, k);
+    if (kind == Kind::vertex_triangle) {
+      w[1] = cross_component(p.c, p.a, k);
+      w[2] = cross_component(p.a, p.b, k);
+    } else {
+      w[1] = cross_component(p.a, p.c, k);
+      w[2] = cross_component(p.b, p.a, k);
+      w[3] = cross_component(p.x31, p.x21, k);
+    }
+  }
+
+  /// 1 where all certainly have one sign on [lo, hi], -1 where two certainly have opposite ones, else 0.
+  [[nodiscard]] int agreement_on(double lo, double hi) const {
+    return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
+  }
+  /// The same on [t - h, t + h].
+  [[nodiscard]] int agreement_near(double t, double h) const {
+    return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
+  }
+
+ private:
+  template <class Sign>
+  [[nodiscard]] int agreement(const Sign& sign_of) const {
+    bool positive = false;
+    bool negative = false;
+    bool all = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const int sign = sign_of(w[i]);
+      positive |= sign > 0;
+      negative |= sign < 0;
+      all &= sign != 0;
+    }
+    if (positive && negative) return -1;
+    return all ? 1 : 0;
+  }
+};
+
+/// The component in which the normal is largest near a time: a guess.
+template <class Real>
+std::size_t largest_component(Kind kind, const StepPart<Real>& p, double t) {
+  const auto near = [&](const Motion<Real>& m) {
+    Vec<double> v;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = (1 - t) * approximate(m.start[k]) + t * approximate(m.end[k]);
+    return v;
+  };
+  const Vec<double> q = kind == Kind::vertex_triangle ? near(p.x21) : near(p.a);
+  Vec<double> r = near(p.x31);
+  if (kind == Kind::edge_edge) {
+    const Vec<double> x21 = near(p.x21);
+    for (std::size_t k = 0; k < 3; ++k) r[k] -= x21[k];
+  }
+  std::size_t largest = 0;
+  double size = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double n = std::abs(cross_component(q, r, k));
+    if (n > size) {
+      size = n;
+      largest = k;
+    }
+  }
+  return largest;
+}
+
+}  // namespace nearmiss::certified

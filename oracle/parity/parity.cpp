@@ -1,0 +1,307 @@
+#include "oracle/parity/parity.hpp"
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "ccd/arithmetic.hpp"
+
+namespace nearmiss {
+
+namespace parity {
+namespace {
+
+using Gmpz = CGAL::Gmpz;
+using Gmpq = CGAL::Gmpq;
+using IntegerVector = CGAL::Simple_cartesian<Gmpz>::Vector_3;
+
+int sign(const Gmpz& x) { return CGAL::sign(x); }
+int sign(const Gmpq& x) { return CGAL::sign(x); }
+Gmpz determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
+  return CGAL::cross_product(a, b) * c;
+}
+
+// --- directions -------------------------------------------------------------------------------------------
+
+/// A direction of the ray: given, or infinitesimally perturbed: (1, ε, ε²).
+using RayDirection = std::optional<IntegerVector>;
+
+/// The sign of n · d. For the perturbed direction it is that of n's first component that is not zero.
+int side(const IntegerVector& n, const RayDirection& d) {
+  if (d) return sign(n * *d);
+  for (int k = 0; k < 3; ++k)
+    if (const int s = sign(n[k]); s != 0) return s;
+  return 0;
+}
+
+const std::vector<RayDirection>& directions() {
+  static const std::vector<RayDirection> list{IntegerVector(3, 5, 7), IntegerVector(-11, 2, 13),
+                                              IntegerVector(17, -19, 4), IntegerVector(1, 23, -9),
+                                              std::nullopt};
+  return list;
+}
+
+// --- triangles --------------------------------------------------------------------------------------------
+
+/// How often a ray crosses something; nothing where that cannot be told because it meets an edge or a plane
+/// along it.
+using Crossings = std::optional<int>;
+
+/// Against a triangle on which the origin is not.
+Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c,
+                         const RayDirection& d) {
+  const int volume = sign(determinant(a, b, c));
+  if (volume == 0) {
+    // The plane holds the origin, so a ray that leaves the plane meets no more of it.
+    const IntegerVector n = CGAL::cross_product(b - a, c - a);
+    if (n == CGAL::NULL_VECTOR) {
+      // A segment or a point. It is met only by rays in the plane through the origin.
+      for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        if (const IntegerVector m = CGAL::cross_product(p, q); m != CGAL::NULL_VECTOR && side(m, d) == 0)
+          return std::nullopt;
+      const bool along = d && CGAL::cross_product(a, *d) == CGAL::NULL_VECTOR;
+      return along ? Crossings() : Crossings(0);
+    }
+    return side(n, d) == 0 ? Crossings() : Crossings(0);
+  }
+  const std::array sides{side(CGAL::cross_product(a, b), d), side(CGAL::cross_product(b, c), d),
+                         side(CGAL::cross_product(c, a), d)};
+  const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+  if (*least < 0 && *most > 0) return 0;
+  if (std::count(sides.begin(), sides.end(), 0) > 0) return std::nullopt;
+  return *least == volume ? 1 : 0;  // in front of the origin, or behind it
+}
+
+// --- bilinear patches -------------------------------------------------------------------------------------
+
+/// The image of a square: p00 (1-s)(1-t) + p10 s (1-t) + p01 (1-s) t + p11 s t. Flat ones included.
+struct BilinearPatch {
+  IntegerVector p00, p10, p01, p11;
+};
+
+/// p + q √D.
+struct Surd {
+  Gmpq p, q, D;
+
+  [[nodiscard]] int sign_of() const {
+    const int sp = sign(p);
+    const int sq = sign(q) * sign(D);
+    if (sp == 0 || sq == 0 || sp == sq) return sp != 0 ? sp : sq;
+    const int larger = sign(p * p - q * q * D);
+    return larger > 0 ? sp : larger < 0 ? sq : 0;
+  }
+};
+
+/// c0 + c1 t + c2 t².
+using RationalQuadratic = std::array<Gmpq, 3>;
+
+bool is_zero(const RationalQuadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
+
+/// Whether h <= 0 somewhere in [0, 1].
+bool reaches_zero(const RationalQuadratic& h) {
+  if (sign(h[0]) <= 0 || sign(h[0] + h[1] + h[2]) <= 0) return true;
+  return sign(h[2]) > 0 && sign(h[1]) < 0 && sign(h[1] + 2 * h[2]) > 0 &&
+         sign(h[1] * h[1] - 4 * h[0] * h[2]) >= 0;
+}
+
+/// Whether h <= 0 at a root of g in [0, 1]; g is not zero identically.
+bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h) {
+  if (g[2] == 0) {
+    if (g[1] == 0) return false;
+    const Gmpq r = -g[0] / g[1];
+    return r >= 0 && r <= 1 && h[0] + r * (h[1] + r * h[2]) <= 0;
+  }
+  const Gmpq D = g[1] * g[1] - 4 * g[0] * g[2];
+  if (sign(D) < 0) return false;
+  const Gmpq scale = 1 / (2 * g[2]);
+  const Gmpq part = h[2] / g[2];  // h - part g is linear and equal to h at the roots
+  const Gmpq A = h[0] - part * g[0];
+  const Gmpq B = h[1] - part * g[1];
+  for (const int branch : {1, -1}) {
+    const Gmpq p = -g[1] * scale;
+    const Gmpq q = branch * scale;
+    const bool in_step = Surd{p, q, D}.sign_of() >= 0 && Surd{p - 1, q, D}.sign_of() <= 0;
+    if (in_step && Surd{A + B * p, B * q, D}.sign_of() <= 0) return true;
+  }
+  return false;
+}
+
+/// Whether the origin is on a patch in a plane with it: on the segment from a(t) to b(t), the sides s = 0 and
+/// s = 1, at some t.
+bool flat_patch_holds_origin(const BilinearPatch& patch) {
+  const IntegerVector a0 = patch.p00;
+  const IntegerVector a1 = patch.p01 - patch.p00;
+  const IntegerVector b0 = patch.p10;
+  const IntegerVector b1 = patch.p11 - patch.p10;
+  const IntegerVector c0 = CGAL::cross_product(a0, b0);
+  const IntegerVector c1 = CGAL::cross_product(a0, b1) + CGAL::cross_product(a1, b0);
+  const IntegerVector c2 = CGAL::cross_product(a1, b1);
+  const RationalQuadratic between{a0 * b0, a0 * b1 + a1 * b0, a1 * b1};
+  for (int k = 0; k < 3; ++k) {
+    const RationalQuadratic g{c0[k], c1[k], c2[k]};
+    if (!is_zero(g)) return reaches_zero_at_root(g, between);
+  }
+  return reaches_zero(between);
+}
+
+/// Where the origin is relative to a patch. The barycentric coordinates λ of a point in the tetrahedron of
+/// the corners fulfil λ00 λ11 = λ10 λ01 on the patch alone; the faces beside the diagonal p00 p11 are on the
+/// side where the left is larger.
+struct Position {
+  bool on_patch = false;
+  bool in_plane = false;  ///< of a flat patch, but not on it: a ray that leaves the plane never crosses it
+  bool other_pair =
+      false;  ///< the triangles beside the diagonal p10 p01 stand for the patch, not those beside p00 p11
+};
+
+Position position(const BilinearPatch& patch) {
+  const auto& [p00, p10, p01, p11] = patch;
+  Position result;
+  const Gmpz volume = determinant(p10 - p00, p01 - p00, p11 - p00);
+  if (volume == 0) {
+    const bool in_plane = determinant(p00, p10, p01) == 0 && determinant(p00, p10, p11) == 0 &&
+                          determinant(p00, p01, p11) == 0 && determinant(p10, p01, p11) == 0;
+    result.on_patch = in_plane && flat_patch_holds_origin(patch);
+    result.in_plane = in_plane && !result.on_patch;
+    return result;
+  }
+  // λ times the volume: the corner replaced by the origin.
+  const Gmpz l00 = determinant(p10, p01, p11);
+  const Gmpz l10 = -determinant(p00, p01, p11);
+  const Gmpz l01 = determinant(p00, p10, p11);
+  const Gmpz l11 = -determinant(p00, p10, p01);
+  const int v = sign(volume);
+  const bool inside = sign(l00) * v >= 0 && sign(l10) * v >= 0 && sign(l01) * v >= 0 && sign(l11) * v >= 0;
+  if (!inside) return result;
+  const int between = sign(l00 * l11 - l10 * l01);
+  result.on_patch = between == 0;
+  result.other_pair = between > 0;
+  return result;
+}
+
+/// Against a patch on which the origin is not: against two triangles with the same border and, between them
+/// and the patch, no origin.
+Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
+  const auto& [p00, p10, p01, p11] = patch;
+  if (position.in_plane) {
+    for (const auto& [p, q] : {std::pair(p00, p10), std::pair(p00, p01), std::pair(p00, p11),
+                               std::pair(p10, p01), std::pair(p10, p11), std::pair(p01, p11)})
+      if (const IntegerVector n = CGAL::cross_product(p, q); n != CGAL::NULL_VECTOR)
+        return side(n, d) == 0 ? Crossings() : Crossings(0);
+    const bool along = d && CGAL::cross_product(p00, *d) == CGAL::NULL_VECTOR;
+    return along ? Crossings() : Crossings(0);
+  }
+  const auto first =
+      position.other_pair ? cross_triangle(p00, p10, p01, d) : cross_triangle(p00, p10, p11, d);
+  const auto second =
+      position.other_pair ? cross_triangle(p10, p11, p01, d) : cross_triangle(p00, p11, p01, d);
+  if (!first || !second) return std::nullopt;
+  return *first + *second;
+}
+
+// --- the boundary of the domain ---------------------------------------------------------------------------
+
+/// Powers of two, one for each axis, that make every coordinate an integer, the smallest ones that do: scaling
+/// an axis changes no answer.
+using Scale = std::array<int, 3>;
+
+Scale integer_scale(const Query& query) {
+  Scale scale;
+  scale.fill(std::numeric_limits<int>::min());
+  for (std::size_t i = 0; i < query.x.size(); ++i) {
+    double c = query.x[i];
+    if (c == 0) continue;
+    int exponent = std::ilogb(c);
+    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c: 1 to 2^53
+    scale[i % 3] = std::max(scale[i % 3], -exponent);
+  }
+  return scale;
+}
+
+Gmpz scaled(double coordinate, int exponent) {
+  if (coordinate == 0) return 0;
+  const int own = std::ilogb(coordinate) - 52;
+  Gmpz integer(static_cast<long>(std::ldexp(coordinate, -own)));
+  if (own + exponent >= 0)
+    integer <<= static_cast<unsigned long>(own + exponent);
+  else
+    integer >>= static_cast<unsigned long>(-own - exponent);  // bits that are zero
+  return integer;
+}
+
+IntegerVector difference(const Query& query, int i, int j, int time, const Scale& scale) {
+  const auto p = time == 0 ? query.start(i) : query.end(i);
+  const auto q = time == 0 ? query.start(j) : query.end(j);
+  const auto along = [&](int k) {
+    const int exponent = scale[static_cast<std::size_t>(k)];
+    return scaled(p[k], exponent) - scaled(q[k], exponent);
+  };
+  return {along(0), along(1), along(2)};
+}
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// The images of the faces. A triangle is a patch with a side of length 0.
+std::vector<BilinearPatch> boundary(const Query& query) {
+  const Scale scale = integer_scale(query);
+  std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>
+      differences;  // of a vertex and one of the other primitive
+  for (int i = 0; i < split(query.kind); ++i)
+    for (int j = split(query.kind); j < 4; ++j)
+      for (const int time : {0, 1})
+        differences[index(i)][index(j)][index(time)] = difference(query, i, j, time, scale);
+  const auto f = [&](int i, int j, int time) { return differences[index(i)][index(j)][index(time)]; };
+  std::vector<BilinearPatch> faces;
+  const auto add_side = [&](int i, int j, int k,
+                            int l) {  // the difference x_i - x_j moves to x_k - x_l along the side
+    faces.push_back({f(i, j, 0), f(k, l, 0), f(i, j, 1), f(k, l, 1)});
+  };
+  if (query.kind == Kind::vertex_triangle) {
+    for (const int time : {0, 1})
+      faces.push_back({f(0, 1, time), f(0, 2, time), f(0, 1, time), f(0, 3, time)});
+    add_side(0, 1, 0, 2);
+    add_side(0, 2, 0, 3);
+    add_side(0, 3, 0, 1);
+  } else {
+    for (const int time : {0, 1})
+      faces.push_back({f(0, 2, time), f(1, 2, time), f(0, 3, time), f(1, 3, time)});
+    add_side(0, 2, 1, 2);
+    add_side(0, 3, 1, 3);
+    add_side(0, 2, 0, 3);
+    add_side(1, 2, 1, 3);
+  }
+  return faces;
+}
+
+}  // namespace
+}  // namespace parity
+
+RootParity root_parity(const Query& query) {
+  using namespace parity;
+  const PlainArithmetic guard;
+  const std::vector<BilinearPatch> faces = boundary(query);
+  std::vector<Position> positions;
+  for (const BilinearPatch& face : faces) {
+    positions.push_back(position(face));
+    if (positions.back().on_patch) return {.on_boundary = true};
+  }
+  for (const RayDirection& d : directions()) {
+    int sum = 0;
+    bool told = true;
+    for (std::size_t i = 0; i < faces.size() && told; ++i) {
+      const Crossings crossings = cross_patch(faces[i], positions[i], d);
+      told = crossings.has_value();
+      sum += crossings.value_or(0);
+    }
+    if (told) return {.odd = sum % 2 == 1};
+  }
+  return {};  // never: the perturbed direction meets no edge
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,216 @@
+#include "oracle/sturm/integer_polynomial.hpp"
+
+#include <algorithm>
+
+namespace nearmiss::sturm {
+
+IntegerPolynomial::IntegerPolynomial(std::vector<Integer> coefficients) : c_(std::move(coefficients)) {
+  while (!c_.empty() && c_.back() == 0) c_.pop_back();
+}
+
+int IntegerPolynomial::sign_at(const Dyadic& t) const {
+  Integer value = 0;  // times 2^(exponent × degree)
+  unsigned shift = 0;
+  for (auto c = c_.rbegin(); c != c_.rend(); ++c) {
+    value = value * t.numerator + (*c << shift);
+    shift += t.exponent;
+  }
+  return value.sign();
+}
+
+IntegerPolynomial IntegerPolynomial::derivative() const {
+  std::vector<Integer> d;
+  for (std::size_t i = 1; i < c_.size(); ++i) d.emplace_back(c_[i] * i);
+  return IntegerPolynomial(std::move(d));
+}
+
+IntegerPolynomial IntegerPolynomial::operator+(const IntegerPolynomial& other) const {
+  std::vector<Integer> sum(std::max(c_.size(), other.c_.size()));
+  for (std::size_t i = 0; i < c_.size(); ++i) sum[i] = c_[i];
+  for (std::size_t i = 0; i < other.c_.size(); ++i) sum[i] += other.c_[i];
+  return IntegerPolynomial(std::move(sum));
+}
+
+IntegerPolynomial IntegerPolynomial::operator-() const {
+  std::vector<Integer> negative;
+  for (const Integer& c : c_) negative.emplace_back(-c);
+  return IntegerPolynomial(std::move(negative));
+}
+
+IntegerPolynomial IntegerPolynomial::operator-(const IntegerPolynomial& other) const {
+  std::vector<Integer> difference(std::max(c_.size(), other.c_.size()));
+  for (std::size_t i = 0; i < c_.size(); ++i) difference[i] = c_[i];
+  for (std::size_t i = 0; i < other.c_.size(); ++i) difference[i] -= other.c_[i];
+  return IntegerPolynomial(std::move(difference));
+}
+
+IntegerPolynomial IntegerPolynomial::operator*(const IntegerPolynomial& other) const {
+  if (is_zero() || other.is_zero()) return {};
+  std::vector<Integer> product(c_.size() + other.c_.size() - 1);
+  for (std::size_t i = 0; i < c_.size(); ++i)
+    for (std::size_t j = 0; j < other.c_.size(); ++j) product[i + j] += c_[i] * other.c_[j];
+  return IntegerPolynomial(std::move(product));
+}
+
+// The dividend is multiplied by the absolute value of the divisor's leading coefficient at every step, so signs
+// stay; `with_quotient` takes each next coefficient of the quotient, to which all before it adapt likewise.
+template <class WithQuotient>
+void IntegerPolynomial::divide_by(const IntegerPolynomial& other, const WithQuotient& with_quotient) {
+  const std::size_t n = other.c_.size();
+  const Integer lead = abs(other.c_.back());
+  const bool is_negative = other.c_.back().sign() < 0;
+  while (c_.size() >= n) {
+    Integer top = std::move(c_.back());
+    c_.pop_back();
+    if (is_negative) top = -top;
+    if (top.is_zero()) continue;
+    const std::size_t shift = c_.size() + 1 - n;
+    for (Integer& each : c_) each *= lead;
+    for (std::size_t j = 0; j + 1 < n; ++j) c_[shift + j] -= top * other.c_[j];
+    with_quotient(shift, lead, std::move(top));
+  }
+}
+
+IntegerPolynomial IntegerPolynomial::primitive() && {
+  Integer common = 0;
+  for (const Integer& c : c_) {
+    common = gcd(common, c);
+    if (common == 1) break;
+  }
+  if (common != 1)
+    for (Integer& c : c_) c /= common;
+  return IntegerPolynomial(std::move(c_));
+}
+
+IntegerPolynomial IntegerPolynomial::remainder(const IntegerPolynomial& other) const {
+  IntegerPolynomial rest = *this;
+  rest.divide_by(other, [](std::size_t, const Integer&, Integer&&) {});
+  return IntegerPolynomial(std::move(rest.c_)).primitive();
+}
+
+IntegerPolynomial IntegerPolynomial::quotient(const IntegerPolynomial& other) const {
+  IntegerPolynomial rest = *this;
+  std::vector<Integer> quotient(c_.size() >= other.c_.size() ? c_.size() - other.c_.size() + 1 : 0);
+  rest.divide_by(other, [&](std::size_t i, const Integer& lead, Integer&& top) {
+    for (Integer& each : quotient) each *= lead;
+    quotient[i] = std::move(top);
+  });
+  return IntegerPolynomial(std::move(quotient)).primitive();
+}
+
+namespace {
+
+/// The signed remainder sequence of f and g, each up to a positive factor.
+std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, const IntegerPolynomial& g) {
+  std::vector<IntegerPolynomial> sequence{f, g};
+  while (!sequence.back().is_zero())
+    sequence.push_back(-sequence[sequence.size() - 2].remainder(sequence.back()));
+  sequence.pop_back();
+  return sequence;
+}
+
+int sign_variations(const std::vector<IntegerPolynomial>& sequence, const Dyadic& t) {
+  int variations = 0;
+  int last = 0;
+  for (const IntegerPolynomial& p : sequence) {
+    const int sign = p.sign_at(t);
+    if (sign == 0) continue;
+    variations += last != 0 && sign != last ? 1 : 0;
+    last = sign;
+  }
+  return variations;
+}
+
+/// Tarski's query: the sum over the roots of f in (lo, hi) of the sign of g there; f is square-free and not
+/// zero at the ends. g counts modulo f only.
+int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const Dyadic& lo, const Dyadic& hi) {
+  const auto sequence =
+      remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
+  return sign_variations(sequence, lo) - sign_variations(sequence, hi);
+}
+
+IntegerPolynomial square_free(const IntegerPolynomial& f) {
+  if (f.degree() < 1) return f;
+  return f.quotient(remainder_sequence(f, f.derivative()).back());
+}
+
+/// f without its simple root at t.
+IntegerPolynomial without_root(const IntegerPolynomial& f, const Dyadic& t) {
+  return f.quotient(IntegerPolynomial({-t.numerator, Integer(1) << t.exponent}));
+}
+
+/// The integer e with 2^e <= x < 2^(e + 1), of x > 0.
+int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - static_cast<int>(x.exponent); }
+
+Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
+
+/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes where these are far apart, so
+/// that roots close to 0 are reached soon; else in the middle.
+Dyadic between(const Dyadic& a, const Dyadic& b) {
+  const int high = magnitude(b);
+  if (a.numerator == 0) return power_of_half(high > -1 ? 1 : -2 * high);
+  const int low = magnitude(a);
+  if (high - low > 1) return power_of_half(-(low + high) / 2);  // rounded up: below b, above a
+  const unsigned exponent = std::max(a.exponent, b.exponent);
+  return {(a.numerator << (exponent - a.exponent)) + (b.numerator << (exponent - b.exponent)), exponent + 1};
+}
+
+/// A square-free polynomial with its Sturm sequence.
+struct SturmSequence {
+  IntegerPolynomial f;
+  std::vector<IntegerPolynomial> sturm;
+
+  explicit SturmSequence(IntegerPolynomial square_free)
+      : f(std::move(square_free)), sturm(remainder_sequence(f, f.derivative())) {}
+
+  [[nodiscard]] int count_roots(const Dyadic& lo, const Dyadic& hi) const {
+    return sign_variations(sturm, lo) - sign_variations(sturm, hi);
+  }
+};
+
+/// Adds the roots of f in (lo, hi), where it is not zero at the ends.
+void isolate(const SturmSequence& sequence, const Dyadic& lo, const Dyadic& hi,
+             std::vector<SturmRoot>& roots) {
+  const IntegerPolynomial& f = sequence.f;
+  if (f.degree() < 1) return;
+  const int count = sequence.count_roots(lo, hi);
+  if (count == 0) return;
+  if (count == 1) {
+    roots.emplace_back(f, lo, hi);
+    return;
+  }
+  const Dyadic division = between(lo, hi);
+  if (f.sign_at(division) == 0) {
+    roots.emplace_back(division);
+    const SturmSequence rest(without_root(f, division));
+    isolate(rest, lo, division, roots);
+    isolate(rest, division, hi, roots);
+  } else {
+    isolate(sequence, lo, division, roots);
+    isolate(sequence, division, hi, roots);
+  }
+}
+
+}  // namespace
+
+int SturmRoot::sign(const IntegerPolynomial& g) const {
+  if (is_dyadic_) return g.sign_at(lo_);
+  if (g.is_zero()) return 0;
+  return tarski_query(f_, g, lo_, hi_);
+}
+
+std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {
+  std::vector<SturmRoot> roots;
+  IntegerPolynomial rest = square_free(f);
+  const Dyadic zero{0, 0};
+  const Dyadic one{1, 0};
+  for (const Dyadic& end : {zero, one}) {
+    if (rest.sign_at(end) != 0) continue;
+    roots.emplace_back(end);
+    rest = without_root(rest, end);
+  }
+  isolate(SturmSequence(rest), zero, one, roots);
+  return roots;
+}
+
+}  // namespace nearmiss::sturm

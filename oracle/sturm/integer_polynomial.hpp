@@ -1,0 +1,69 @@
+// Polynomials with integer coefficients, and the signs of polynomials at each other's roots.
+#pragma once
+
+#include <boost/multiprecision/gmp.hpp>
+#include <vector>
+
+namespace nearmiss::sturm {
+
+using Integer = boost::multiprecision::mpz_int;
+
+/// The number numerator / 2^exponent.
+struct Dyadic {
+  Integer numerator;
+  unsigned exponent = 0;
+};
+
+/// Coefficients, the constant first; no trailing zeros: the zero polynomial is empty.
+class IntegerPolynomial {
+ public:
+  IntegerPolynomial() = default;
+  explicit IntegerPolynomial(std::vector<Integer> coefficients);
+
+  [[nodiscard]] bool is_zero() const { return c_.empty(); }
+  [[nodiscard]] int degree() const { return static_cast<int>(c_.size()) - 1; }
+  [[nodiscard]] int sign_at(const Dyadic& t) const;
+  [[nodiscard]] IntegerPolynomial derivative() const;
+
+  IntegerPolynomial operator+(const IntegerPolynomial& other) const;
+  IntegerPolynomial operator-(const IntegerPolynomial& other) const;
+  IntegerPolynomial operator*(const IntegerPolynomial& other) const;
+  IntegerPolynomial operator-() const;
+
+  /// A positive multiple of the remainder of a division by `other`, which is not zero, without common factors
+  /// of its coefficients.
+  [[nodiscard]] IntegerPolynomial remainder(const IntegerPolynomial& other) const;
+  /// The quotient up to a positive factor, for a division without remainder.
+  [[nodiscard]] IntegerPolynomial quotient(const IntegerPolynomial& other) const;
+
+ private:
+  template <class WithQuotient>
+  void divide_by(const IntegerPolynomial& other, const WithQuotient& with_quotient);
+  [[nodiscard]] IntegerPolynomial primitive() &&;
+
+  std::vector<Integer> c_;
+};
+
+/// A real root in [0, 1]: a dyadic number, or the only root of a square-free polynomial in an open interval
+/// at whose ends it is not zero.
+class SturmRoot {
+ public:
+  explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_(std::move(value)) {}
+  SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
+      : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {}
+
+  /// The sign of g at this root: by Tarski's query where it is not dyadic.
+  [[nodiscard]] int sign(const IntegerPolynomial& g) const;
+  /// Whether it is t = 0 or t = 1.
+  [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }
+
+ private:
+  bool is_dyadic_ = false;
+  IntegerPolynomial f_;
+  Dyadic lo_, hi_;  ///< the ends of the interval; of a dyadic root lo_ is its value
+};
+
+/// The distinct roots of f in [0, 1], in no particular order; f is not zero.
+std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f);
+
+}  // namespace nearmiss::sturm

@@ -1,0 +1,39 @@
+// Random queries for tests, and what repeats one of them.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+#include "ccd/query.hpp"
+#include "fuzz/random.hpp"
+
+namespace nearmiss::testing {
+
+/// "case 7: echo '0x1p+0 ...' | nearmiss oracle --kind vt -": the number of a random case, and the command that asks
+/// about its query.
+inline std::string repeat(std::size_t index, const Query& query) {
+  std::ostringstream line;
+  line << "case " << index << ": echo '" << std::hexfloat;
+  for (const double c : query.x) line << c << ' ';
+  line << "' | nearmiss oracle --kind " << short_name(query.kind) << " -";
+  return line.str();
+}
+
+/// The kinds in turn.
+inline Kind kind_of_case(std::size_t index) { return kinds[index % kinds.size()]; }
+
+/// Coordinates are integers in [-largest, largest].
+inline Query integer_query(Random& random, Kind kind, int largest) {
+  Query query{.kind = kind};
+  for (double& c : query.x) c = random.integer(-largest, largest);
+  return query;
+}
+
+/// Coordinates are uniform in [-1, 1).
+inline Query uniform_query(Random& random, Kind kind) {
+  Query query{.kind = kind};
+  for (double& c : query.x) c = random.uniform(-1, 1);
+  return query;
+}
+
+}  // namespace nearmiss::testing
