@@ -50,7 +50,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
 /// query that it answered.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
-  if (!batch.timed) {
+  if (!batch.timed || batch.queries.empty()) {
     subject.decide(batch.queries, verdicts);
     return verdicts;
   }

@@ -79,6 +79,14 @@ TEST(Trial, RunTimesCountOnlyIfTheBatchSaysSo) {
   EXPECT_EQ(counts.times, SubjectTimes());
 }
 
+TEST(Trial, AnEmptyBatchGivesNothing) {
+  Subjects subjects;
+  subjects.push_back(make_subject("wang"));
+  const TrialResult result = hold_trial(subjects, Batch{.family = "empty"});
+  EXPECT_EQ(result.statistics.counts.begin()->second.queries, 0);
+  EXPECT_TRUE(result.findings.empty());
+}
+
 TEST(Trial, ASubjectThatNeverReportsMisses) {
   const auto result = hold_trial(one(std::make_unique<Told>("never", false, infinity)), batch());
   EXPECT_EQ(counts_of(result).false_negatives, 1);
