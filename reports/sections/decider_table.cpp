@@ -40,15 +40,15 @@ std::string row_family(const std::string& family) {
   return family.starts_with("scene:") ? scene_of(family) : std::string(shown_family(family));
 }
 
-/// The time of a subject over that of another, for the keys that are `shown` and timed for both; nothing if there are
+/// The time of a subject over that of another, for the keys that are shown and timed for both; nothing if there are
 /// no such keys.
-template <class Shown>
+template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
-                                const std::string& other, const Shown& shown) {
+                                const std::string& other, const IsShown& is_shown) {
   Counts own;
   Counts others;
   for (const auto& [key, counts] : statistics.counts) {
-    if (key.subject != subject || !shown(key) || counts.times.queries() == 0) continue;
+    if (key.subject != subject || !is_shown(key) || counts.times.queries() == 0) continue;
     const auto same = statistics.counts.find({other, key.kind, key.family});
     if (same == statistics.counts.end() || same->second.times.queries() == 0) continue;
     own.merge(counts);

@@ -9,17 +9,17 @@ namespace {
 using KindAndFamily = std::pair<Kind, std::string>;
 using StepAndKind = std::pair<std::string, Kind>;
 
-/// An entry of a map in Statistics.
+/// A row for an entry of a map in Statistics.
 template <class Key, class Value>
-struct Entry {
+struct MapRow {
   Key key;
   Value value = {};
 };
 
-using CountsRow = Entry<CountsKey, Counts>;
-using OracleRow = Entry<KindAndFamily, OracleCounts>;
-using FunnelRow = Entry<StepAndKind, Funnel>;
-using SeenRow = Entry<Signature, std::uint64_t>;
+using CountsRow = MapRow<CountsKey, Counts>;
+using OracleRow = MapRow<KindAndFamily, OracleCounts>;
+using FunnelRow = MapRow<StepAndKind, Funnel>;
+using SeenRow = MapRow<Signature, std::uint64_t>;
 
 template <class Row, class Member, class Key>
 Column<Row> key_column(std::string name, Member Key::*member) {
@@ -93,15 +93,16 @@ Table<CampaignRow> campaign() {
 }
 
 template <class Key, class Value>
-void write_map(SQLite::Database& db, const Table<Entry<Key, Value>>& table, const std::map<Key, Value>& map) {
-  std::vector<Entry<Key, Value>> rows;
+void write_map(SQLite::Database& db, const Table<MapRow<Key, Value>>& table,
+               const std::map<Key, Value>& map) {
+  std::vector<MapRow<Key, Value>> rows;
   for (const auto& [key, value] : map) rows.push_back({key, value});
   table.write(db, std::move(rows));
 }
 
 template <class Key, class Value>
-void read_map(SQLite::Database& db, const Table<Entry<Key, Value>>& table, std::map<Key, Value>& map) {
-  table.read(db, [&](Entry<Key, Value>&& row) { map.emplace(std::move(row.key), std::move(row.value)); });
+void read_map(SQLite::Database& db, const Table<MapRow<Key, Value>>& table, std::map<Key, Value>& map) {
+  table.read(db, [&](MapRow<Key, Value>&& row) { map.emplace(std::move(row.key), std::move(row.value)); });
 }
 
 }  // namespace
