@@ -47,6 +47,15 @@ TEST(VertexVertex, ReportsWhatIsWithinD) {
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
 }
 
+// D² = 1, δ = 2^-10 and the squared distance are exact.
+TEST(VertexVertex, AcceptsASquaredDistanceOfD2AndDelta) {
+  Tolerances<double> unit{};
+  unit.D2 = 1;
+  unit.delta = 0x1p-10;
+  EXPECT_EQ(vertex_vertex(moving({1, 0x1p-5, 0}, {0, 0, 0}), unit), 0);
+  EXPECT_FALSE(vertex_vertex(moving({1, 0x1p-5, 0x1p-20}, {0, 0, 0}), unit));
+}
+
 TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {1, 0, 0}), tol));
   EXPECT_FALSE(vertex_vertex(moving({0.5, 0, 0}, {-0.25, 0, 0}), tol));
@@ -92,12 +101,17 @@ TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
 }
 
 TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
-  // The edge turns through the diagonal of x and y at t = 1/2, where the vertex crosses its line.
-  const auto xji = moving({0.5, 0.25, 0}, {-0.25, 0.25, 0});
-  const auto pair = vertex_edge_pair(moving(Vector(0.1875, 0.1875, -0.25), {0, 0, 0.5}), xji);
-  const Verdict verdict = vertex_edge(pair, tol);
-  EXPECT_EQ(verdict.stage, Stage::ve_equal);
-  EXPECT_EQ(verdict.time, 0.5);
+  // The edge turns through the diagonal of two axes at t = 1/2, where the vertex crosses its line.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](const Vector& v) {
+      return Vector(v[(3 - axis) % 3], v[(4 - axis) % 3], v[(5 - axis) % 3]);
+    };
+    const auto xji = moving(turned({0.5, 0.25, 0}), turned({-0.25, 0.25, 0}));
+    const auto pair = vertex_edge_pair(moving(turned({0.1875, 0.1875, -0.25}), turned({0, 0, 0.5})), xji);
+    const Verdict verdict = vertex_edge(pair, tol);
+    EXPECT_EQ(verdict.stage, Stage::ve_equal) << axis;
+    EXPECT_EQ(verdict.time, 0.5) << axis;
+  }
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {

@@ -22,7 +22,8 @@ class EveryWang : public ::testing::TestWithParam<const char*> {
  protected:
   [[nodiscard]] Verdict decide(const Query& query) const { return make_subject(GetParam())->decide(query); }
 };
-INSTANTIATE_TEST_SUITE_P(Variants, EveryWang, ::testing::Values("wang", "wang-eps", "wang-plain"));
+INSTANTIATE_TEST_SUITE_P(Variants, EveryWang,
+                         ::testing::Values("wang", "wang-eps", "wang-plain", "wang-tight"));
 
 TEST_P(EveryWang, ReportsAVertexThatFallsThroughATriangle) {
   const Verdict verdict = decide(falling_vertex(0.25, 0.25, 1, -1));
@@ -123,6 +124,21 @@ TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   EXPECT_TRUE(Configuration(ee, 0.0).well_shaped(tol));
   EXPECT_TRUE(Configuration(vt, 0.0).inside());
   EXPECT_TRUE(Configuration(ee, 0.0).inside());
+}
+
+// The edges q and r are within 1, but the third one, r - q, is (-2, s, 0), and the height over it is half as large.
+TEST(Configuration, TheHeightTestLooksAtAllThreeEdgesOfATriangle) {
+  constexpr double s = 0x1p-10;
+  Pair<Kind::vertex_triangle, double> pair;
+  pair.p.xv.setZero();
+  pair.q.xv << 1, 0, 0, 0, 0, 0;
+  pair.r.xv << -1, s, 0, 0, 0, 0;
+  const Configuration triangle(pair, 0.0);
+  Tolerances<double> tol{};
+  tol.eta = s / 2;
+  EXPECT_TRUE(triangle.well_shaped(tol));
+  tol.eta = s;
+  EXPECT_FALSE(triangle.well_shaped(tol));
 }
 
 TEST_P(EveryWang, ReportsAPairThatIsOnePoint) {

@@ -47,6 +47,18 @@ TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
   EXPECT_LE(ratio.hi, 0x1.2p0 / 0x1.1p0 * (1 + 0x1p-48));
 }
 
+// The distance is 1, and the largest double below 1/3 is the nearest one: an upper end must be above it.
+TEST(DistanceInUnits, IsRoundedOutward) {
+  const Query query = falling_vertex(0.25, 0.25, 2, 1);
+  const Enclosure third = distance_in_units(query, 3, [](double hi) { return hi * (1 - 0x1p-40); });
+  EXPECT_LT(third.lo, 1.0 / 3);
+  EXPECT_GT(third.hi, 1.0 / 3);
+  const Enclosure tenth = distance_in_units(query, 10, [](double hi) { return hi; });
+  EXPECT_LT(tenth.lo, 0.1);  // the nearest double is above 1/10
+  EXPECT_GE(tenth.hi, 0.1);
+  EXPECT_LE(tenth.hi, 0.1 * (1 + 0x1p-48));
+}
+
 TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
   // The distance is the unit, but for rounding.
   const Query query{.kind = Kind::edge_edge,

@@ -1,0 +1,99 @@
+// The culling of vertex-edge tests at the border of its bounds, with numbers that are exact.
+#include "ccd/ve_culling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace nearmiss {
+namespace {
+
+constexpr double eps = 0x1p-52;
+
+/// A pair whose bound B is 1, and whose velocities are within 1; its vectors are not looked at.
+Pair<Kind::vertex_triangle, double> unit_pair() {
+  Pair<Kind::vertex_triangle, double> pair;
+  for (Moving<double>* vector : {&pair.p, &pair.q, &pair.r}) vector->xv.setZero();
+  pair.B = 1;
+  pair.W = 1;
+  return pair;
+}
+
+/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, and a first weight that may be outside.
+Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
+  Configuration<Kind::vertex_triangle, double> configuration(unit_pair(), 0.5);
+  configuration.q = {1, 0, 0};
+  configuration.r = {0, 1, 0};
+  configuration.N = {0, 0, 1};
+  configuration.NN = 1;
+  configuration.weights = {weight, 0.5, 0.5};
+  return configuration;
+}
+
+/// F with the root 1/2 and a slope.
+Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
+
+/// μ of 2^-40, and no other tolerance.
+Tolerances<double> tolerances() {
+  Tolerances<double> tol{};
+  tol.mu = 0x1p-40;
+  return tol;
+}
+
+/// The value that |F| has to exceed beside a root: μ + 2E + m.
+constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
+/// The rounding errors of a weight and of how far it may move.
+constexpr double rounding = (1160 + 4400) * eps;
+
+template <VeCulling culling>
+bool culled(double slope, double weight) {
+  return excludes_collision<culling>(unit_pair(), line(slope), with_weight(weight), 0.5, tolerances());
+}
+
+// A line of slope 1 has h = 4 threshold. A weight may then move by ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h.
+TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRounding) {
+  const double slack = 2 * std::sqrt(3.0) * 4 * threshold + rounding;
+  for (const double outside : {-slack, 1 + slack}) {
+    const double sign = outside < 0 ? -1 : 1;
+    EXPECT_FALSE(culled<VeCulling::per_root>(1, outside - sign * 0x1p-50)) << outside;
+    EXPECT_TRUE(culled<VeCulling::per_root>(1, outside + sign * 0x1p-50)) << outside;
+  }
+}
+
+// The paper's interval has h = 2^-26, in which a weight moves by at most 9 B⁴ h.
+TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
+  const double slack = 9 * 0x1p-26 + rounding;
+  EXPECT_FALSE(culled<VeCulling::fixed>(1, -slack + 0x1p-50));
+  EXPECT_TRUE(culled<VeCulling::fixed>(1, -slack - 0x1p-50));
+}
+
+// At t ± 2^-26 a line has |F| = slope 2^-26.
+TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
+  const double slope = threshold * 0x1p26;
+  EXPECT_FALSE(culled<VeCulling::fixed>(slope * (1 - 0x1p-20), -9));
+  EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9));
+}
+
+// h is at most 1, and four thresholds are less than the slope times that.
+TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
+  EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
+  EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));
+}
+
+// B = (E + W)(1 + 64 ε): a triangle whose edges are within 1, and a relative velocity of 2.
+TEST(PairBound, HasAMarginOf64Epsilon) {
+  Query query{.kind = Kind::vertex_triangle};
+  query.set_start(0, {0.25, 0.25, 1});
+  query.set_end(0, {0.25, 0.25, -1});
+  for (const auto set : {&Query::set_start, &Query::set_end}) {
+    (query.*set)(2, {1, 0, 0});
+    (query.*set)(3, {0, 1, 0});
+  }
+  const auto pair = make_pair<Kind::vertex_triangle, double>(query);
+  EXPECT_EQ(pair.E, 1);
+  EXPECT_EQ(pair.W, 2);
+  EXPECT_EQ(pair.B, 3 * (1 + 64 * eps));
+}
+
+}  // namespace
+}  // namespace nearmiss
