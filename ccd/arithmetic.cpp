@@ -3,7 +3,7 @@
 namespace nearmiss {
 
 std::string odd_arithmetic() {
-  // Told by doing it: the names of the processor's settings differ, and so do the places where they stand.
+  // Found by computing: the control registers and their names differ between processors.
   const volatile double one = 1;
   const volatile double minus_one = -1;
   const volatile double tiny = std::numeric_limits<double>::min();

@@ -1,4 +1,4 @@
-// What nearmiss takes for granted of floating-point arithmetic: IEEE 754 by the compiler, rounding to nearest
+// The assumptions of nearmiss about floating-point arithmetic: IEEE 754 by the compiler, rounding to nearest
 // with subnormals and without traps by the processor.
 #pragma once
 
@@ -12,7 +12,7 @@
 #endif
 
 // The compiler. Only the plug-ins of fuzz/environments, which are on trial for this, define
-// NEARMISS_ANY_ARITHMETIC. What a compiler does not tell is whether it contracts: see README.md.
+// NEARMISS_ANY_ARITHMETIC. No macro says whether a compiler contracts: see README.md.
 #ifndef NEARMISS_ANY_ARITHMETIC
 #ifdef __FAST_MATH__
 #error "nearmiss needs IEEE arithmetic: found -ffast-math"
@@ -36,18 +36,17 @@ inline bool is_arithmetic_plain() {
 #endif
 }
 
-/// What is not plain: "rounds upward, flushes subnormals to zero"; "" where nothing is.
+/// How this arithmetic differs from plain: "rounds upward, flushes subnormals to zero"; "" if it does not.
 std::string odd_arithmetic();
 
-/// Makes this thread's arithmetic plain where it is not.
+/// Makes this thread's arithmetic plain.
 inline void make_arithmetic_plain() {
   if (!is_arithmetic_plain()) [[unlikely]]
     std::fesetenv(FE_DFL_ENV);
 }
 
-/// Plain arithmetic for a scope, whatever the caller's is; that comes back at its end. At the entry of what
-/// is certified for rounding to nearest. A build with NEARMISS_UNGUARDED does without, to see what becomes of
-/// it.
+/// Plain arithmetic for a scope; its end restores the caller's mode. It guards every entry that is certified for
+/// rounding to nearest. A build with NEARMISS_UNGUARDED leaves it out, to measure the effect.
 class PlainArithmetic {
  public:
   PlainArithmetic() {

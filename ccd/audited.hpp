@@ -12,9 +12,9 @@
 
 namespace nearmiss {
 
-/// What Theorem 4.1 says of a computed value f̂ of f: |f| <= coefficient B^degree = B_f and |f̂ - f| <= ((1 +
-/// ω)^k - 1) B_f, where each operation errs by at most ω relatively: ε in the paper, u = ε/2 where all round
-/// to nearest. The coefficient is infinite where the theorem has no rule.
+/// Theorem 4.1 about a computed value f̂ of f: |f| <= coefficient B^degree = B_f and |f̂ - f| <= ((1 + ω)^k - 1) B_f,
+/// where each operation errs by at most ω relatively: ε in the paper, u = ε/2 if all round to nearest. The
+/// coefficient is infinite if the theorem has no rule.
 struct ErrorBound {
   double coefficient = 0;
   int degree = 0;

@@ -1,4 +1,4 @@
-// What the tolerances must satisfy for the CCD to miss nothing and to report nothing beyond its bound (§4).
+// Inequalities of the tolerances under which the CCD misses nothing and reports nothing beyond its bound (§4).
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// Rounding errors that the constraints speak of, and what they ask of μ and ψ, for B = 1; `Number` is
-/// anything that computes, such as an interval.
+/// Rounding errors in the constraints, and the least μ and ψ, for B = 1. `Number` is any arithmetic type, such as an
+/// interval.
 template <class Number>
 struct RoundingErrors {
   Number area;       ///< a component of N
@@ -30,7 +30,7 @@ struct RoundingErrors {
   Number least_psi;  ///< for no time to be missed by VE (Appendix C)
 };
 
-/// As the paper prints them (§4.2 to §4.5); it leaves those out that are 0 here.
+/// The errors that the paper prints (§4.2 to §4.5); those that it leaves out are 0.
 template <class Number>
 RoundingErrors<Number> printed_errors(const Number& eps) {
   using std::sqrt;

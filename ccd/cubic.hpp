@@ -92,8 +92,8 @@ constexpr Step interval_step(std::size_t i, std::size_t count) {
 /// |computed - exact| / (B³ε) of `clearance` of computed coefficients. To nearest 41 are proven (proven.hpp).
 inline constexpr int clearance_error = 100;
 
-/// How far F certainly keeps from 0 on [0, 1], but for `clearance_error`; negative where that is not
-/// known. F lies between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
+/// How far F certainly keeps from 0 on [0, 1], but for `clearance_error`; negative if that is not known. F lies
+/// between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
 template <class T>
 T clearance(const Cubic<T>& F) {
   using std::max;
@@ -109,8 +109,8 @@ T clearance(const Cubic<T>& F) {
 
 /// Times at which |F| <= μ that stand for the roots of F in [0, 1], in ascending order, at most three.
 ///
-/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node
-/// where |F| <= μ there, else its right node, else nothing where F has one sign at both, else a refined root.
+/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node if |F| <=
+/// μ there, else its right node if |F| <= μ there, else nothing if F has one sign at both, else a refined root.
 ///
 /// Claim (Appendix B): for μ >= `cubic_residual` each root t0 of the exact F* has a returned t with |F*| at
 /// most μ + `cubic_residual` between t0 and t.
@@ -129,7 +129,7 @@ T clearance(const Cubic<T>& F) {
 ///     and a step that leaves t where it was is at most ω t, which |F̂| > 73 ω does not give.
 /// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
 ///
-/// Where F keeps clear of μ there is nothing to look for.
+/// If F keeps clear of μ, there are no such times.
 template <class T, class Steps = AllSteps>
 CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   using std::abs;

@@ -38,7 +38,7 @@ struct Moving {
 };
 
 /// The power-of-two frame in which a pair is computed: differences of coordinates times 2^exponent, with
-/// the coordinates themselves times 2^-4 first where a difference would overflow.
+/// the coordinates themselves times 2^-4 first if a difference would overflow.
 struct Frame {
   int exponent = 0;
   bool reduced = false;
@@ -174,13 +174,13 @@ bool in_range(T B) {
   return B <= root * root && B >= 1 / (root * root);
 }
 
-/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude; the identity where the pair
-/// is in range already, or B = 0.
+/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude; the identity if the pair is in range
+/// already, or B = 0.
 template <Kind kind, class T, class Steps = AllSteps>
 Frame normalising_frame(const Query& query, const Steps& steps = {}) {
   Frame frame;
   const auto pair = make_pair<kind, T>(query, frame, given_order, steps);
-  // Where a position overflows at both times its velocity is not a number, and B may be any.
+  // If a position overflows at both times, its velocity is not a number, and B may be anything.
   const bool finite =
       !steps.does(Step::overflow) ||
       (pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all());
@@ -224,7 +224,7 @@ bool within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;
 }
 
-/// The same, with the end points of edges exchanged where they must be. B itself does not depend on the
+/// The same, with the end points of edges exchanged if necessary. B itself does not depend on the
 /// order.
 template <Kind kind, class T, class Steps = AllSteps>
 bool bring_within_reach(const Query& query, Pair<kind, T>& pair, const Steps& steps = {}) {

@@ -17,8 +17,7 @@ inline bool is_plugin_path(std::string_view name) { return name.find('/') != std
 /// subnormals or to traps, arithmetic is plain again when it has answered.
 class Plugin final : public Subject {
  public:
-  /// Throws Error where the file cannot be loaded, has no nearmiss_get_subject, has another abi, or lacks a
-  /// function.
+  /// Throws Error if the file cannot be loaded, has no nearmiss_get_subject, has another abi, or lacks a function.
   explicit Plugin(const std::string& path);
 
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -28,10 +27,10 @@ class Plugin final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override;
   [[nodiscard]] bool claims_bound() const override { return subject_->distance_bound != nullptr; }
 
-  /// What the plug-in returns, and the time that it gives; `time` stays as it is where it gives none.
+  /// The plug-in's return value. `time` becomes the time that it gives, and stays as it is if it gives none.
   int ask(const Query& query, double& time) const;
 
-  /// A plug-in that decides nothing.
+  /// A plug-in that does nothing and answers 0.
   static const Plugin& empty_plugin();
 
  protected:

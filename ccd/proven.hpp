@@ -48,7 +48,7 @@ inline constexpr double time_far = 23.75;
 /// it may be below the one at its time.
 ///
 /// With g the squared distance of the computed vectors and t its time of minimum, g(t̂) - g(t) <= ‖v‖² d²,
-/// where d is the error of the quotient: g is a parabola, and where quotients are brought into [0, 1] its
+/// where d is the error of the quotient: g is a parabola, and if a quotient is clamped to [0, 1], its
 /// slope at t only helps. Scaling v changes ‖v‖² d² by nothing, so let ‖v‖∞ = B; ‖v‖² <= 3B². So the time is
 /// good for 3 (time ε)² B², and ε <= 2^-10.
 constexpr double delta_of(double evaluation, double vectors, double quotient) {

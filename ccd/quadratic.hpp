@@ -19,8 +19,8 @@ struct CandidateTimes {
   [[nodiscard]] const T* end() const { return values + count; }
 };
 
-/// Adds numerator / denominator where that is in [0, 1]; found out without dividing, so that a zero
-/// denominator or an overflow never reaches a comparison. 0/0 adds nothing: the equation is trivial.
+/// Adds numerator / denominator if that is in [0, 1]. The test does not divide, so that a zero denominator or an
+/// overflow never reaches a comparison. 0/0 adds nothing: the equation is trivial.
 template <class T, int capacity>
 void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator) {
   if (denominator < 0) {
@@ -33,7 +33,7 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
 /// Adds the roots of a t² + b t + c in [0, 1], in no particular order; a linear equation is solved, a
 /// constant one adds nothing.
 ///
-/// A discriminant that comes out negative is taken as 0: a candidate more is harmless. With q = -(b + sign(b)
+/// A computed discriminant below 0 is taken as 0: one more candidate is harmless. With q = -(b + sign(b)
 /// sqrt(disc)) the roots are q/2a and 2c/q, neither of which cancels.
 ///
 /// Errors, for operations that err by ω at most: there is one c', with |c' - c| <= 2ω |c|, such that each

@@ -16,7 +16,7 @@
 
 namespace nearmiss {
 
-/// What moves against what.
+/// Which primitives a query has.
 enum class Kind : std::uint8_t {
   vertex_triangle,  ///< x0 is the vertex, x1 x2 x3 the triangle
   edge_edge,        ///< x0x1 and x2x3 are the edges

@@ -1,4 +1,4 @@
-// What μ and ψ must be for the solvers of cubic.hpp and vertex_edge.hpp, with all orders of ε.
+// The least μ and ψ for the solvers of cubic.hpp and vertex_edge.hpp, with all orders of ε.
 #pragma once
 
 namespace nearmiss {
@@ -20,7 +20,7 @@ constexpr Number cubic_residual(const Number& u) {
   return u * 865 / (1 - u * 16);
 }
 
-/// What ψ must be for `vertex_edge` to miss nothing, for B = 1, positions within 2 (edges), operations that
+/// The least ψ for `vertex_edge` to miss nothing, for B = 1, positions within 2 (edges), operations that
 /// err by u <= 2^-10 at most, and the threshold S:
 ///   components of x_0i × x_ji: a 2 of k = 10, b 6 of 9, c 4 of 4 and 2 u more of the discriminant: 98 u each,
 ///   6ρ for those that are dropped, and 4 S u for x_ji, all twice: 588 u, 8 S u, 12ρ;

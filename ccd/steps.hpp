@@ -1,5 +1,4 @@
-// The steps of the algorithm, as one can also leave them out: so a fuzzer's power is measured on known
-// defects.
+// The steps of the algorithm. Each can be left out, to measure a fuzzer's power on known defects.
 #pragma once
 
 #include <cmath>
@@ -9,7 +8,7 @@
 
 namespace nearmiss {
 
-/// What the failure-proof CCD must do to be that; each is one condition at one place of ccd/.
+/// The steps that make the CCD failure-proof; each is one condition at one place of ccd/.
 enum class Step : std::uint8_t {
   // plane_culling.hpp
   both_ends,       ///< a plane must separate at t = 1 too
@@ -30,7 +29,7 @@ enum class Step : std::uint8_t {
   first_interval,        ///< of the two or three between nodes
   middle_interval,       ///< of three
   last_interval,         ///< of the two or three
-  residual,              ///< a root is where |F| <= μ; without: where the last step was below 2^-20
+  residual,              ///< a root has |F| <= μ; without: a last step below 2^-20
   // wang.hpp
   proximity,      ///< area, height and barycentric tests
   proximity_end,  ///< also at t = 1
@@ -51,7 +50,7 @@ enum class Step : std::uint8_t {
   ties,  ///< comparisons that accept are non-strict
 };
 
-/// The algorithm as it should be. Another policy has the same members, and may answer at run time.
+/// The whole algorithm. Another policy has the same members, and may answer at run time.
 struct AllSteps {
   static constexpr bool does(Step /*step*/) { return true; }
 
@@ -84,8 +83,8 @@ struct Loosened {
   }
 };
 
-/// The s, to about 1 %, at which hits(s), that it is a hit with Loosened steps, turns from false to true;
-/// 2^-40 or 2^8 where that is beyond.
+/// The s, to about 1 %, at which hits(s), the answer with Loosened steps, turns from false to true; 2^-40 or 2^8 if
+/// that is not between them.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   using std::exp2;

@@ -14,9 +14,10 @@ namespace nearmiss {
 /// Number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// How long some work took, in ns. The wall clock is read in some 20 ns, but runs on while another process has the
-/// processor; the CPU clock, of this thread or of all threads of this process, does not, but is right to some 500 ns
-/// only. So the shorter of both counts; but the wall clock's if the work waited by itself, for a device or a thread.
+/// How long some work took, in ns. Reading the wall clock takes about 20 ns, but it keeps running while another
+/// process has the processor. The CPU clock, of this thread or of all threads of this process, stops then, but is
+/// only accurate to about 500 ns. So the shorter time counts. If the work itself waited, for a device or a thread,
+/// the wall clock's time counts.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
@@ -58,7 +59,7 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
   return watch.nanoseconds();
 }
 
-/// What the shortest of three tries took: a disturbance of one try seldom hits all three.
+/// The time of the shortest of three tries: a disturbance of one try seldom hits all three.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   return std::min({time_of(clock, work), time_of(clock, work), time_of(clock, work)});

@@ -27,7 +27,7 @@ enum class Stage : std::uint8_t {
   vv,           ///< VV (KKT case 5)
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< a subject that does not tell, such as a plug-in
+  unspecified,  ///< a subject that does not say, such as a plug-in
 };
 
 inline constexpr std::size_t stage_count = 10;
@@ -39,7 +39,7 @@ inline constexpr std::array<std::string_view, stage_count> stage_names{
 
 /// Why a pair was not reported.
 enum class Rejection : std::uint8_t {
-  untold,   ///< a collision was reported, or the subject does not tell
+  untold,   ///< a collision was reported, or the subject does not say
   planes,   ///< plane culling
   apart,    ///< vectors that no colliding pair has (§4.1)
   no_root,  ///< the cubic has no root in [0, 1]
@@ -52,14 +52,14 @@ enum class Rejection : std::uint8_t {
 
 inline constexpr std::size_t rejection_count = 9;
 
-/// Names of these, in order, as they stand in files and reports.
+/// Names of the rejections, in order, as they stand in files and reports.
 inline constexpr std::array<std::string_view, rejection_count> rejection_names{
     "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
-  error,   ///< it said so itself, or gave an answer that is none
+  error,   ///< it reported an error, or gave an invalid answer
   crash,   ///< its process ended
   time,    ///< it took longer than it may
   memory,  ///< it wanted more memory than it may have
@@ -75,24 +75,24 @@ inline constexpr std::array<std::string_view, fault_count> fault_names{"none", "
 struct Verdict {
   bool hit = false;
   Stage stage = Stage::none;
-  double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] where hit; NaN where not known
-  Fault fault = Fault::none;                               ///< otherwise there is no answer
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] for a hit; NaN if unknown
+  Fault fault = Fault::none;                               ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  std::int32_t fault_code = 0;  ///< what an error returned; of a crash the signal, or the exit code negated
+  std::int32_t fault_code = 0;  ///< an error's return value; a crash's signal, or its exit code negated
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
   static Verdict rejected(Rejection rejection) { return {.rejection = rejection}; }
 };
 
-/// How long some answers took, in the thread that decides, or in the process if the subject has one of its own: less
-/// what an empty subject takes there for the same queries, and less waiting for a processor (stopwatch.hpp).
+/// How long some answers took, in the thread that decides, or in the subject's own process. The time of an empty
+/// subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
   std::size_t queries = 0;  ///< that were timed: all but those beside a query at which a process ended
   std::uint64_t nanoseconds = 0;
 };
 
-/// A CCD on trial: a pure function of the query. Our own decide in plain arithmetic (arithmetic.hpp),
-/// whatever the caller's is.
+/// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic (arithmetic.hpp),
+/// whatever the caller's mode.
 class Subject {
  public:
   Subject() = default;
@@ -103,7 +103,7 @@ class Subject {
   /// Name on the command line and in reports; a plug-in's own name for a plug-in.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
-  /// Throws Error where a coordinate is not finite.
+  /// Throws Error if a coordinate is not finite.
   [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
 
   /// verdicts[i] = decide(queries[i]); the spans have one length.
@@ -114,34 +114,33 @@ class Subject {
   /// The same, and how long it took.
   virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// How long each query takes by itself, in ns, the best of three tries; nothing if there is no answer.
+  /// The time of each query on its own, in ns, the best of three tries; nothing if there is no answer.
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
-  /// The largest distance that a false positive of this subject may have, as the subject claims it
-  /// (same unit of length as the query); infinity where it claims nothing or more than the largest double, NaN
-  /// where it fails to say.
+  /// The largest distance that a false positive of this subject may have, as the subject claims it (same unit of
+  /// length as the query); infinity if it claims nothing or more than the largest double, NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
-  /// Whether it claims a bound; of any query or of none.
+  /// Whether it claims a bound, for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
-  /// Whether it looks at fewer digits than a double has.
+  /// Whether it rounds coordinates to fewer digits than a double has.
   [[nodiscard]] virtual bool rounds() const { return false; }
 
-  /// The query that is decided, and must be judged: of a subject that rounds one with rounded coordinates.
+  /// The query that it decides and is judged on: with rounded coordinates, if the subject rounds.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
 
   /// How far the query is from the border between hit and miss: the factor s by which the lengths of all
   /// tolerances that accept (D, ψ^½, S, μ^⅓) must be multiplied for the subject to just report it; at most 1
-  /// for a hit, more for a miss. A guide for those who hunt, of a few bits; NaN where the subject does not
-  /// tell.
+  /// for a hit, more for a miss. A guide for directed search, accurate to a few bits; NaN if the subject does not
+  /// say.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that decides nothing, but is asked as this one is: its time is subtracted from this one's.
+  /// A subject that decides nothing and is asked in the same way; its time is subtracted from this one's.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 
@@ -154,21 +153,20 @@ struct SubjectInfo {
 /// The built-in subjects, in the order in which `nearmiss subjects` lists them.
 std::vector<SubjectInfo> subjects();
 
-/// Behind the name of a subject that takes a scene's bound for that of each pair.
+/// Suffix of the name of a subject that uses the scene's bound for every pair.
 inline constexpr std::string_view of_scene = "@scene";
 
 /// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). A bound, given as
 /// NAME@B or as `given_bound` (of NAME and NAME@scene), in the queries' unit of length, takes the place of
-/// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B take no
-/// notice of it. Throws Error for a name that is not known or a plug-in that cannot be used.
+/// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B ignore it.
+/// Throws Error for an unknown name or a plug-in that cannot be used.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
-/// The same, but nothing for a name that is not known.
+/// The same, but nothing for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
-/// A name without its bound, "@B" or "@scene", and what bound that is; the one that is given where there is
-/// none.
+/// A name without its suffix "@B" or "@scene", and its bound; without a suffix, the given bound.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;

@@ -41,7 +41,7 @@ constexpr double square_root(double x) {  // Newton, from above
   }
 }
 
-/// Where a function that falls and then rises is smallest on [lo, hi] (golden section).
+/// The place in [lo, hi] at which a function that falls and then rises is smallest (golden section).
 template <class Function>
 constexpr double lowest(const Function& f, double lo, double hi) {
   constexpr double golden = 0.6180339887498949;
@@ -151,7 +151,7 @@ constexpr ToleranceConstants solve_tight(int eps_exponent) {
 template <class T>
 inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
 
-/// The paper's, for ε = 2^this, likewise.
+/// The same constants of the paper's closed forms, for ε = 2^eps_exponent.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
   return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
@@ -186,7 +186,7 @@ Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
-/// The algorithm with these.
+/// The algorithm with tight tolerances.
 struct TightSteps : AllSteps {
   template <class T>
   static Tolerances<T> tolerances(T B) {

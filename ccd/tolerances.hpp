@@ -19,10 +19,10 @@ T fourth_root_of_epsilon() {
   return sqrt(sqrt(epsilon<T>()));
 }
 
-/// The tolerances of §4 for a pair bounded by B. The paper's closed forms are failure-proof by the paper where μ
-/// >= 33492 B³ε, which double satisfies (64 e³ = 64/2^39 > 33492/2^52) and float does not; by constraints.hpp for
-/// every scalar of 13 bits or more.
-/// With e = ε^¼; units: length (B, e is a number) to the power shown.
+/// The tolerances of §4 for a pair bounded by B. According to the paper, its closed forms are failure-proof if μ >=
+/// 33492 B³ε, which holds for double (64 e³ = 64/2^39 > 33492/2^52) and not for float. According to constraints.hpp,
+/// they are so for every scalar of 13 bits or more. With e = ε^¼; units: length (B, e is a number) to the power
+/// shown.
 template <class T>
 struct Tolerances {
   T delta;    ///< δ, length²: rounding error of VV's squared distance (§4.2)

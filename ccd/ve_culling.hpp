@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// How far around a computed root a true one is looked for.
+/// The width of the interval around a computed root that must contain the true one.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
   fixed,     ///< h = ε^½ as the paper proposes
@@ -20,11 +20,10 @@ enum class VeCulling : std::uint8_t {
 };
 
 /// |F̂(t) - F(t)| / (B³ε) for F evaluated from rounded relative vectors against exact motion, for operations
-/// that err by ε at most: whatever the rounding mode. A position has an error of ε, a velocity of 3ε, or 4ε
-/// where a position is within 2B at one end (p of edges). By Theorem 4.1 the coefficients then err by 6 B³ of
-/// k = 15 (a), 18 B³ of 15 and 12 (b, c), 6 B³ of 8 (d): 624 ε. Horner's rule rounds each of them 6, 5, 3 and
-/// 1 times: 36 + 90 + 54 + 6 = 186 ε. With all that is of second order, 865 for ε <= 2^-10 (tests/proofs/).
-/// To nearest 334 are proven (proven.hpp).
+/// that err by ε at most: in any rounding mode. A position has an error of ε, a velocity of 3ε, or 4ε if a position
+/// is within 2B at one end (p of edges). By Theorem 4.1 the coefficients then err by 6 B³ of k = 15 (a), 18 B³ of 15
+/// and 12 (b, c), 6 B³ of 8 (d): 624 ε. Horner's rule rounds each of them 6, 5, 3 and 1 times: 36 + 90 + 54 + 6 = 186
+/// ε. With all that is of second order, 865 for ε <= 2^-10 (tests/proofs/). To nearest 334 are proven (proven.hpp).
 inline constexpr int evaluation_error = 865;
 
 /// By how much F, with its computed coefficients, may leave the range of its values at two places between two

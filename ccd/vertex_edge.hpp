@@ -20,7 +20,7 @@ struct VertexEdge {
 
 namespace detail {
 
-/// Where the proximity test of Algorithm 2 is applied: F_0ij and the barycentric and length tests.
+/// The proximity test of Algorithm 2 at one time: F_0ij and the barycentric and length tests.
 template <class T, class Steps = AllSteps>
 bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Steps& steps = {}) {
   const Vector3<T> a = ve.x0i.at(t);
@@ -104,7 +104,7 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// - A kink of some |Q_k|, a root of Q_k (case 4). Its computed time, or 1 in its place, is within 6ω, and G
 ///   changes at a rate of at most 30 B² + SB.
 /// - The vertex of a piece (case 2). The computed slope of the piece is wrong by at most r = (68 B² + 2 SB) ω.
-///   So between t' and the computed vertex, or 0 or 1 where that is outside, the piece rises by at most r/2.
+///   So between t' and the computed vertex, or 0 or 1 if that is outside, the piece rises by at most r/2.
 ///   At a concave kink G continues below the piece. At a kink of some |Q_k|, if one comes first, go on to
 ///   that root's computed time.
 /// All the way F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. No root is taken of an error: all times are,

@@ -17,7 +17,7 @@ class Votes {
     names.append(names.empty() ? "" : ", ").append(name);
   }
 
-  /// Appends the question where not all say the same.
+  /// Appends the question if the answers differ.
   void complain(std::string& text, std::string_view question) const {
     if (yes_.empty() || no_.empty()) return;
     text.append(text.empty() ? "" : ", ").append(question);

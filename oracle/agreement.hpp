@@ -22,14 +22,14 @@ class Answers {
   /// The answer of the first complete method.
   [[nodiscard]] bool collision() const;
 
-  /// Whether all that is said fits together: no two methods contradict each other about the collision, the
-  /// boundary or the number of roots, and the complete ones all say whether there is a collision.
+  /// Whether no two methods contradict each other about the collision, the boundary or the number of roots, and every
+  /// complete method says whether there is a collision.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
-  /// The contradictions, such as "collision (no: exact; yes: sturm)"; "" where they agree. The filter in front of
-  /// the methods takes part where its answer is given.
+  /// The contradictions, such as "collision (no: exact; yes: sturm)"; "" if they agree. The filter takes part
+  /// if its answer is given.
   [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
 
-  /// A collision that a method of root parity takes for none: an even number of roots.
+  /// Whether there is a collision that a root-parity method does not see: an even number of roots.
   [[nodiscard]] bool missed_by_parity() const;
 
  private:
@@ -40,10 +40,10 @@ class Answers {
 /// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// The same where it is known already what the first one says, a complete one.
+/// The same if the answer of the first method, a complete one, is known already.
 Answers ask_others(const Query& query, bool first, std::span<const Method> asked = methods());
 
-/// Whether a query belongs to a fixed fraction, one in so many by a hash of its coordinates.
+/// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its coordinates.
 bool is_sampled(const Query& query, std::uint64_t one_in);
 
 }  // namespace nearmiss

@@ -20,10 +20,10 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// lo >= needed(hi), or as near to that as doubles of the distance can be.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// The same from above, to a part in a thousand, and near 1 to 1e-9; infinite where the unit is 0.
+/// An upper bound of this ratio, to a relative 1e-3, and near 1 to 1e-9; infinite if the unit is 0.
 double closest_ratio(const Query& query, double unit);
 
-/// A time in [0, 1] at which the primitives are about as near to each other as they come: for pictures.
+/// A time in [0, 1] at which the primitives are about as near to each other as they come, for pictures.
 double closest_time(const Query& query);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.

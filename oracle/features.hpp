@@ -1,4 +1,4 @@
-// What the first contact of a collision is like: by this, collisions are sorted.
+// A description of the first contact of a collision, by which findings are sorted.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct ContactFeatures {
   bool operator==(const ContactFeatures&) const = default;
 };
 
-/// The features of a collision; nothing where there is none. No rounding error decides.
+/// The features of a collision, by exact arithmetic; nothing if there is no collision.
 std::optional<ContactFeatures> contact_features(const Query& query);
 
 /// "simple-root inside on-edge", "planar at-start end-on-end degenerate" and so on.

@@ -1,5 +1,5 @@
-// The exact methods that decide a query: one table, from which follow the comparison of their answers, the
-// choices of the command line and the table in README.md.
+// The exact methods that decide a query: one table, which the comparison of their answers, the command line and
+// README.md read or repeat. README.md says how to add one.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// What a method says of a query; nothing of what it does not know.
+/// A method's answer to a query; a member without a value is unknown to it.
 struct Answer {
   std::optional<bool> collision{};    ///< whether the primitives meet
   std::optional<bool> on_boundary{};  ///< whether they do at an end of the step or at a border of a primitive
@@ -20,7 +20,7 @@ struct Answer {
   std::size_t detail = 0;  ///< what else it saw, a number below 32: a query with a new one is new to a fuzzer
 };
 
-/// What a method promises.
+/// The promise of a method.
 enum class Claim {
   complete,  ///< it always knows whether there is a collision
   parity,    ///< it knows one on the boundary, or by an odd number of roots

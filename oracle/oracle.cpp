@@ -24,8 +24,7 @@ double rounded_down(const Number& x) {
   return d;
 }
 
-/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself where it
-/// is a double.
+/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself if it is a double.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());

@@ -14,7 +14,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using certified::DoubleWord;
 
-/// end - start, exactly, where `hi` is finite: then no step of the sum overflows.
+/// end - start, exactly, if `hi` is finite: then no step of the sum overflows.
 DoubleWord velocity(const Query& query, std::size_t point, std::size_t k) {
   return certified::two_sum(query.x[12 + 3 * point + k], -query.x[3 * point + k]);
 }
@@ -34,7 +34,7 @@ Point start(const Query& query, int i) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// Where point i is at t = 1, seen from the frame in which point j rests; nothing where that is no double.
+/// The position of point i at t = 1 in the frame in which point j rests; nothing if that is not a double.
 std::optional<Point> relative_end(const Query& query, int i, int j) {
   std::array<double, 3> end{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -47,7 +47,7 @@ std::optional<Point> relative_end(const Query& query, int i, int j) {
   return Point(end[0], end[1], end[2]);
 }
 
-/// Whether a segment, or a point where its ends are one, meets a triangle; nothing where that has no area.
+/// Whether a segment, or a point if its ends are equal, meets a triangle; nothing if that has no area.
 std::optional<bool> meets(const Point& p, const Point& q, const Kernel::Triangle_3& triangle) {
   if (triangle.is_degenerate()) return std::nullopt;
   if (p == q) return CGAL::do_intersect(p, triangle);

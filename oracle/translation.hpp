@@ -1,4 +1,4 @@
-// Primitives that do not turn or bend as they move against each other: decided without a polynomial.
+// Decisions without a polynomial, for primitives that only translate against each other.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ enum class RelativeMotion : std::uint8_t {
   other,
 };
 
-/// Exactly: velocities are compared as the differences of the given coordinates, not as rounded. `other`
-/// where a difference overflows.
+/// Exactly: velocities are compared as the differences of the given coordinates, not as rounded. `other` if a
+/// difference overflows.
 RelativeMotion relative_motion(const Query& query);
 
 /// Whether the primitives of a query at relative rest or translation meet, by exact static predicates: of rest
 /// the primitives at t = 0 themselves; of translation the segment along which x0 moves and the triangle, or one
-/// edge and the parallelogram that the other one sweeps. Nothing where that cannot be told so: where the
-/// relative path's end is no double, or primitives have no length or area.
+/// edge and the parallelogram that the other one sweeps. Nothing if these predicates do not
+/// decide it: the end of the relative path is not a double, or a primitive has no length or area.
 std::optional<bool> meets_by_translation(const Query& query);
 
 }  // namespace nearmiss

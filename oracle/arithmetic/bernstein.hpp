@@ -21,11 +21,11 @@ inline constexpr double roundoff<DoubleWord> = 0x1p-103;
 /// The smallest positive double; what is below 2^-1022 is a multiple of it.
 inline constexpr double smallest = 0x1p-1074;
 
-/// What underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of it costs at
-/// most a half.
+/// The most that underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of that
+/// unit costs at most a half.
 ///
 /// A product of double words has four products in its lower half, and two more beside it. Its lower half is
-/// summed up exactly where nothing underflows. Where something does, the product is below 2^107 units, so its
+/// summed up exactly if nothing underflows. If something does, the product is below 2^107 units, so its
 /// lower half is below 2^54, and the sums that lead to it are below 2^81, 2^81 and 2^56. A sum of multiples of
 /// the unit is exact below 2^53, and far above that it rounds the error away; in between it may double it. That
 /// can happen to the first two sums or to the third, not to all: 3 + 1/2 + 1/2 at most, and 1 for the products
@@ -35,7 +35,7 @@ inline constexpr double product_underflow = 0.5;
 template <>
 inline constexpr double product_underflow<DoubleWord> = 8;
 
-/// What bounds, magnitudes and times are computed in: double, or a double for each of many lanes.
+/// The type of bounds, magnitudes and times: double, or a double for each of many lanes.
 template <class Real>
 struct BoundOf {
   using Type = double;
@@ -47,9 +47,9 @@ using Bound = typename BoundOf<Real>::Type;
 inline double approximate(double x) { return x; }
 inline double approximate(const DoubleWord& x) { return x.hi; }
 
-/// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 where that is not
-/// sure. A NaN or an infinite error makes nothing sure. (A double word's upper half is within a factor of 1 ±
-/// 2^-53 of it: `error` has room for that.)
+/// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 if that is not certain. With a
+/// NaN or an infinite error nothing is certain. (A double word's upper half is within a factor of 1 ± 2^-53 of it:
+/// `error` has room for that.)
 template <class Real, std::size_t n>
 int common_sign(const std::array<Real, n>& numbers, double error) {
   bool positive = true;
@@ -114,12 +114,12 @@ struct Bernstein {
   [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
 
   /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, each
-  /// b_i within `error`: quicker, and as good where h is small.
+  /// b_i within `error`: quicker, and as good if h is small.
   [[nodiscard]] int sign_near(double t, double h) const {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// What the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
+  /// The magnitude that the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
   /// rounded, by at most `end_rounding`. The slope of exact coefficients exceeds that of computed ones by two of
   /// their errors at most; `spread_growth` makes up for the roundings here.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {

@@ -8,7 +8,7 @@ namespace nearmiss::certified {
 /// A double-word number hi + lo with |lo| at most half an ulp of hi. The operations are Algorithms 6 (sum)
 /// and 10 (product) of Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building blocks
 /// of double-word arithmetic", ACM TOMS 2017: relative errors of at most 3u² + 13u³ and 5u², u = 2^-53,
-/// rounding to nearest, where nothing overflows (then NaN comes out) or underflows (see `product_underflow`).
+/// rounding to nearest, if nothing overflows (the result is then NaN) or underflows (see `product_underflow`).
 struct DoubleWord {
   double hi = 0;
   double lo = 0;

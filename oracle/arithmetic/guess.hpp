@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// a where it is true, else b, as Lanes have it.
+/// a if the mask is true, else b, as for Lanes.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 /// c[0] + c[1] t + c[2] t² + c[3] t³.

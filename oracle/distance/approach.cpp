@@ -12,7 +12,7 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// The search with times, and positions where they have to be precise, in one type of numbers.
+/// The search with times in one type of numbers, and positions too if they have to be precise.
 template <class Real>
 class DistanceSearch {
  public:
@@ -58,13 +58,13 @@ class DistanceSearch {
     return time;
   }
 
-  /// In double where that is enough; then at the double nearest to t.
+  /// In double if that is enough; then at the double nearest to t.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
     return resolves(time.moment) ? time : look_precisely(t);
   }
-  /// The same between two times, where the nearest double may be one of them.
+  /// The same between two times, one of which may be the nearest double.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
@@ -201,7 +201,7 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a time, or makes it precise where it covers nothing; false where both is done.
+  /// Adds separations to a time, or makes it precise if it covers nothing; false if both are done.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)

@@ -15,10 +15,10 @@ struct Approach {
   bool enough = false;  ///< whether lower >= needed(upper)
 };
 
-/// Looks at times around which the distance is smallest, and at others until certified bounds around all of
-/// them cover the step: in double where that resolves the distance, else in double words, and at last with 384
-/// bits, whose errors are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. It gives up if that
-/// takes too many times, which it does for narrow enclosures of minima at which the normal turns.
+/// Looks at times around which the distance is smallest, and at others until certified bounds around all of them
+/// cover the step: in double if that resolves the distance, else in double words, and at last with 384 bits, whose
+/// errors are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. It gives up if that takes too
+/// many times, which it does for narrow enclosures of minima at which the normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
 
 }  // namespace nearmiss::certified

@@ -30,9 +30,9 @@ struct ClosestFeatures {
   std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// Points of the two primitives, and how far apart they are. That they are closest is a guess, but that they are points
-/// of the primitives is not: their weights are not negative and add up to 1, but for a triangle's, where rounding may
-/// add 2 U (points_error in moment.hpp).
+/// Points of the two primitives, and how far apart they are. That they are closest is a guess, but that they are
+/// points of the primitives is not: their weights are not negative and add up to 1, except for a triangle's, to which
+/// rounding may add 2 U (points_error in moment.hpp).
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;

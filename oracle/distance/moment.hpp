@@ -12,7 +12,7 @@
 
 namespace nearmiss::certified {
 
-/// Everything about one time that the search for the smallest distance wants to know, in the unit of
+/// Everything about one time that the search for the smallest distance needs, in the unit of
 /// VertexDifferences.
 struct Moment {
   bool is_precise = false;   ///< computed in the search's type of time, else in double
@@ -23,7 +23,7 @@ struct Moment {
   double predicted = 0;      ///< the distance there, by guess
   Vec<double> direction{};   ///< from the second primitive's closest point to the first one's, or zero
 
-  /// The one that fits the features best; then others, where they have been asked for.
+  /// The one that fits the features best; then others, if they were asked for.
   boost::container::small_vector<Separation, 1> separations;
   bool has_all = false;
 };

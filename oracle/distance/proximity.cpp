@@ -27,8 +27,8 @@ namespace {
 /// The statement about a pair of features.
 struct Nearness {
   Polynomial excess;  ///< of the squared distance over b², times something positive; degree 6 at most
-  std::vector<Polynomial> outside;  ///< each at most 0 where the closest points are in the features
-  std::vector<Polynomial> extents;  ///< each above 0 where they are not degenerate
+  std::vector<Polynomial> outside;  ///< each at most 0 if the closest points are in the features
+  std::vector<Polynomial> extents;  ///< each above 0 if they are not degenerate
 
   [[nodiscard]] bool holds_at(Root& t) const {
     const auto is_in = [&](const Polynomial& p) { return t.sign_of(p) <= 0; };

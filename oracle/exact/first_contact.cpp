@@ -32,15 +32,14 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   return Meeting{vanishing_weights, true};
 }
 
-/// The polynomials of whose roots in [0, 1] the earliest collision is one, if there is any, where F is zero
-/// identically; or it is t = 0.
+/// For an F that is identically zero: polynomials such that the earliest collision, if there is one, is at t = 0 or
+/// at one of their roots in [0, 1].
 ///
-/// Where a component N_k of the normal is not zero identically they are N_k and its weights. For the set of
-/// colliding times is closed, so it has a least element t*; were t* neither 0 nor a root of one of them that
-/// is not identically zero, N_k would not be zero and none of them would change its sign in a neighbourhood
-/// of t*, and there would be collisions before t*. Where N is zero identically, the same holds for what
-/// decides about the segments. Of those with the same roots, as the three components of what stays in one
-/// plane, one is enough.
+/// If a component N_k of the normal is not identically zero, they are N_k and its weights: the set of colliding times
+/// is closed, so it has a least element t*; were t* neither 0 nor a root of one of them that is not identically zero,
+/// N_k would not be zero and none of them would change its sign in a neighbourhood of t*, and there would be
+/// collisions before t*. If N is identically zero, the same holds for the polynomials of the segments. One of several
+/// polynomials with the same roots is enough, such as the three components of a vector that stays in one plane.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {

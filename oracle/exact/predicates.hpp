@@ -12,20 +12,20 @@
 namespace nearmiss::exact {
 
 /// The point x lies on the closed segment (a, b) iff every component of `cross` = (x - a) × (b - a) is zero
-/// and `dot` = (x - a) · (x - b) is not positive; also where a = b.
+/// and `dot` = (x - a) · (x - b) is not positive; also if a = b.
 struct OnSegment {
   PolynomialVector cross;
   Polynomial dot;
 };
 
-/// What decides a query, as polynomials (degree 3 for F, 2 for others), made when they are first asked for.
+/// The polynomials that decide a query (degree 3 for F, 2 for others), made when they are first asked for.
 /// The coordinates are the query's, times one power of two (`unit`).
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
-///  - if a component N_k of the normal is not zero, the primitives are faithfully seen along axis k, and they
-///    meet iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric
-///    ones times N: of x1, x2, x3 for a triangle (their sum is N); of x1 and x0 on the first edge, of x3 and
-///    x2 on the second one (pairwise sum N), from x20 = α x10 - β x32;
+///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and they meet iff
+///    every weight's component k is zero or has the sign of N_k. The weights are the barycentric ones times N:
+///    of x1, x2, x3 for a triangle (their sum is N); of x1 and x0 on the first edge, of x3 and x2 on the second
+///    one (pairwise sum N), from x20 = α x10 - β x32;
 ///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
 ///    does. Edges are then parallel or points: they meet iff an end point of one lies on the other.
 class Predicates {

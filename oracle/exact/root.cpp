@@ -50,7 +50,7 @@ double value_at(const std::vector<double>& c, double s) {
   return value;
 }
 
-/// x / y, or a number whose size tells no more than that it is large.
+/// x / y, clamped to ±2^60.
 double ratio(const Number& x, const Number& y) {
   const std::vector<double> both = in_proportion({x, y});
   return std::clamp(both[0] / both[1], -0x1p60, 0x1p60);
@@ -84,8 +84,8 @@ int count_roots_inside(const Polynomial& p) {
   return changes_at(0) - changes_at(1);
 }
 
-/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was come
-/// across as a number; or neither, where they were not found.
+/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was found as a
+/// number; or neither, if the search gave up.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
@@ -93,9 +93,8 @@ struct Isolated {
 };
 
 /// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an
-/// extremum, which two close roots have between them, and in the middle. Gives up after so many cuts. The
-/// number of roots, where it is known, spares a search for what is none, such as a pair of close complex
-/// roots.
+/// extremum, which two close roots have between them, and in the middle. Gives up after `most_cuts` cuts. A known
+/// number of roots saves the search for roots that do not exist, such as a pair of close complex roots.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
                  std::optional<std::size_t> missing) {
   struct Subinterval {
@@ -174,7 +173,7 @@ double OnInterval::guess_extremum() const {
   const std::vector<double> slope = derivative(in_proportion(c_));
   const std::vector<double> bend = derivative(slope);
   double s = 0.5;
-  // Newton's method, which comes nearer only by halves where two roots are close.
+  // Newton's method, which converges only linearly if two roots are close.
   for (int i = 0; i < 60; ++i) {
     const double value = value_at(slope, s);
     if (value == 0) break;
@@ -301,7 +300,7 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   };
   for (const Number& end : {Number(0), Number(1)})
     if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
-  // First without any effort; where a few cuts do not part the roots, some may be multiple ones.
+  // First with a few cuts; if these do not separate the roots, some may be multiple ones.
   constexpr int few = 12;
   std::vector<Root> roots;
   for (bool is_simple = false; rest->degree() > 0;) {

@@ -21,7 +21,7 @@ class OnInterval {
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
 
   [[nodiscard]] int changes() const { return sign_changes(c_); }
-  /// The sign on the open interval, where the coefficients tell; else 0.
+  /// The sign on the open interval, if the coefficients show it; else 0.
   [[nodiscard]] int only_sign() const;
 
   /// The value at the upper end less that at the lower one.
@@ -43,11 +43,11 @@ class Root {
   /// The only root of p in (lo, hi), a simple one; p is not zero at the ends.
   Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi);
 
-  /// lo <= the root <= hi; equal where the root is that number, else the root is neither.
+  /// lo <= the root <= hi; equal if the root is that number, else the root is neither.
   [[nodiscard]] const Number& lo() const { return lo_; }
   [[nodiscard]] const Number& hi() const { return hi_; }
 
-  /// The sign of another polynomial at the root; makes the interval smaller where it has to.
+  /// The sign of another polynomial at the root; makes the interval smaller if necessary.
   int sign_of(const Polynomial& q);
   /// Makes the interval smaller, to half at least.
   void refine();

@@ -1,4 +1,4 @@
-// The certified filter for many queries of one kind at once: patch.hpp's arithmetic in lanes.
+// The certified filter for many queries of one kind at once: the arithmetic of step_part.hpp in lanes.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace nearmiss::certified {
 
 /// Goes through the queries stage by stage, each time with those that are left side by side in n lanes:
 /// moving planes; F of one sign; then parts of the step, as ContactSearch does, but with fewer means: what is hard
-/// is left undecided. What is computed in a lane depends on its query alone, so n changes no answer.
+/// is left undecided. The results of a lane depend on its query alone, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
@@ -59,7 +59,7 @@ class BatchFilter {
       size_ = size;
     }
     void add(std::size_t row) { add_if(true, row); }
-    /// Without a branch, which could only be guessed.
+    /// Without a branch, which no processor could predict.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -99,7 +99,7 @@ class BatchFilter {
     return points;
   }
 
-  /// Into the nearest cache, line by line.
+  /// Fetches a query into the nearest cache, line by line.
   static void fetch(const Query& query) {
     const auto* const bytes = reinterpret_cast<const char*>(&query);
     for (std::size_t line = 0; line < sizeof(Query); line += 64) __builtin_prefetch(bytes + line);
@@ -112,7 +112,7 @@ class BatchFilter {
       for (std::size_t l = 0; l < n; ++l) fetch(ahead_[rows[i + l]]);
       const PointLanes x = points(rows.pack(i));
       const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
-      // Four sums at a time, for additions wait for each other; finite only where all coordinates are.
+      // Four sums at a time, since additions wait for each other; the total is finite only if all coordinates are.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];

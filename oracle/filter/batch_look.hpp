@@ -1,4 +1,4 @@
-// What a part of the step shows, for many queries at once.
+// The look at a part of the step, for many queries at once.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace nearmiss::certified {
 
-/// Where something is certainly positive or negative.
+/// The lanes in which something is certainly positive, and in which it is certainly negative.
 template <int n>
 struct Signs {
   typename Lanes<n>::Mask positive, negative;
 };
 
-/// Where all numbers certainly have the sign.
+/// The lanes in which all numbers certainly have that sign.
 template <int n, std::size_t count>
 Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n>& error) {
   Signs<n> signs{numbers[0] > error, numbers[0] < -error};
@@ -28,13 +28,13 @@ Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n
   return signs;
 }
 
-/// Where weights certainly have one sign, and where two of them have opposite ones.
+/// The lanes in which all weights certainly have one sign, and in which two of them have opposite signs.
 template <int n>
 struct WeightSigns {
   typename Lanes<n>::Mask agree, opposed;
 };
 
-/// Of the weights, given what tells the signs of one of them.
+/// The same for some weights, given a function for the signs of one weight.
 template <int n, std::size_t count, class SignsOf>
 WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                             const SignsOf& signs_of) {
@@ -49,7 +49,7 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// What was seen in a part of the step, and which parts of it have to be looked at: [lo, left], [left,
+/// The outcome for a part of the step, and which parts of it have to be looked at next: [lo, left], [left,
 /// right] and [right, hi].
 template <int n>
 struct Look {
@@ -58,7 +58,7 @@ struct Look {
   Lanes<n> left, right;
 };
 
-/// Where the sign of F is known at both ends [lo, hi] of a part, and where it differs.
+/// The lanes in which the sign of F is known at both ends of a part, and in which it differs.
 template <int n>
 struct EndSigns {
   typename Lanes<n>::Mask rises, changes, known;

@@ -8,7 +8,7 @@
 namespace nearmiss {
 
 /// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] meet. Closed boxes, and only
-/// comparisons of input coordinates: exact. Where they do not, there is no collision.
+/// comparisons of input coordinates: exact. If they do not meet, there is no collision.
 inline bool boxes_meet(const Query& query) {
   const auto range = [&](int first, int last, int k) {
     double lo = query.x[static_cast<std::size_t>(3 * first + k)];

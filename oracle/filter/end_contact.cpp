@@ -39,7 +39,7 @@ bool touch_at_end(const Query& query, int time) {
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&
              agree(side, orientation(x, 1, 2, 0, k));
     }
-    // Edges that are not parallel meet where each has its ends on both sides of the other's line.
+    // Edges that are not parallel meet if each has its ends on both sides of the other's line.
     const int of_0 = orientation(x, 2, 3, 0, k);
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);

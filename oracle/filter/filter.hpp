@@ -10,12 +10,12 @@
 
 namespace nearmiss {
 
-/// What decided a query, or that nothing did.
+/// The stage that decided a query.
 enum class FilterStage : std::uint8_t {
   boxes,        ///< no: the swept boxes do not meet
   planes,       ///< no: a moving plane across an axis or a diagonal separates the primitives
   one_sign,     ///< no: F keeps one sign
-  weights,      ///< no: wherever F may vanish, two weights have opposite signs
+  weights,      ///< no: two weights have opposite signs at every time at which F may vanish
   sign_change,  ///< yes: F changes its sign where all weights are inside
   at_an_end,    ///< yes: the primitives touch at t = 0 or t = 1, by exact predicates
   undecided,    ///< exact arithmetic must decide
@@ -32,8 +32,8 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
 }
 
-/// Decides a query, but for its boxes, in double arithmetic with certified bounds, or leaves it undecided, as
-/// it does where a coordinate is not finite. Rounds to nearest.
+/// Decides a query, without the box test, in double arithmetic with certified bounds, or leaves it undecided. A query
+/// with a coordinate that is not finite is undecided.
 FilterStage filter(const Query& query);
 
 /// Instruction sets of x86-64 processors by which many queries can be decided at once.
@@ -48,8 +48,8 @@ Instructions widest_instructions();
 void filter(std::span<const Query> queries, std::span<FilterStage> stages,
             Instructions instructions = widest_instructions());
 
-/// The same with all bounds of rounding errors so many times as large as they are, caution >= 1, and by
-/// double arithmetic alone: what it decides is not near its bounds.
+/// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic alone: the queries that it
+/// decides are not near their bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

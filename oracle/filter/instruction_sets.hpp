@@ -8,12 +8,11 @@
 
 namespace nearmiss::certified {
 
-/// So many queries are looked at together: what is kept of them stays in the nearest cache.
+/// Number of queries per batch: the intermediate results of a batch stay in the nearest cache.
 inline constexpr std::size_t batch_size = 128;
 
-/// Decides queries, at most batch_size, with all bounds of rounding errors so many times as large as they
-/// are, or leaves them `undecided`; the same stages by all. Meanwhile `count` queries at `ahead` are fetched
-/// from memory.
+/// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them `undecided`.
+/// All instruction sets give the same stages. Meanwhile `count` queries at `ahead` are fetched from memory.
 using FilterBatch = void(const Query* queries, std::size_t count, double caution, FilterStage* stages,
                          const Query* ahead);
 

@@ -1,4 +1,4 @@
-// Many doubles side by side, for instructions that take them at once.
+// Many doubles side by side, for vector instructions.
 #pragma once
 
 #include <array>
@@ -13,8 +13,7 @@
 namespace nearmiss::certified {
 
 /// n doubles; every operation does in each lane what it does to a double. The compiler's own vectors: with n
-/// = 2, 4, 8 they are SSE2, AVX and AVX-512 registers where the function that uses them is compiled for
-/// these.
+/// = 2, 4, 8 they are SSE2, AVX and AVX-512 registers if the function that uses them is compiled for these.
 template <int n>
 struct Lanes {
   using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
@@ -27,7 +26,7 @@ struct Lanes {
     friend Mask operator&(const Mask& a, const Mask& b) { return {a.bits & b.bits}; }
     friend Mask operator|(const Mask& a, const Mask& b) { return {a.bits | b.bits}; }
     friend Mask operator!(const Mask& a) { return {~a.bits}; }
-    /// The number where the mask is true, else 0.
+    /// The number in lanes in which the mask is true, else 0.
     [[nodiscard]] IntegerLanes as(std::int64_t number) const { return bits & number; }
   };
 
@@ -59,7 +58,7 @@ struct Lanes {
   friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
   friend Mask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
 
-  /// a where the mask is true, else b.
+  /// a in lanes in which the mask is true, else b.
   friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {
     return Lanes(mask.bits ? a.v : b.v);
   }
@@ -74,7 +73,7 @@ struct Lanes {
   }
   friend Lanes approximate(const Lanes& a) { return a; }
 
-  /// Of n rows of n numbers makes n columns.
+  /// Turns n rows of n numbers into columns.
   static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
 
  private:

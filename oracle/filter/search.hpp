@@ -12,22 +12,22 @@
 
 namespace nearmiss::certified {
 
-/// What a part of a part of the step is widened by on both sides.
+/// A part of a part of the step is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
 struct TimeInterval {
   double lo, hi;
 };
 
-/// Goes through a patch: intervals are dropped where F has one sign or two weights are opposed, and split
-/// where it helps, until all are dropped, one holds a collision, or one cannot be told. What cannot be told
-/// is looked at again as a patch of its own, whose vectors, and so their errors, are smaller.
+/// Goes through a part of the step. An interval is dropped if F has one sign or two weights are opposed on it, and
+/// split if that helps, until all are dropped, one holds a collision, or one is unclear. An unclear interval is
+/// looked at again as a part of its own, whose vectors, and so their errors, are smaller.
 template <class Real>
 class ContactSearch {
  public:
-  ContactSearch(Kind kind, const StepPart<Real>& whole, const StepPart<Real>& patch,
+  ContactSearch(Kind kind, const StepPart<Real>& whole, const StepPart<Real>& part,
                 const Bernstein<Real, 4>& F, int depth)
-      : kind_(kind), whole_(whole), patch_(patch), F_(F), depth_(depth) {}
+      : kind_(kind), whole_(whole), part_(part), F_(F), depth_(depth) {}
 
   /// weights (no collision in this part), sign_change (one), or undecided.
   FilterStage run() {
@@ -42,7 +42,7 @@ class ContactSearch {
   }
 
  private:
-  // Each of these answers `weights` where nothing is against going on.
+  // Each of these returns `weights` if the search can go on.
 
   FilterStage look(TimeInterval interval) {  // by value: its place is taken by others
     const auto [lo, hi] = interval;
@@ -67,7 +67,7 @@ class ContactSearch {
     if (left_known && right_known) {
       split = turn(interval, f);
     } else {
-      // Where F is hardly above its error, no smaller interval tells much more.
+      // If F is hardly above its error, a smaller interval shows little more.
       if (std::all_of(f.begin(), f.end(), [&](double x) { return std::abs(x) <= 2 * clear * F_.error; }))
         return zoom(interval);
       if (right_known) split = lo + (hi - lo) * beyond_error(f);
@@ -89,8 +89,8 @@ class ContactSearch {
     return part < 0.25 ? part : 0.5;
   }
 
-  /// Where F has an extremum in an interval, about, else the middle, given its Bernstein coefficients. Where
-  /// it is at an end as far as double tells, a place near that end.
+  /// About where F has an extremum in an interval, else the middle, given its Bernstein coefficients. If the extremum
+  /// is at an end to double precision, a place near that end.
   [[nodiscard]] static double turn(const TimeInterval& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -141,8 +141,8 @@ class ContactSearch {
 
   /// The weights in the component in which the normal is largest near a time.
   const Weights<Real>& weights_near(double t) {
-    const std::size_t k = largest_component(kind_, patch_, t);
-    if (!weights_ || component_ != k) weights_.emplace(kind_, patch_, k);
+    const std::size_t k = largest_component(kind_, part_, t);
+    if (!weights_ || component_ != k) weights_.emplace(kind_, part_, k);
     component_ = k;
     return *weights_;
   }
@@ -154,16 +154,16 @@ class ContactSearch {
     return FilterStage::weights;
   }
 
-  /// The interval as a patch of its own, if that is much smaller than this one.
+  /// The interval as a part of its own, if that is much smaller than this one.
   FilterStage zoom(const TimeInterval& interval) const {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
     if (depth_ == deepest || interval.hi - interval.lo > 0.5) return FilterStage::undecided;
     // Rounded outward by more than the four roundings of numbers up to 1: what is looked at beyond is in the
     // step.
-    const double length = patch_.end - patch_.begin;
-    const double begin = std::max(patch_.begin, patch_.begin + interval.lo * length - zoom_rounding);
-    const double end = std::min(patch_.end, patch_.begin + interval.hi * length + zoom_rounding);
+    const double length = part_.end - part_.begin;
+    const double begin = std::max(part_.begin, part_.begin + interval.lo * length - zoom_rounding);
+    const double end = std::min(part_.end, part_.begin + interval.hi * length + zoom_rounding);
     if (length <= narrowest) return FilterStage::undecided;
     const StepPart<Real> part = part_of(whole_, begin, end);
     const auto F = coplanarity(part.a, part.b, part.c);
@@ -176,11 +176,11 @@ class ContactSearch {
     return true;
   }
 
-  static constexpr double clear = 8;  ///< so many times its error is clear of it
+  static constexpr double clear = 8;  ///< F is clear of its error at this many times the error
 
   Kind kind_;
   const StepPart<Real>& whole_;
-  const StepPart<Real>& patch_;
+  const StepPart<Real>& part_;
   const Bernstein<Real, 4>& F_;
   int depth_;
   std::optional<Weights<Real>> weights_;

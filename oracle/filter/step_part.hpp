@@ -10,11 +10,11 @@
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/arithmetic/vectors.hpp"
 
-// A query is decided in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
+// The filter decides a query in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
 //   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
 //   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
-// Where F = 0, the primitives meet only if, in every component, these agree in sign or are zero:
+// At F = 0 the primitives meet only if, in every component, these agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
 //   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
 // For a meeting point makes each weight a number in [0, 1], and each W that number times N, N = 0 included.
@@ -66,7 +66,7 @@ inline constexpr double part_rounding = 4;        ///< of U V: a vector on a par
 inline constexpr double underflow_products = 32;  ///< of H
 inline constexpr double headroom = 4;
 
-/// What is added for underflow.
+/// The term of a bound for underflow.
 template <class Real>
 inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
 
@@ -235,7 +235,7 @@ struct Weights {
     }
   }
 
-  /// 1 where all certainly have one sign on [lo, hi], -1 where two certainly have opposite ones, else 0.
+  /// 1 if all certainly have one sign on [lo, hi], -1 if two certainly have opposite signs, else 0.
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }

@@ -49,8 +49,8 @@ const std::vector<RayDirection>& directions() {
 
 // --- triangles --------------------------------------------------------------------------------------------
 
-/// How often a ray crosses something; nothing where that cannot be told because it meets an edge or a plane
-/// along it.
+/// How often a ray crosses something; nothing if that is undefined, because the ray meets an edge or runs along a
+/// plane.
 using Crossings = std::optional<int>;
 
 /// Against a triangle on which the origin is not.
@@ -58,7 +58,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
                          const RayDirection& d) {
   const int volume = sign(determinant(a, b, c));
   if (volume == 0) {
-    // The plane holds the origin, so a ray that leaves the plane meets no more of it.
+    // The plane holds the origin, so a ray that leaves the plane does not meet it again.
     const IntegerVector n = CGAL::cross_product(b - a, c - a);
     if (n == CGAL::NULL_VECTOR) {
       // A segment or a point. It is met only by rays in the plane through the origin.
@@ -150,7 +150,7 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
   return reaches_zero(between);
 }
 
-/// Where the origin is relative to a patch. The barycentric coordinates λ of a point in the tetrahedron of
+/// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron of
 /// the corners fulfil λ00 λ11 = λ10 λ01 on the patch alone; the faces beside the diagonal p00 p11 are on the
 /// side where the left is larger.
 struct Position {

@@ -5,12 +5,12 @@
 
 namespace nearmiss {
 
-/// What a ray from the origin says of the image of the domain's boundary.
+/// The crossings of a ray from the origin with the image of the domain's boundary.
 struct RootParity {
   bool on_boundary = false;  ///< the origin is on the image of the boundary: a collision
   bool odd = false;          ///< else: an odd number of roots, counted with multiplicity
 
-  /// What a root-parity CCD answers: it takes an even number of roots for none.
+  /// The answer of a root-parity CCD, which takes an even number of roots for no collision.
   [[nodiscard]] bool collision() const { return on_boundary || odd; }
 };
 

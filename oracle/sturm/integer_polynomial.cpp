@@ -144,7 +144,7 @@ int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - sta
 
 Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
 
-/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes where these are far apart, so
+/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes if these are far apart, so
 /// that roots close to 0 are reached soon; else in the middle.
 Dyadic between(const Dyadic& a, const Dyadic& b) {
   const int high = magnitude(b);
@@ -168,7 +168,7 @@ struct SturmSequence {
   }
 };
 
-/// Adds the roots of f in (lo, hi), where it is not zero at the ends.
+/// Adds the roots of f in (lo, hi); f is not zero at the ends.
 void isolate(const SturmSequence& sequence, const Dyadic& lo, const Dyadic& hi,
              std::vector<SturmRoot>& roots) {
   const IntegerPolynomial& f = sequence.f;

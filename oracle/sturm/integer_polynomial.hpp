@@ -52,7 +52,7 @@ class SturmRoot {
   SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
       : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {}
 
-  /// The sign of g at this root: by Tarski's query where it is not dyadic.
+  /// The sign of g at this root: by Tarski's query if it is not dyadic.
   [[nodiscard]] int sign(const IntegerPolynomial& g) const;
   /// Whether it is t = 0 or t = 1.
   [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }

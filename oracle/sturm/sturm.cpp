@@ -84,7 +84,7 @@ struct SegmentMembership {
   }
 };
 
-/// The primitives of a query. Where F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
+/// The primitives of a query. If F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
 /// at least zero: x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on
 /// N; x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and (x2 - x0) × (x1 - x0) = β N
 /// with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials: each is made when first asked for.

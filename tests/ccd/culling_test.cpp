@@ -40,7 +40,7 @@ Tolerances<double> tolerances() {
   return tol;
 }
 
-/// What |F| has to exceed beside a root: μ + 2E + m.
+/// The value that |F| has to exceed beside a root: μ + 2E + m.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 /// The rounding errors of a weight and of how far it may move.
 constexpr double rounding = (1160 + 4400) * eps;
@@ -70,14 +70,14 @@ TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
 // At t ± 2^-26 a line has |F| = slope 2^-26.
 TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   const double slope = threshold * 0x1p26;
-  EXPECT_FALSE(culled<VeCulling::fixed>(slope * (1 - 0x1p-30), -9));
-  EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-30), -9));
+  EXPECT_FALSE(culled<VeCulling::fixed>(slope * (1 - 0x1p-20), -9));
+  EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9));
 }
 
 // h is at most 1, and four thresholds are less than the slope times that.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
-  EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-30), -9));
+  EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));
 }
 
 // B = (E + W)(1 + 64 ε): a triangle whose edges are within 1, and a relative velocity of 2.

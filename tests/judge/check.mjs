@@ -4,7 +4,7 @@ import path from 'node:path';
 import { source } from './copy.mjs';
 import { applied, readDefects } from './list.mjs';
 
-/** What is wrong with a defect, or nothing. */
+/** The fault of a defect, or nothing. */
 function complaint(defect) {
   const text = readFileSync(path.join(source, defect.file), 'utf8');
   try {

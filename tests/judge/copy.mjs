@@ -1,4 +1,4 @@
-// A copy of the tree whose oracle can be altered: all else are links to the source.
+// A copy of the tree whose oracle can be altered; everything else is a link to the source.
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -16,7 +16,7 @@ export function filesBelow(root, folder) {
     });
 }
 
-/** Runs a command at low priority: its exit code (null where it was killed) and all that it printed. */
+/** Runs a command at low priority: its exit code (null if it was killed) and all that it printed. */
 export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
   return new Promise((resolve) => {
     const child = spawn('nice', ['-n', '2', command, ...args], { cwd, env: { ...process.env, ...env } });
@@ -37,7 +37,7 @@ export class Copy {
     this.build = path.join(folder, 'build/release');
   }
 
-  /** Makes the copy, or makes its oracle that of the source again; configures it where that has not been done. */
+  /** Makes the copy, or restores its oracle; configures the build once. */
   async prepare() {
     mkdirSync(path.join(this.folder, 'oracle'), { recursive: true });
     for (const name of readdirSync(source)) {
@@ -67,7 +67,7 @@ export class Copy {
     }
   }
 
-  /** Builds a target; what the compiler says where that fails, else nothing. */
+  /** Builds a target; returns the compiler's output if that fails, else nothing. */
   async make(target) {
     // A defect is compiled once, and precompiled headers take a cache longer than the compiler takes.
     const env = this.altered ? { CCACHE_DISABLE: '1' } : { CCACHE_BASEDIR: this.folder, CCACHE_NOHASHDIR: '1' };

@@ -2,7 +2,7 @@
 //
 // All families in turn, a block of queries of each, until two parts of the oracle disagree, one dies or takes
 // too long, or QUERIES are over. One line of output, "found WHAT FAMILY:SEED:INDEX QUERIES" or
-// "nothing QUERIES"; exit code 1 where something was found.
+// "nothing QUERIES"; exit code 1 if something was found.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -23,7 +23,7 @@
 namespace nearmiss {
 namespace {
 
-/// Where the hunt is: for the message of a signal.
+/// The position of the hunt, for the message of a signal.
 struct HuntPosition {
   const char* family = "";
   std::uint64_t seed = 0;

@@ -1,9 +1,9 @@
 // The list of defects, defects/*.txt: reads it, and applies a defect to the text of a file.
 //
-//   NAME in FILE (2 of 3): what is wrong then
+//   NAME in FILE (2 of 3): the error that the edit makes
 //   - the text to find; blanks and line ends match any others; once in the file, or the second of three places
 //   + the text instead
-//   = for what nothing finds: why it changes no answer, or what would find it
+//   = for a defect that nothing finds: why it changes no answer, or what would find it
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';

@@ -18,7 +18,7 @@ namespace {
 
 using Stages = std::vector<FilterStage>;
 
-/// What the filters say of some queries.
+/// The filters' answers to some queries.
 struct Filtered {
   Stages batch;     ///< in lanes alone
   Stages cautious;  ///< the same with bounds eight times as large

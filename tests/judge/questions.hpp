@@ -1,4 +1,4 @@
-// Everything that the oracle says of a query, asked so that its parts have to agree.
+// Questions about a query whose answers by the oracle's parts have to agree.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ std::optional<Contradiction> first_disagreement(std::span<const Query> queries, 
 /// does not fit, or "".
 std::string distance_disagreement(const Query& query, bool collision);
 
-/// Whether the earliest time fits: at the time there is a collision, before it none, where doubles have the
-/// motion until then exactly. What does not fit, or "".
+/// Whether the earliest time fits: at the time there is a collision, before it none, if doubles represent the motion
+/// until then exactly. The contradiction, or "".
 std::string time_disagreement(const Query& query, bool collision);
 
 /// Whether static predicates say the same of the query's primitives in translation as exact arithmetic; what

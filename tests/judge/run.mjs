@@ -1,8 +1,8 @@
 // Hunts every defect of the list. Usage: run.mjs [--jobs N] [--only REGEX] [--every N] [--again] [--queries N] [--steps hunter,...]
 //
-// Results are kept after every defect, so that the same command goes on where it stopped; --again asks once more about
-// what nothing found. build/judge/results.json and table.txt say what found each, and how soon. Exit code 1: something
-// was found that the list explains, or not found without a reason.
+// Results are saved after every defect, so that the same command resumes where it stopped; --again repeats the hunt for
+// defects that nothing found. build/judge/results.json and table.txt say what found each defect, and how soon. Exit code
+// 1: a defect was found although the list says why it cannot be, or was not found and the list gives no reason.
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -27,7 +27,7 @@ const store = path.join(folder, 'results.json');
 const defects = readDefects();
 const wanted = steps.filter(({ name }) => options.steps.split(',').includes(name));
 
-/** What a result depends on: the edit and the oracle. */
+/** The state that a result is valid for: the edit and the oracle. */
 const oracle = createHash('sha256');
 for (const name of filesBelow(source, 'oracle')) oracle.update(readFileSync(path.join(source, name)));
 const sources = oracle.digest('hex');

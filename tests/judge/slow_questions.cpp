@@ -23,14 +23,14 @@ double below(double x) { return std::nextafter(x, 0.0); }
 
 using Rational = boost::multiprecision::mpq_rational;
 
-/// A rational as a double, where it is one.
+/// A rational as a double, if it is one.
 std::optional<double> as_double(const Rational& x) {
   const auto d = x.convert_to<double>();
   if (std::isfinite(d) && Rational(d) == x) return d;
   return std::nullopt;
 }
 
-/// The motion until t, where doubles have it.
+/// The motion until t, if doubles can represent it.
 std::optional<Query> until(const Query& query, double t) {
   Query cut = query;
   for (std::size_t k = 0; k < 12; ++k) {

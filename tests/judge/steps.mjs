@@ -1,4 +1,4 @@
-// How a defect is looked for: in this order, until one of these finds it.
+// The steps that look for a defect, in order, until one finds it.
 import path from 'node:path';
 import { run } from './copy.mjs';
 

@@ -9,11 +9,11 @@ function columns(rows) {
   return rows.map((row) => row.map((cell, i) => String(cell).padEnd(widths[i])).join('  ').trimEnd()).join('\n');
 }
 
-/** Whether nothing found a defect, of all steps or of those asked so far. */
+/** Whether no step found a defect: of all steps, or of those that were asked so far. */
 const isMissed = (result) => result?.by === 'nothing' && steps.every(({ name }) => result.asked.includes(name));
 const isOpen = (result) => result?.by === 'nothing' && !isMissed(result);
 
-/** What is not as the list says: found although it has a reason not to be, not found without one, not compiled. */
+/** Defects that contradict the list: found in spite of a reason, not found without one, or not compiled. */
 export function unexpected(defects, results) {
   return defects.filter(({ name, reason }) => {
     const result = results[name];

@@ -98,7 +98,7 @@ TEST(ComesWithin, AgreesWithEnclosures) {
     const Query query =
         i < 200 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
     SCOPED_TRACE(testing::repeat(i, query));
-    // As near as this only where they meet: the coordinates have few bits.
+    // Coordinates of few bits come as near as this only if they meet.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
     if (collides(query)) continue;

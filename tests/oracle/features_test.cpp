@@ -1,4 +1,4 @@
-// What the first contact is like: by hand, and beside the second answer.
+// Features of the first contact, by hand and against Sturm sequences.
 #include "oracle/features.hpp"
 
 #include <gtest/gtest.h>

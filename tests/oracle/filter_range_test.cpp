@@ -26,7 +26,7 @@ struct Named {
   Query query;
 };
 
-/// What a filter says of a query.
+/// A filter's answer to a query.
 struct Said {
   std::string by;
   FilterStage stage;
@@ -89,7 +89,7 @@ Query two_far_points(double size) {
                     {{0, 0, 0}, {0, -1, 2}, {size, size, 0}, {size, 0, 0}});
 }
 
-/// Contact in the plane x = 0, in which all stays. Where `size` is 2^510 the middle coefficients of the weights
+/// Contact in the plane x = 0, in which all stays. If `size` is 2^510, the middle coefficients of the weights
 /// overflow, and F's become 0 times infinity.
 Query planar_edges(double size) {
   return make_query(Kind::edge_edge, {{0, 0, size}, {0, size, 0}, {0, size, -3 * size}, {0, 3 * size, 0}},
@@ -123,7 +123,7 @@ Query thin_edges(double size) {
                     {{0, 0.5, 1.5 * size}, {size / 8, 0x1.8p-6, 0}, {0, 0, size / 32}, {1.5 * size, 0.5, 0}});
 }
 
-/// All that is above, where sums of products overflow.
+/// All queries above whose sums of products overflow.
 std::vector<Named> overflowing() {
   return {{"crossing edges", scaled(crossing_edges(), 0x1p340)},
           {"two far points", two_far_points(0x1p511)},

@@ -99,7 +99,7 @@ TEST(DoubleWord, OperationsAreWithinTheirBounds) {
 // --- F and the weights ------------------------------------------------------------------------------------
 
 using CGAL::Mpzf;  // exact sums and products of doubles, much quicker than rational numbers
-using ExactVector = std::array<Mpzf, 3>;
+using MpzfVector = std::array<Mpzf, 3>;
 
 Mpzf dyadic(double x) { return x; }
 Mpzf dyadic(const DoubleWord& x) { return Mpzf(x.hi) + Mpzf(x.lo); }
@@ -113,9 +113,9 @@ double ratio(const Mpzf& x, double y) {
 }
 
 /// x_i - x_j at a time.
-ExactVector exact_difference(const Query& query, int i, int j, double time) {
+MpzfVector exact_difference(const Query& query, int i, int j, double time) {
   const Mpzf t(time);
-  ExactVector v;
+  MpzfVector v;
   for (int k = 0; k < 3; ++k) {
     const Mpzf start = Mpzf(query.start(i)[k]) - Mpzf(query.start(j)[k]);
     const Mpzf end = Mpzf(query.end(i)[k]) - Mpzf(query.end(j)[k]);
@@ -124,13 +124,13 @@ ExactVector exact_difference(const Query& query, int i, int j, double time) {
   return v;
 }
 
-ExactVector cross(const ExactVector& v, const ExactVector& w) {
+MpzfVector cross(const MpzfVector& v, const MpzfVector& w) {
   return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
 }
 
-Mpzf dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
+Mpzf dot(const MpzfVector& v, const MpzfVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 
-/// The value of the polar form at so many times hi, else lo.
+/// The value of the polar form at `times_hi` times hi, and lo otherwise.
 template <std::size_t n>
 Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t times_hi) {
   for (std::size_t level = 0; level < n - 1; ++level) {

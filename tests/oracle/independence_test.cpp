@@ -37,7 +37,7 @@ std::vector<fs::path> code(const std::string& folder) {
   return files;
 }
 
-/// What a header includes, itself and all that these include.
+/// Collects a header and all headers that it includes, directly or not.
 void follow(const std::string& header, std::set<std::string>& seen) {
   if (!seen.insert(header).second) return;
   for (const std::string& each : includes(source / header)) follow(each, seen);

@@ -265,7 +265,7 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   }
 }
 
-// Of vectors: the exact lengths are compared in the tests above; here the numbers of roundings alone.
+// The tests above compare lengths of vectors with exact ones; this one checks the numbers of roundings alone.
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);

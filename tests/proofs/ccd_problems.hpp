@@ -1,4 +1,4 @@
-// What ccd/ computes, as problems: its templates run with recorded numbers.
+// The computations of ccd/ as problems: its templates run with recorded numbers.
 #pragma once
 
 #include "ccd/query.hpp"

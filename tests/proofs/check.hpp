@@ -10,7 +10,7 @@
 
 namespace nearmiss::proofs {
 
-/// What is wrong with a claim, for people; nothing if all of this holds: Gappa proves the proven error in every
+/// The faults of a claim, in words; none if all of this holds: Gappa proves the proven error in every
 /// precision, and in double with underflow; no result overflows; seen <= proven <= claimed; the witness has exactly
 /// the error that is recorded with it.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
@@ -19,7 +19,7 @@ std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, P
 std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
-/// What is wrong with a claim about oracle/ likewise: seen <= proven <= claimed, and what the witness shows.
+/// The faults of a claim about oracle/ likewise: seen <= proven <= claimed, and what the witness shows.
 std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
 
 /// A row of the table: what is claimed, proven and seen of a constant, in its unit.

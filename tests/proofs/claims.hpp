@@ -9,7 +9,7 @@
 
 namespace nearmiss::proofs {
 
-/// One bound that the code relies on, or that the paper has.
+/// One bound that the code or the paper relies on.
 struct CcdClaim {
   std::string_view name;      ///< unique
   std::string_view constant;  ///< identifier and file
@@ -25,7 +25,7 @@ struct CcdClaim {
   /// The frame has B in [2^-100, 2^100], or B = 0, so that products, which are of a degree of at most 4 in B,
   /// underflow by at most 2^-1075 (half the smallest double), and by 2^(400 - 1075) where B is scaled to 1.
   static constexpr int underflow_of_vectors = -675;
-  /// v·v likewise, where ‖v‖∞ is scaled to 1 and was above 2^-400 B. Below that any time will do: the squared
+  /// The same for v·v, if ‖v‖∞ is scaled to 1 and was above 2^-400 B. Below that any time will do: the squared
   /// distance changes by less than 2^-390 B².
   static constexpr int underflow_of_time = -1075 + 1000;
 };

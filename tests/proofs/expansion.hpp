@@ -1,4 +1,4 @@
-// What an expression computes, multiplied out: products of inputs, and how often each was rounded.
+// An expression multiplied out: products of inputs, and how often each was rounded.
 #pragma once
 
 #include <functional>
@@ -41,11 +41,11 @@ std::string complement(const std::string& t);
 inline const std::string steepest = "steepest";
 
 /// The expansion of an expression made of sums, differences, products, and quotients by constants; throws
-/// std::logic_error where there is another operation.
+/// std::logic_error for any other operation.
 ///
 /// Every operation adds a rounding, but for adding 0 and for products with powers of two. Products and quotients add
-/// a term for underflow, but for products with 1 and powers of two above it. Sums do not underflow: they are exact
-/// where their result is below 2^-1022. The same δ may be in several terms, and in one more than once.
+/// a term for underflow, but for products with 1 and powers of two above it. Sums do not underflow: they are exact if
+/// their result is below 2^-1022. The same δ may be in several terms, and in one more than once.
 Expansion expand(const Traced& expression, const Roundings& arithmetic = in_double);
 /// The same of one result of a program.
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);

@@ -17,7 +17,7 @@ inline std::string script_text(double x) { return fmt::format("{:a}", x); }
 /// The factors of one script, each with a variable δ of its own.
 class Factors {
  public:
-  /// (1 + δ) ... with so many variables, each at most `size` in magnitude.
+  /// (1 + δ) ... with this many variables, each at most `size` in magnitude.
   std::string product(int count, double size) {
     std::string text = "1";
     for (int i = 0; i < count; ++i) {

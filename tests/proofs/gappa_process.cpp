@@ -39,7 +39,7 @@ class ScriptFile {
   std::string path_ = std::filesystem::temp_directory_path() / "gappa-XXXXXX";
 };
 
-/// What a command prints, and its exit status.
+/// A command's output and its exit status.
 std::pair<std::string, int> output_of(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("gappa does not run");
@@ -61,7 +61,7 @@ bool has_grave_warning(const std::string& output) {
   return false;
 }
 
-/// Of Gappa's own interval bounds, in bits.
+/// The precision of Gappa's own interval bounds, in bits.
 constexpr auto fine = "-Eprecision=400";
 
 }  // namespace

@@ -5,13 +5,13 @@
 
 namespace nearmiss::proofs {
 
-/// What Gappa prints for a script, and whether it proves all of its goals.
+/// Gappa's output for a script, and whether it proves all of its goals.
 struct GappaAnswer {
   std::string text;
   bool proven;
 };
 
-/// Throws std::runtime_error where Gappa does not run, does not understand the script, or warns: of a hint that it
+/// Throws std::runtime_error if Gappa does not run, does not understand the script, or warns: of a hint that it
 /// takes on trust, for instance.
 GappaAnswer run_gappa(const std::string& script, const std::string& options = "");
 

@@ -10,7 +10,7 @@
 
 namespace nearmiss::proofs {
 
-/// What Gappa found: lowest and highest value, rounded outwards to double.
+/// A range that Gappa found: lowest and highest value, rounded outwards to double.
 struct ProvenRange {
   double lowest, highest;
   [[nodiscard]] double magnitude() const { return std::max(-lowest, highest); }

@@ -33,7 +33,7 @@ struct WordNumber {
   friend WordNumber abs(const WordNumber& a) { return a.x.hi < 0 ? -a : a; }
 };
 
-/// a / b; 0 where b is.
+/// a / b; 0 if b is 0.
 inline double ratio(const Rational& a, const Rational& b) {
   return b == 0 ? 0 : Rational(a / b).convert_to<double>();
 }

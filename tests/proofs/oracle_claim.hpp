@@ -1,4 +1,4 @@
-// A rounding constant, what proves it, and how near to it an error was seen.
+// A rounding constant, its proof, and the largest error that was seen.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,7 @@ namespace nearmiss::proofs {
 
 /// One row of the table of bounds. Numbers are in units of `unit`.
 struct OracleClaim {
-  std::string
-      name;  ///< the constant's, in `file`; behind a comma, what it is claimed of where there are several
+  std::string name;  ///< the constant's, in `file`; after a comma, the quantity, if there are several
   std::string file;
   std::string unit;
   double claimed;
@@ -29,7 +28,7 @@ struct OracleClaim {
   [[nodiscard]] std::string constant() const { return name.substr(0, name.find(',')); }
 };
 
-/// The constants of oracle/: of each, half is not enough.
+/// The constants of oracle/. Half of any of them is not enough.
 std::vector<OracleClaim> oracle_claims();
 
 }  // namespace nearmiss::proofs

@@ -43,7 +43,7 @@ int most_roundings(Results results) {
   return most;
 }
 
-/// What a factor must be that makes up for so many roundings of a bound.
+/// The factor that makes up for this many roundings of a bound.
 double proven_growth(int roundings) {
   Factors factors;
   return proven_upper_end(factors.script(quotient("1", factors.product(roundings, u)) + " in ?"));

@@ -1,4 +1,4 @@
-// What is proven of each rounding constant of oracle/: the least that is enough, in its unit.
+// The least value of each rounding constant of oracle/ that is proven to be enough, in its unit.
 #pragma once
 
 #include "tests/proofs/oracle_results.hpp"
@@ -7,13 +7,13 @@ namespace nearmiss::proofs {
 
 using Results = std::vector<Bounded> (*)(Trace&, Leaves);
 
-/// What must stand before U w or U M: the roundings of all results over those of their bound, where leaves are
+/// The factor that U w or U M needs: the roundings of all results over those of their bound, where leaves are
 /// exact.
 template <class Real>
 double proven_rounding(Results results);
-/// What must stand before u w or u M where so many leaves are rounded once.
+/// The factor that u w or u M needs if this many leaves are rounded once.
 double proven_leaves(int leaves, Results results);
-/// What must stand before l and L: one, over what roundings may take off these.
+/// The factor that l and L need: one, over what roundings may take off these.
 double proven_leaf_growth();
 /// How often H must be added.
 double proven_underflow_products();
@@ -21,8 +21,9 @@ double proven_underflow_products();
 /// small by.
 double proven_headroom(Results results, int degree);
 
-/// Of `error_near`: what makes up for its roundings, how many errors a slope has, the rounding of an end of the
-/// interval in units of 2^-54, and the lower halves of two double words over the larger upper half in units of 2^-52.
+/// For `error_near`: the factor that makes up for its roundings, how many errors a slope has, the rounding of an end
+/// of the interval in units of 2^-54, and the lower halves of two double words over the larger upper half in units of
+/// 2^-52.
 double proven_spread_growth();
 double proven_slope_errors();
 double proven_end_rounding();

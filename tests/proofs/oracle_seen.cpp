@@ -27,7 +27,7 @@ double seen_leaves(const Inputs& inputs) {
   return ratio(abs(exact - rounded), rounded * Rational(u));
 }
 
-/// What their errors add to a product of leaves, by what `cross_bound` has for it.
+/// The errors' contribution to a product of leaves, over the term that `cross_bound` has for it.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));

@@ -1,4 +1,4 @@
-// The errors that inputs show, exactly: what the rounding constants of oracle/ are compared with.
+// The errors that inputs show, exactly, for comparison with the rounding constants of oracle/.
 #pragma once
 
 #include "tests/proofs/numbers.hpp"
@@ -8,7 +8,7 @@ namespace nearmiss::proofs {
 
 /// The relative error of a product of leaves that are 1, each the rounded value of what an input says, in units of u.
 double seen_leaves(const Inputs& inputs);
-/// What their errors add to a product of leaves, by what `cross_bound` has for it.
+/// The errors' contribution to a product of leaves, over the term that `cross_bound` has for it.
 double seen_growth(const Inputs& inputs);
 /// The rounding of t - h, over 2^-54.
 double seen_end(const Inputs& inputs);

@@ -1,4 +1,4 @@
-// That a bound of the oracle's filter dominates the errors of what it bounds.
+// The theorem that a bound of the oracle's filter dominates the errors of the value that it bounds.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ struct Bounded {
   std::vector<std::string> times;
 };
 
-/// What the error of a value is made of, by monomials in magnitudes and errors of its leaves.
+/// The parts of the error of a value, by monomials in magnitudes and errors of its leaves.
 struct Needs {
   BoundTerms values;            ///< |terms| in exact arithmetic: roundings multiply them
   BoundTerms leaves;            ///< what given errors of leaves add, in exact arithmetic

@@ -45,7 +45,7 @@ TEST(ProofsOfTheFilter, PartsOfTheStep) {
   expect_proven<TracedWord>(part_results<TracedWord>(trace, Leaves::given_errors));
 }
 
-/// Whether all scripts of all results are proven where each bound is so many times what it is.
+/// Whether all scripts of all results are proven with each bound multiplied by this.
 bool is_proven_with(const std::vector<Bounded>& all, double factor) {
   for (Bounded each : all) {
     each.error = each.error * factor;

@@ -5,7 +5,7 @@
 
 namespace nearmiss::proofs {
 
-/// The best inputs that a hill climb of so many steps finds: it begins anew now and then, and changes one input at
+/// The best inputs that a hill climb of `steps` steps finds: it restarts now and then, and changes one input at
 /// a time, by little or altogether.
 Witness find_witness(const OracleClaim& claim, Random& random, int steps);
 

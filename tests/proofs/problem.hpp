@@ -1,4 +1,4 @@
-// What is to be proved of an expression.
+// A bound to be proved about an expression.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ struct Problem {
   Traced time;
   std::vector<BoundedMotion> motions;     ///< of coordinates that are inputs, or with x and v as inputs
   std::vector<BoundedExpression> inputs;  ///< exact numbers
-  /// Of expressions of these: what interval arithmetic does not see.
+  /// Facts about expressions of these that interval arithmetic does not see.
   std::vector<BoundedExpression> facts;
   Traced left, right;  ///< the error of left - right, where the subtraction itself is not rounded
   int degree = 0;      ///< in units of B^degree

@@ -1,4 +1,4 @@
-// Expressions as a list of instructions, in which equal ones are one.
+// Expressions as a list of instructions without duplicates.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace nearmiss::proofs {
 /// One operation on results of earlier instructions.
 struct Instruction {
   Operation operation;
-  int left = -1, right = -1;  ///< indices of its operands; -1 where there is none
+  int left = -1, right = -1;  ///< indices of its operands; -1 if there is none
   double constant = 0;        ///< value of a constant
   std::string name{};         ///< of an input
 };

@@ -69,7 +69,7 @@ std::map<std::string, Witness> known_witnesses(const std::string& file) {
   return read_witnesses(file);
 }
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Request {
   double seconds = 0;
   int steps = 0;

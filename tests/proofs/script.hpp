@@ -15,7 +15,7 @@ std::string dyadic(double number);
 /// "[lowest, highest]".
 std::string interval(double lowest, double highest);
 
-/// What a script knows of a number that it does not compute.
+/// A script's hypotheses about a number that it does not compute.
 struct Leaf {
   double lowest, highest;  ///< of the exact value
   enum class ErrorKind : std::uint8_t { none, relative, absolute } kind = ErrorKind::none;

@@ -1,4 +1,4 @@
-// What the proofs of the solvers say in full, for B = 1 and operations that err by u at most; ccd/ has the same
+// The proofs of the solvers in full, for B = 1 and operations that err by u at most; ccd/ has the same
 // to first order in comments, and closed forms above it.
 #pragma once
 

@@ -12,7 +12,7 @@ namespace {
 
 const RationalFunction u = RationalFunction::variable();
 const Fraction largest(1, 1024);
-/// What underflow may take, of the 1 u that the closed forms have for it.
+/// The share of underflow: the closed forms have 1 u for it.
 const RationalFunction underflow = u * Fraction(9, 10);
 
 bool holds(const RationalFunction& less, const RationalFunction& more) {

@@ -62,7 +62,7 @@ Distances distances(const QuadraticCoefficients& p, int bits) {
   return all;
 }
 
-/// All numbers of so many bits with exponents from `lowest` to `highest`, and 0.
+/// All numbers of this many bits with exponents from `lowest` to `highest`, and 0.
 std::vector<double> all_numbers(int bits, int lowest, int highest) {
   std::vector<double> all{0};
   for (int exponent = lowest; exponent <= highest; ++exponent)

@@ -1,4 +1,4 @@
-// What is recorded of a template, and what a script makes of it.
+// The record of a template, and its script.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
