@@ -48,7 +48,7 @@ Measure::Measure(const CcdClaim& claim) : vectors_alone_(claim.vectors_alone) {
   left_ = program_.add(problem.left);
   right_ = program_.add(problem.right);
   degree_ = problem.degree;
-  for (const Motion& motion : problem.motions) {
+  for (const BoundedMotion& motion : problem.motions) {
     const double most[] = {motion.start, motion.end, motion.velocity};
     for (int i = 0; i < 3; ++i) {
       const Traced& x = motion.vector.xv[i];
@@ -60,8 +60,9 @@ Measure::Measure(const CcdClaim& claim) : vectors_alone_(claim.vectors_alone) {
     }
   }
   for (const auto* ranges : {&problem.inputs, &problem.facts})
-    for (const Range& each : *ranges) limit(each.expression, each.lowest, each.highest, each.degree);
-  for (const Range& input : problem.inputs) {
+    for (const BoundedExpression& each : *ranges)
+      limit(each.expression, each.lowest, each.highest, each.degree);
+  for (const BoundedExpression& input : problem.inputs) {
     const int index = program_.add(input.expression);
     if (program_[index].operation != Operation::input) given_[index] = "given";
   }
