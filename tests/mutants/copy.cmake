@@ -1,0 +1,37 @@
+# Included by project() in the copy that contains the mutants. Every C++ file includes the switch; warnings about what a mutant makes of
+# the code are not wanted; and what most files include from elsewhere is compiled once. (A file whose own flags do not fit the precompiled
+# header reads it as text.)
+set(switch -include ${NEARMISS_MUTANTS}/switch.hpp)
+
+function(nearmiss_mutants_precompile target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL MODULE_LIBRARY)
+    return()
+  endif()
+  set(headers ${NEARMISS_MUTANTS}/switch.hpp <Eigen/Core> <Eigen/Geometry> <algorithm> <functional> <map> <optional> <sstream> <string>
+    <vector>)
+  if(target MATCHES "_tests$")
+    list(APPEND headers <gtest/gtest.h> <gmock/gmock.h>)
+  endif()
+  if(target MATCHES "oracle")
+    list(APPEND headers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h> <boost/multiprecision/gmp.hpp>
+      <CGAL/Exact_predicates_inexact_constructions_kernel.h>)
+  endif()
+  if(target MATCHES "reports|fuzz|tools|^nearmiss$|proofs")
+    list(APPEND headers <fmt/format.h> <nlohmann/json.hpp>)
+  endif()
+  target_precompile_headers(${target} PRIVATE ${headers})
+endfunction()
+
+function(nearmiss_mutants_compile folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target ${targets})
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-w$<SEMICOLON>-Wno-error$<SEMICOLON>-Wno-narrowing>)
+    nearmiss_mutants_precompile(${target})
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(each ${folders})
+    nearmiss_mutants_compile(${each})
+  endforeach()
+endfunction()
+cmake_language(DEFER CALL nearmiss_mutants_compile ${CMAKE_SOURCE_DIR})
