@@ -72,16 +72,13 @@ def make_copy(text_of):
 
 
 def configure():
-    """The build of the copy: the product's semantics, less optimised."""
-    if (BUILD / 'build.ninja').exists():
-        run(['ninja', '-C', BUILD, 'build.ninja'], cwd=COPY)  # for files that are new or gone
-        return
+    """The build of the copy: the product's semantics, less optimised. Sees files that are new or gone."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'CMAKE_CXX_COMPILER': 'g++',
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG',
         'NEARMISS_MUTANTS': HERE,
-        'CMAKE_PROJECT_nearmiss_INCLUDE': HERE / 'copy.cmake',
+        'CMAKE_PROJECT_nearmiss_INCLUDE': HERE / 'copy/CMakeLists.txt',
     }
     words = [f'-D{name}={value}' for name, value in options.items()]
     ended = run(['cmake', '-S', COPY, '-B', BUILD, '-G', 'Ninja', *words], cwd=COPY)
