@@ -80,6 +80,7 @@ def build(mutants, targets, jobs, say):
         ended = ninja(targets, jobs, lambda step: say(f'building {step}'))
         if ended.code == 0:
             return
+        (WORK / 'errors.txt').write_text('\n'.join(failures(ended.output)))
         culprits = {}
         for block in failures(ended.output):
             found = blamed(mutants, block)
