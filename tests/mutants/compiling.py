@@ -1,0 +1,110 @@
+"""One build with all mutants: those that do not compile as a switch get another form, or are built by themselves."""
+
+import json
+import re
+
+from copied import COPY, make_copy, ninja
+from schemata import SWITCHES, first_form, next_form, with_switches
+from sources import ROOT, WORK, read
+
+FORMS_FILE = WORK / 'forms.json'
+# A path may be relative, as ccache makes it.
+PLACE = re.compile(rf'(?:^|\s)(?:\S*/)?{COPY.name}/([\w./-]+\.[ch]pp):(\d+)', re.MULTILINE)
+
+
+class Mutants:
+    """The mutants of a draw, numbered from 1, and the form in which each is compiled."""
+
+    def __init__(self, drawn):
+        self.drawn = drawn
+        known = json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
+        self.forms = {each.name: known.get(each.name, first_form(each)) for each in drawn}
+        self.by_file = {}
+        for number, each in enumerate(drawn, 1):
+            self.by_file.setdefault(each.file, []).append((number, each))
+
+    def text_of(self, name):
+        """What a file of the copy is."""
+        switches = [
+            (number, each, self.forms[each.name])
+            for number, each in self.by_file.get(name, [])
+            if self.forms[each.name] in SWITCHES
+        ]
+        return with_switches(read(ROOT / name), switches)
+
+    def step_back(self, mutation, errors):
+        """The next form of one that does not compile."""
+        self.forms[mutation.name] = next_form(self.forms[mutation.name], errors)
+        known = json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
+        FORMS_FILE.write_text(json.dumps({**known, **self.forms}, indent=0))
+
+    def at(self, places):
+        """Switched mutants on any of these lines."""
+        found = []
+        for name in {name for name, _ in places} & set(self.by_file):
+            text = read(ROOT / name)
+            lines = {line for each, line in places if each == name}
+            for _, each in self.by_file[name]:
+                if self.forms[each.name] in SWITCHES and each.lines(text) & lines:
+                    found.append(each)
+        return found
+
+
+def failures(output):
+    """The compiler's output about each file that did not compile."""
+    blocks = re.split(r'^(?=FAILED: |\[\d+/\d+\] )', output, flags=re.MULTILINE)
+    return [block for block in blocks if block.startswith('FAILED: ')]
+
+
+def places(text):
+    return {(name, int(line)) for name, line in PLACE.findall(text)}
+
+
+def blamed(mutants, block):
+    """The mutants that an error is about: on the line of the error, or on a line that it mentions."""
+    errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
+    return mutants.at(places(errors)) or mutants.at(places(block))
+
+
+def errors_about(mutation, block):
+    """The compiler's errors on the lines of a mutant, or all that it says where it blames others."""
+    lines = {(mutation.file, line) for line in mutation.lines(read(ROOT / mutation.file))}
+    errors = [line for line in block.splitlines() if ' error: ' in line and places(line) & lines]
+    return '\n'.join(errors) or block
+
+
+def build(mutants, targets, jobs, say):
+    """Builds targets of the copy with all mutants, as many times as it takes."""
+    while True:
+        make_copy(mutants.text_of)
+        ended = ninja(targets, jobs, lambda step: say(f'building {step}'))
+        if ended.code == 0:
+            return
+        (WORK / 'errors.txt').write_text('\n'.join(failures(ended.output)))
+        culprits = {}
+        for block in failures(ended.output):
+            found = blamed(mutants, block)
+            if not found:
+                raise SystemExit(f'the copy does not compile, for no mutant:\n{block[:4000]}')
+            culprits.update({each.name: (each, errors_about(each, block)) for each in found})
+        if not culprits:
+            raise SystemExit(f'the copy is not built:\n{ended.output[-4000:]}')
+        for each, errors in culprits.values():
+            mutants.step_back(each, errors)
+            say(f'{each.file}:{each.line}: now {mutants.forms[each.name]}: {each.after}')
+
+
+def probes(mutants, compiled):
+    """Object files that show soon whether the mutants compile."""
+    units = {unit for name in mutants.by_file for unit in compiled.units(name)}
+    objects = []
+    for unit in sorted(units):
+        command = compiled.commands[unit]['command']
+        objects.append(re.search(r' -o (\S+)', command)[1])
+    return objects
+
+
+def build_all(mutants, compiled, jobs, say):
+    """First what shows whether the mutants compile, then everything."""
+    build(mutants, probes(mutants, compiled), jobs, say)
+    build(mutants, ['all'], jobs, say)

@@ -1,0 +1,38 @@
+"""What has been found out about mutants, written after every one."""
+
+import json
+import os
+import threading
+
+from sources import FOLDERS, WORK, fingerprint
+
+FILE = WORK / 'results.json'
+CODE = {'.cpp', '.hpp', '.c', '.h'}
+TEST_DATA = {'.py', '.txt', '.case'}
+
+
+class Results:
+    """By mutant. A result counts for one state of the product; that no test notices a mutant, for one state of the tests too."""
+
+    def __init__(self, file=FILE):
+        self.file = file
+        self.product = fingerprint([*FOLDERS, 'tools'], CODE)
+        self.tests = fingerprint(['tests', 'corpus/cases'], CODE | TEST_DATA)
+        self.kept = json.loads(file.read_text()) if file.exists() else {}
+        self.lock = threading.Lock()
+
+    def get(self, mutation):
+        """The result, if there is one that counts."""
+        result = self.kept.get(mutation.name)
+        if result is None or result['product'] != self.product:
+            return None
+        if not result['noticed_by'] and result['tests'] != self.tests:
+            return None
+        return result
+
+    def put(self, mutation, values):
+        with self.lock:
+            self.kept[mutation.name] = {**values, 'product': self.product, 'tests': self.tests}
+            fresh = self.file.with_suffix('.new')
+            fresh.write_text(json.dumps(self.kept, indent=1))
+            os.replace(fresh, self.file)

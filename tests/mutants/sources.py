@@ -1,0 +1,93 @@
+"""The product's C++ files, as text in which an offset counts bytes, as it does for the compiler."""
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = ['ccd', 'oracle', 'reports', 'fuzz', 'corpus']
+WORK = ROOT / 'build' / 'mutants'
+
+
+def read(path):
+    """A file's text, a character a byte."""
+    return Path(path).read_bytes().decode('latin-1')
+
+
+def shown(text):
+    """The same as a person reads it, without line ends."""
+    return ' '.join(text.encode('latin-1').decode('utf-8', 'replace').split())
+
+
+def cpp_files(folders, root=ROOT):
+    """Names of the C++ files of folders, relative to the root."""
+    found = []
+    for folder in folders:
+        for path in sorted((root / folder).rglob('*.[ch]pp')):
+            if 'node_modules' not in path.parts:
+                found.append(str(path.relative_to(root)))
+    return found
+
+
+def fingerprint(folders, suffixes, root=ROOT):
+    """A number for the files of folders with these suffixes, but for this tool: equal while none of them changes."""
+    digest = hashlib.sha256()
+    for folder in folders:
+        for path in sorted((root / folder).rglob('*')):
+            is_other = {'node_modules', 'mutants'} & set(path.relative_to(root).parts)
+            if path.suffix in suffixes and path.is_file() and not is_other:
+                digest.update(f'{path.relative_to(root)}\0'.encode() + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def included_by(name, root=ROOT, seen=None):
+    """All files of the tree that a file includes, itself with them."""
+    seen = seen if seen is not None else set()
+    if name in seen or not (root / name).is_file():
+        return seen
+    seen.add(name)
+    for include in re.findall(r'^#include "([^"]+)"', read(root / name), re.MULTILINE):
+        included_by(include, root, seen)
+    return seen
+
+
+class Compiled:
+    """How each file is compiled, by the compile commands of the copy."""
+
+    def __init__(self, build, copy, root=ROOT):
+        self.commands = {}
+        for entry in json.loads((build / 'compile_commands.json').read_text()):
+            name = entry['file'].removeprefix(f'{copy}/')
+            if name.endswith('.cpp'):
+                self.commands[name] = entry
+        self.users = {}
+        for name in self.commands:
+            for included in included_by(name, root):
+                self.users.setdefault(included, []).append(name)
+
+    def units(self, name):
+        """Files to compile that show whether a file compiles: itself, or one or two that include it."""
+        if name in self.commands:
+            return [name]
+        users = self.users.get(name, [])
+        folder = name.split('/')[0]
+        product = [user for user in users if user.split('/')[0] == folder]
+        stem = Path(name).stem
+        tests = [user for user in users if user.startswith('tests/') and stem in user]
+        return (product[:1] + tests[:1]) or users[:1]
+
+    def arguments(self, unit, copy, root=ROOT):
+        """Arguments for a parser of a unit as it is in the tree."""
+        entry = self.commands[unit]
+        words = entry['command'].replace('\\"', '"').split()
+        kept = []
+        skip = False
+        for word in words[1:]:
+            if skip or word == '-c' or word == entry['file']:
+                skip = False
+            elif word in ('-o', '-include'):
+                skip = True
+            else:
+                kept.append(word.replace(str(copy), str(root)))
+        return ['-xc++', *kept]

@@ -1,0 +1,131 @@
+"""The tests that are asked, each a step: how long it takes without a mutant, and which mutants it reaches."""
+
+import hashlib
+import json
+import re
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from copied import BUILD, COPY
+from processes import run
+from sources import WORK
+
+BASELINE = WORK / 'baseline.json'
+EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
+MOST_SECONDS = 150  # a test that takes longer without a mutant is not asked
+MEMORY = 6 << 30  # bytes of address space for each process
+MARKS = 4096  # bytes, as in switch.hpp
+
+
+@dataclass
+class Step:
+    """One test: of an executable that GoogleTest runs, or a command."""
+
+    group: str
+    test: str
+    cpu: float = 0
+    wall: float = 0
+    fine: bool = True
+    reached: tuple = ()
+
+    @property
+    def name(self):
+        return f'{self.group}.{self.test}' if self.test else self.group
+
+
+def executable(group):
+    """The file that a group's tests are in."""
+    folder = BUILD / 'tests' / 'proofs' if group == 'proofs' else BUILD / 'tests'
+    return folder / f'{group}_tests'
+
+
+def commands():
+    """Tests that are no GoogleTests."""
+    recount = COPY / 'tests/recount/recount_test.py'
+    return {
+        'judge_hunter': [BUILD / 'tests/judge/judge_hunter', '10000'],
+        'recount': ['/usr/bin/python3', '-B', recount, BUILD / 'nearmiss'],
+    }
+
+
+def command(group, tests):
+    """The command that runs tests of a group, until one fails."""
+    if group in commands():
+        return commands()[group]
+    flags = tempfile.NamedTemporaryFile(
+        'w', prefix='mutants-', suffix='.flags', dir=WORK, delete=False
+    )
+    with flags as file:
+        file.write(f'--gtest_filter={":".join(tests)}\n')
+    return [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={file.name}']
+
+
+def forget(words):
+    """Removes what `command` wrote."""
+    for word in map(str, words):
+        if word.startswith('--gtest_flagfile='):
+            Path(word.split('=', 1)[1]).unlink(missing_ok=True)
+
+
+def tests_of(group):
+    """The names of an executable's tests, without those that are disabled."""
+    listed = run([executable(group), '--gtest_list_tests'], cwd=BUILD).output
+    suite, names = '', []
+    for line in listed.splitlines():
+        word = line.split('#')[0].strip()
+        if line.startswith('  ') and 'DISABLED_' not in suite + word:
+            names.append(suite + word)
+        elif re.match(r'\S+\.(\s|$)', line):
+            suite = word
+    return names
+
+
+def all_steps():
+    found = [Step(group, test) for group in EXECUTABLES for test in tests_of(group)]
+    return found + [Step(group, '') for group in commands()]
+
+
+def measured(step):
+    """The step as it is without a mutant."""
+    words = command(step.group, [step.test])
+    with tempfile.NamedTemporaryFile(dir=WORK) as marks:
+        marks.write(bytes(MARKS))
+        marks.flush()
+        env = {'NEARMISS_MUTANTS_REACHED': marks.name}
+        try:
+            ended = run(words, cwd=BUILD, env=env, seconds=MOST_SECONDS, memory=MEMORY)
+        finally:
+            forget(words)
+        marks.seek(0)
+        reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
+    step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
+    step.fine, step.reached = ended.code == 0 and not ended.late, reached
+    return step
+
+
+def state():
+    """A number for what has been built: equal while no executable changes."""
+    digest = hashlib.sha256()
+    files = [executable(group) for group in EXECUTABLES]
+    files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']
+    for file in files + sorted((BUILD / 'plugins').glob('*')):
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+def baseline(jobs, say):
+    """All steps, measured once for each build; resumes where it was stopped."""
+    built = state()
+    kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
+    known = kept.get('steps', {}) if kept.get('built') == built else {}
+    steps = all_steps()
+    todo = [step for step in steps if step.name not in known]
+    with ThreadPoolExecutor(jobs) as pool:
+        for count, step in enumerate(pool.map(measured, todo), 1):
+            known[step.name] = asdict(step)
+            if count % 50 == 0 or step.cpu > 5 or count == len(todo):
+                say(f'without a mutant: {count} of {len(todo)} tests')
+                BASELINE.write_text(json.dumps({'built': built, 'steps': known}))
+    return [Step(**{**known[s.name], 'reached': tuple(known[s.name]['reached'])}) for s in steps]

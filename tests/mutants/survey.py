@@ -1,0 +1,137 @@
+"""A survey: draws mutants, compiles them, and asks the tests about each."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
+
+import compiling
+import copied
+import equivalents
+from asking import ask
+from draw import all_sites, draw
+from results import Results
+from schemata import by_itself
+from sources import ROOT, Compiled, read
+from suite import baseline
+
+SPARE = 1.3  # mutants drawn for each that is asked for: some are found only at compile time
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def folder_of(mutation):
+    return mutation.file.split('/')[0]
+
+
+class Survey:
+    """The mutants of a draw, and what is known of them."""
+
+    def __init__(self, folders, seed, count, alone, jobs):
+        self.folders, self.alone, self.jobs = folders, alone, jobs
+        copied.make_copy(copied.text_of_copy)
+        copied.configure()
+        self.compiled = Compiled(copied.BUILD, copied.COPY)
+        self.quota = -(-count // len(folders))
+        found = all_sites(self.compiled, copied.COPY, folders, jobs)
+        self.drawn = draw(found, folders, seed, int(SPARE * self.quota))
+        self.mutants = compiling.Mutants(self.drawn)
+        self.results = Results()
+        self.equivalent = equivalents.listed()
+        self.printing = threading.Lock()
+        self.done = 0
+
+    def prepare(self):
+        """Builds, and measures the tests without a mutant."""
+        say(f'{len(self.drawn)} mutants are compiled')
+        compiling.build_all(self.mutants, self.compiled, self.jobs, say)
+        self.steps = baseline(self.jobs, say)
+        for step in self.steps:
+            if not step.fine:
+                say(f'not asked, since it fails or takes too long without a mutant: {step.name}')
+
+    def reaching(self, number):
+        return [step for step in self.steps if step.fine and number in step.reached]
+
+    def is_compile_time(self, number):
+        """Whether the switch has no effect when the program runs."""
+        form = self.mutants.forms[self.drawn[number - 1].name]
+        return form == 'alone' or (form == 'constexpr' and not self.reaching(number))
+
+    def chosen(self):
+        """Numbers: as many of each folder as were asked for, and those that have to be built by themselves."""
+        switched, alone = [], []
+        left = {folder: self.quota for folder in self.folders}
+        for number, mutation in enumerate(self.drawn, 1):
+            if self.mutants.forms[mutation.name] == 'invalid':
+                continue
+            if self.is_compile_time(number):
+                alone.append(number)
+            elif left[folder_of(mutation)] > 0:
+                left[folder_of(mutation)] -= 1
+                switched.append(number)
+        alone.sort(key=lambda number: self.drawn[number - 1].file.endswith('.hpp'))
+        return switched, alone[: self.alone]
+
+    def known(self, mutation):
+        """The result that is known, if the list of equivalent mutants agrees with it."""
+        result = self.results.get(mutation)
+        is_listed = equivalents.reason_of(self.equivalent, mutation) is not None
+        if result is None or is_listed == (result['verdict'] == 'equivalent'):
+            return result
+        return None
+
+    def find(self, mutation, switch, steps):
+        """What the tests say of a mutant: switched on by a number, or built in with 0."""
+        if equivalents.reason_of(self.equivalent, mutation):
+            return {'verdict': 'equivalent', 'noticed_by': ''}
+        if not steps:
+            return {'verdict': 'unreached', 'noticed_by': ''}
+        answer = ask(switch, steps, folder_of(mutation))
+        return {'verdict': 'noticed' if answer.noticed_by else 'survived', **asdict(answer)}
+
+    def ask_switched(self, number):
+        """The result of a mutant that is a switch, looked for if it is not known."""
+        mutation = self.drawn[number - 1]
+        if (result := self.known(mutation)) is None:
+            result = self.find(mutation, number, self.reaching(number))
+            self.results.put(mutation, result)
+        self.show(mutation, result)
+        return mutation, result
+
+    def ask_alone(self, number):
+        """The result of one that is built into the copy by itself; the next build takes it back."""
+        mutation = self.drawn[number - 1]
+        if (result := self.known(mutation)) is None:
+            copied.make_copy(self.mutants.text_of)
+            text = by_itself(read(ROOT / mutation.file), mutation)
+            copied.write(copied.COPY / mutation.file, text)
+            compiles = copied.ninja(['all'], self.jobs).code == 0
+            steps = [step for step in self.steps if step.fine]
+            result = {'verdict': 'open', 'noticed_by': ''}
+            if compiles:
+                result = self.find(mutation, 0, steps)
+            self.results.put(mutation, result)
+        self.show(mutation, result)
+        return mutation, result
+
+    def show(self, mutation, result):
+        """A line of progress."""
+        with self.printing:
+            self.done += 1
+            by = (
+                f' by {result["noticed_by"]}, {result["cpu"]:.1f} s'
+                if result['noticed_by']
+                else ''
+            )
+            place = f'{mutation.file}:{mutation.line}'
+            say(f'[{self.done}] {place} {mutation.operator}: {result["verdict"]}{by}')
+
+    def take(self):
+        """All results, pairs of a mutant and what is known of it."""
+        switched, alone = self.chosen()
+        say(f'{len(switched)} mutants are asked about, {len(alone)} are built by themselves')
+        with ThreadPoolExecutor(self.jobs) as pool:
+            found = list(pool.map(self.ask_switched, switched))
+        return found + [self.ask_alone(number) for number in alone]
