@@ -88,7 +88,7 @@ void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   read_query_lines(in, of, file, each);
 }
 
-void PluginLimits::add_to(CLI::App& command) {
+void PluginLimitOptions::add_to(CLI::App& command) {
   command
       .add_option("--query-time", time, "Time limit per query for a plug-in, which runs in its own process")
       ->capture_default_str()
@@ -100,7 +100,7 @@ void PluginLimits::add_to(CLI::App& command) {
       ->type_name("BYTES");
 }
 
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
+Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
                        std::optional<double> given_bound) {
   const isolation::PluginLimits allowed{parse_duration(limits.time), limits.bytes};
   Subjects made;

@@ -33,7 +33,7 @@ void add_comparison_options(CLI::App& command, Comparison& comparison);
 void add_bound_option(CLI::App& command, std::string& bound);
 
 /// --query-time T and --query-memory BYTES: the limits of a plug-in.
-struct PluginLimits {
+struct PluginLimitOptions {
   std::string time = "1s";
   std::uint64_t bytes = isolation::PluginLimits().bytes;
 
@@ -50,7 +50,7 @@ struct QueryInput {
 };
 
 /// Makes the named subjects; each plug-in runs in its own process. Throws Error, also if two have the same name.
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimits& limits,
+Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
                        std::optional<double> given_bound = std::nullopt);
 
 /// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.

@@ -20,7 +20,7 @@ namespace {
 struct Options {
   std::filesystem::path in, out;
   std::string subject = "wang";
-  PluginLimits limits;
+  PluginLimitOptions limits;
 };
 
 Case read_one(const std::filesystem::path& path) {

@@ -14,7 +14,7 @@ namespace nearmiss::tools {
 /// --subject, --query-time, --query-memory, --compare, --compare-near-bounds, --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
-  PluginLimits limits = {};
+  PluginLimitOptions limits = {};
   Comparison comparison = {};
   int jobs = 1;
 
