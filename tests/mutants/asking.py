@@ -3,10 +3,9 @@
 import re
 from dataclasses import dataclass, field
 
-from copied import BUILD
-from processes import run
-from suite import MEMORY, command, forget
+from suite import run_tests
 
+KILLED = (-9, 128 + 9, 128 + 24)  # by a limit
 BUDGET = 120  # seconds of one core that a mutant may take, by what its tests take without it
 
 
@@ -20,6 +19,7 @@ class Answer:
     wall: float = 0
     asked: int = 0  # tests
     unasked: list = field(default_factory=list)  # tests for which no time was left
+    unsteady: list = field(default_factory=list)  # tests that failed once, and not again or always
     spent: dict = field(default_factory=dict)  # seconds by test, as without a mutant
 
 
@@ -61,15 +61,32 @@ def culprit(group, ended):
     """Which test failed, and how."""
     how = (
         'too slow'
-        if ended.late or ended.code in (-24, -9)
+        if ended.late or ended.code in KILLED
         else 'failed'
-        if ended.code > 0
+        if ended.code == 1
         else 'crashed'
     )
     failed = re.search(r'\[  FAILED  \] ([\w./]+)', ended.output)
     begun = re.findall(r'\[ RUN      \] (\S+)', ended.output)
-    test = failed[1] if failed else begun[-1] if begun else ''
-    return (f'{group}.{test}' if test else group), how
+    return failed[1] if failed else begun[-1] if begun else '', how
+
+
+def run_steps(number, group):
+    """Runs steps of one executable with a mutant; the limits are what they take without it, generously."""
+    return run_tests(
+        group[0].group,
+        [step.test for step in group],
+        {'NEARMISS_MUTANT': str(number)},
+        seconds=30 + 10 * sum(step.wall for step in group),
+        cpu=4 + 4 * sum(step.cpu for step in group),
+    )
+
+
+def is_confirmed(number, step):
+    """Whether a test that failed fails again with the mutant, and not without: some depend on the machine's load."""
+    again = run_steps(number, [step])
+    without = run_steps(0, [step]) if number else None
+    return again.code != 0 and (without is None or without.code == 0)
 
 
 def ask(number, steps, folder):
@@ -78,25 +95,19 @@ def ask(number, steps, folder):
     kept, answer.unasked = affordable(steps)
     for batch in batches(kept, folder):
         for group in batch:
-            words = command(group[0].group, [step.test for step in group])
-            cpu = sum(step.cpu for step in group)
-            wall = sum(step.wall for step in group)
-            try:
-                ended = run(
-                    words,
-                    cwd=BUILD,
-                    env={'NEARMISS_MUTANT': str(number)},
-                    seconds=30 + 10 * wall,
-                    cpu=4 + 4 * cpu,
-                    memory=MEMORY,
-                )
-            finally:
-                forget(words)
-            answer.cpu += ended.cpu
-            answer.wall += ended.wall
-            answer.asked += len(group)
-            answer.spent.update({step.name: step.cpu for step in group})
-            if ended.code != 0 or ended.late:
-                answer.noticed_by, answer.how = culprit(group[0].group, ended)
-                return answer
+            while group:
+                ended = run_steps(number, group)
+                answer.cpu += ended.cpu
+                answer.wall += ended.wall
+                answer.asked += len(group)
+                answer.spent.update({step.name: step.cpu for step in group})
+                if ended.code == 0:
+                    break
+                test, how = culprit(group[0].group, ended)
+                failed = next((step for step in group if step.test == test), group[0])
+                if how != 'failed' or is_confirmed(number, failed):
+                    answer.noticed_by, answer.how = failed.name, how
+                    return answer
+                answer.unsteady.append(failed.name)
+                group = [step for step in group if step is not failed]
     return answer

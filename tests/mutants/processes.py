@@ -68,19 +68,43 @@ def wait(process, seconds, progress=lambda: None):
         pause = min(2 * pause, 0.1)
 
 
-def run(command, cwd, env=None, seconds=3600, cpu=None, memory=None, say=None):
-    """Runs a command at low priority in a group of its own; `cpu` seconds and bytes of memory limit each process."""
-    limits = ['nice', '-n', '2']
+def limits(cpu=None, memory=None):
+    """Words before a command that limit each of its processes, in seconds and bytes."""
+    words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if cpu is not None:
-        limits += ['prlimit', f'--cpu={int(cpu)}:{int(cpu) + 1}', '--core=0']
+        words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')
     if memory is not None:
-        limits += [f'--as={memory}'] if cpu is not None else ['prlimit', f'--as={memory}']
+        words.append(f'--as={memory}')
+    return words
+
+
+def seal():
+    """Words before a command that may do anything: it sees and kills no other processes, and leaves none. The first process of
+    theirs is a shell, since a first process ignores signals; a command that a signal ends has 128 more than its number.
+    """
+    user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
+    return [
+        'unshare',
+        *user,
+        '--pid',
+        '--fork',
+        '--kill-child',
+        '--mount-proc',
+        'sh',
+        '-c',
+        '"$@"; exit $?',
+        'sh',
+    ]
+
+
+def run(command, cwd, env=None, seconds=3600, before=(), say=None):
+    """Runs a command in a group of its own, after words such as `limits` and `seal`."""
     if stopping.is_set():
         raise Stopped
     begin = time.monotonic()
     with tempfile.TemporaryFile() as output:
         process = subprocess.Popen(
-            limits + [str(word) for word in command],
+            [str(word) for word in [*(before or limits()), *command]],
             cwd=cwd,
             env={**os.environ, **(env or {})},
             stdin=subprocess.DEVNULL,
@@ -89,7 +113,6 @@ def run(command, cwd, env=None, seconds=3600, cpu=None, memory=None, say=None):
             start_new_session=True,
         )
         late, code, usage = wait(process, seconds, lambda: say and say(latest_step(output)))
-        kill(process)  # what it has left behind
         if stopping.is_set():
             raise Stopped
         output.seek(0)

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from copied import BUILD, COPY
-from processes import run
+from processes import limits, run, seal
 from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
@@ -50,23 +50,16 @@ def commands():
     }
 
 
-def command(group, tests):
-    """The command that runs tests of a group, until one fails."""
-    if group in commands():
-        return commands()[group]
-    flags = tempfile.NamedTemporaryFile(
-        'w', prefix='mutants-', suffix='.flags', dir=WORK, delete=False
-    )
-    with flags as file:
-        file.write(f'--gtest_filter={":".join(tests)}\n')
-    return [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={file.name}']
-
-
-def forget(words):
-    """Removes what `command` wrote."""
-    for word in map(str, words):
-        if word.startswith('--gtest_flagfile='):
-            Path(word.split('=', 1)[1]).unlink(missing_ok=True)
+def run_tests(group, tests, env, seconds, cpu=None):
+    """Runs tests of a group until one fails; what they do concerns no other process, and their files are removed."""
+    with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
+        words = commands().get(group)
+        if words is None:
+            flags = Path(folder) / 'flags'
+            flags.write_text(f'--gtest_filter={":".join(tests)}\n')
+            words = [executable(group), '--gtest_fail_fast', f'--gtest_flagfile={flags}']
+        env = {**env, 'TMPDIR': folder}
+        return run(words, BUILD, env, seconds, before=seal() + limits(cpu, MEMORY))
 
 
 def tests_of(group):
@@ -89,15 +82,11 @@ def all_steps():
 
 def measured(step):
     """The step as it is without a mutant."""
-    words = command(step.group, [step.test])
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
         env = {'NEARMISS_MUTANTS_REACHED': marks.name}
-        try:
-            ended = run(words, cwd=BUILD, env=env, seconds=MOST_SECONDS, memory=MEMORY)
-        finally:
-            forget(words)
+        ended = run_tests(step.group, [step.test], env, MOST_SECONDS)
         marks.seek(0)
         reached = tuple(number for number, byte in enumerate(marks.read()) if byte)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
