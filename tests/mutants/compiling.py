@@ -49,6 +49,15 @@ class Mutants:
                     found.append(each)
         return found
 
+    def in_constexpr_functions(self, files):
+        """Mutants of these files that the compiler may evaluate far from their own lines."""
+        return [
+            each
+            for name in sorted(files & set(self.by_file))
+            for _, each in self.by_file[name]
+            if self.forms[each.name] == 'constexpr'
+        ]
+
 
 def failures(output):
     """The compiler's output about each file that did not compile."""
@@ -61,9 +70,15 @@ def places(text):
 
 
 def blamed(mutants, block):
-    """The mutants that an error is about: on the line of the error, or on a line that it mentions."""
+    """The mutants that an error is about: on the line of the error, on a line that it mentions, or in a constexpr function
+    of a file that it mentions."""
     errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
-    return mutants.at(places(errors)) or mutants.at(places(block))
+    mentioned = places(block)
+    return (
+        mutants.at(places(errors))
+        or mutants.at(mentioned)
+        or mutants.in_constexpr_functions({name for name, _ in mentioned})
+    )
 
 
 def errors_about(mutation, block):

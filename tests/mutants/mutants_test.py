@@ -2,8 +2,10 @@
 """The operators make the edits that they should, a seed gives the same draw, and the list of equivalent mutants is held to the sources."""
 
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
+from compiling import Mutants, blamed
 from draw import draw
 from equivalents import complaints, entries
 from mutation import applied
@@ -125,6 +127,27 @@ class Switches(unittest.TestCase):
     def test_one_by_itself_is_the_edit(self):
         mutation = only('sign', 'double total')
         self.assertEqual(by_itself(TEXT, mutation), applied(TEXT, mutation.edits))
+
+
+class Blame(unittest.TestCase):
+    """Which mutants an error of the compiler is about."""
+
+    @classmethod
+    def setUpClass(cls):
+        name = f'tests/mutants/{FILE}'
+        drawn = [replace(each, file=name) for each in draw(SITES, ['fixture'], 1, 100)]
+        cls.mutants = Mutants(drawn)
+        cls.in_constexpr = [each for each in drawn if each.at_compile_time]
+
+    def test_one_on_the_line_of_the_error(self):
+        (mutation, *_) = [each for each in self.mutants.drawn if not each.at_compile_time]
+        block = f'/x/tree/{mutation.file}:{mutation.line}: error: no match'
+        self.assertEqual(blamed(self.mutants, block), [mutation])
+
+    def test_one_in_a_constexpr_function_that_is_evaluated_elsewhere(self):
+        block = f'/x/tree/{self.mutants.drawn[0].file}:9999: error: non-constant condition'
+        self.assertTrue(self.in_constexpr)
+        self.assertEqual(blamed(self.mutants, block), self.in_constexpr)
 
 
 class Draw(unittest.TestCase):
