@@ -35,9 +35,7 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
   if (hex) digits.remove_prefix(2);
   // from_chars takes a sign of its own, which has been read already, and "inf" and "nan".
-  const bool starts_well =
-      !digits.empty() && (digits[0] == '.' || std::isxdigit(static_cast<unsigned char>(digits[0])));
-  if (!starts_well) throw fail();
+  if (digits.find_first_of(".0123456789abcdefABCDEF") != 0) throw fail();
   Number value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             hex ? std::chars_format::hex : std::chars_format::general);

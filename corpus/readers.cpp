@@ -47,8 +47,8 @@ void read_cases(const fs::path& path, const CaseSink& sink) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return read_file(path, sink);
   std::vector<fs::path> files;
-  for (auto it = fs::recursive_directory_iterator(path, error);
-       !error && it != fs::recursive_directory_iterator(); it.increment(error))
+  for (auto it = fs::recursive_directory_iterator(path, error); it != fs::recursive_directory_iterator();
+       it.increment(error))
     if (it->is_regular_file() && is_case_file(it->path())) files.push_back(it->path());
   if (error) throw Error(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
   if (files.empty())

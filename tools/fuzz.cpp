@@ -125,10 +125,10 @@ int run(const Options& options) {
   Record record(
       options.record, info_of(options, plan),
       {.index = plan.shard, .count = plan.shards, .environment = options.trial.plugin_paths(subjects)});
-  plan.rounds_before = record.part().rounds;
+  plan.rounds_before = record.shard().rounds;
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0;
-  if (only_time_ends_it) *plan.time -= std::chrono::duration<double>(record.part().seconds);
+  if (only_time_ends_it) *plan.time -= std::chrono::duration<double>(record.shard().seconds);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);

@@ -49,17 +49,17 @@ void RecordOptions::add_to(CLI::App& command) {
 
 RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }
 
-Record::Record(RecordOptions options, RunInfo info, const Shard& part)
-    : options_(std::move(options)), info_(std::move(info)), part_(part) {
+Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
+    : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
   const auto folder = options_.json.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
-  part_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-  part_.environment.merge(environment());
+  shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  shard_.environment.merge(environment());
   if (options_.resume && Store::exists(options_.db))
     go_on();
   else if (!options_.db.empty())
-    store_.emplace(options_.db, info_, part_);
+    store_.emplace(options_.db, info_, shard_);
 }
 
 Record::~Record() {
@@ -83,10 +83,10 @@ void Record::go_on() {
   for (const RunInfo* each : {&info_, &run.info})
     for (const auto& [name, value] : *each)
       if (name != "again") expect(name, run.info[name], info_[name]);  // repeats the others
-  const auto shard = [](const Shard& part) { return fmt::format("{}/{}", part.index, part.count); };
-  expect("shard", shard(run.shards.at(0)), shard(part_));
-  part_ = run.shards.at(0);
-  seconds_before_ = part_.seconds;
+  const auto name = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
+  expect("shard", name(run.shards.at(0)), name(shard_));
+  shard_ = run.shards.at(0);
+  seconds_before_ = shard_.seconds;
   statistics_ = std::move(before.statistics);
   findings_ = std::move(run.findings);
   saved_findings_ = findings_.size();
@@ -95,7 +95,7 @@ void Record::go_on() {
 void Record::add(TrialResult&& result, std::uint64_t rounds) {
   statistics_.merge(result.statistics);
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
-  part_.rounds = rounds;
+  shard_.rounds = rounds;
   if (Clock::now() - last_save_ >= save_interval) save();
 }
 
@@ -104,18 +104,18 @@ void Record::add(const ScenePicture& picture) {
 }
 
 void Record::save() {
-  part_.seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
-  part_.cases = statistics_.oracle_total().queries;
-  if (store_) store_->save(statistics_, part_, std::span(findings_).subspan(saved_findings_));
+  shard_.seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+  shard_.cases = statistics_.oracle_total().queries;
+  if (store_) store_->save(statistics_, shard_, std::span(findings_).subspan(saved_findings_));
   saved_ = true;
   saved_findings_ = findings_.size();
   last_save_ = Clock::now();
 }
 
 int Record::finish(bool interrupted, bool complete) {
-  part_.complete = complete;
+  shard_.complete = complete;
   save();
-  const Campaign campaign{{{info_, {part_}, findings_, {}}}, statistics_};
+  const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   if (!options_.json.empty()) replace_file(options_.json, summary_json(campaign).dump(2) + "\n");
   fmt::print("{}{}{}", options_.summary ? summary_table(statistics_) : "",
              sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),

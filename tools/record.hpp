@@ -31,14 +31,14 @@ RunInfo run_info(const std::string& command);
 class Record {
  public:
   /// Throws Error, before any work is done, if a file cannot be made, or holds another run than the one to continue.
-  Record(RecordOptions options, RunInfo info, const Shard& part = {});
+  Record(RecordOptions options, RunInfo info, const Shard& shard = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
   /// Removes the store if nothing was ever saved in it.
   ~Record();
 
-  /// The part of the run that earlier processes did.
-  [[nodiscard]] const Shard& part() const { return part_; }
+  /// The shard, with what earlier processes did of it.
+  [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
   /// Adds a result; saves at intervals. `rounds`: the rounds of a campaign that are done.
@@ -58,7 +58,7 @@ class Record {
 
   RecordOptions options_;
   RunInfo info_;
-  Shard part_;
+  Shard shard_;
   double seconds_before_ = 0;
   std::optional<Store> store_;
   bool saved_ = false;

@@ -18,10 +18,7 @@ namespace nearmiss {
 /// few parts of a step at a time.
 class SceneTrial {
  public:
-  /// Takes the result of some parts of a step. The parts come in order.
-  using ResultSink = std::function<void(TrialResult&&)>;
-
-  SceneTrial(const Scene& scene, SiftedTrials& trials, ResultSink sink)
+  SceneTrial(const Scene& scene, SiftedTrials& trials, TrialSink sink)
       : scene_(scene), trials_(trials), sink_(std::move(sink)) {}
 
   /// Asks about all pairs of a step that its plan leaves. `mesh` is that of the step; `progress` takes the share
@@ -45,7 +42,7 @@ class SceneTrial {
 
   const Scene& scene_;
   SiftedTrials& trials_;
-  ResultSink sink_;
+  TrialSink sink_;
   std::size_t most_marked_ = 0;  ///< the step of `marks_`
   Marks marks_;
 };

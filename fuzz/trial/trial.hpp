@@ -38,6 +38,9 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
+/// Takes results as they come, in an order that does not depend on threads.
+using TrialSink = std::function<void(TrialResult&&)>;
+
 /// The choice of queries on which all methods of the oracle are compared.
 struct Comparison {
   /// Undecided by the filter: the hard queries, of which this many times as large a part is compared.

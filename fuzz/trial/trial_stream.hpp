@@ -16,10 +16,7 @@ namespace nearmiss {
 /// batches at any time.
 class TrialStream {
  public:
-  /// Receives the result of some batches, in order.
-  using Sink = std::function<void(TrialResult&&)>;
-
-  TrialStream(SiftedTrials& trials, Sink sink) : trials_(trials), sink_(std::move(sink)) {}
+  TrialStream(SiftedTrials& trials, TrialSink sink) : trials_(trials), sink_(std::move(sink)) {}
 
   /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are kept, up to
   /// finish(). Throws Error as hold_trial does.
@@ -38,7 +35,7 @@ class TrialStream {
   void hold_trials();
 
   SiftedTrials& trials_;
-  Sink sink_;
+  TrialSink sink_;
   std::map<std::pair<std::string, Kind>, Pending> pending_;
   std::vector<Pending> full_;
 };

@@ -38,7 +38,6 @@ struct Funnel {
                                                            .member = &Funnel::pairs,
                                                            .names = pair_fate_names,
                                                            .json_key = "",
-                                                           .csv_prefix = "pairs",
                                                            .shows_zeros = true},
                       Counter{"touching", &Funnel::touching},
                       Counter{"finding_ns", &Funnel::finding_ns, Shown::in_times},

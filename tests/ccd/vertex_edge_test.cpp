@@ -101,17 +101,18 @@ TEST(VertexEdge, Case4WhereTheVertexCrossesTheLine) {
 }
 
 TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
-  // The edge turns through the diagonal of two axes at t = 1/2, where the vertex crosses its line.
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto turned = [&](const Vector& v) {
-      return Vector(v[(3 - axis) % 3], v[(4 - axis) % 3], v[(5 - axis) % 3]);
-    };
-    const auto xji = moving(turned({0.5, 0.25, 0}), turned({-0.25, 0.25, 0}));
-    const auto pair = vertex_edge_pair(moving(turned({0.1875, 0.1875, -0.25}), turned({0, 0, 0.5})), xji);
-    const Verdict verdict = vertex_edge(pair, tol);
-    EXPECT_EQ(verdict.stage, Stage::ve_equal) << axis;
-    EXPECT_EQ(verdict.time, 0.5) << axis;
-  }
+  // The edge turns through a diagonal of two axes at t = 1/2, where the vertex crosses its line.
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const auto turned = [&](const Vector& v) {
+        return Vector(v[(3 - axis) % 3], v[(4 - axis) % 3], v[(5 - axis) % 3]);
+      };
+      const auto xji = moving(turned({0.5, 0.25 * sign, 0}), turned({-0.25, 0.25 * sign, 0}));
+      const auto x0i = moving(turned({0.1875, 0.1875 * sign, -0.25}), turned({0, 0, 0.5}));
+      const Verdict verdict = vertex_edge(vertex_edge_pair(x0i, xji), tol);
+      EXPECT_EQ(verdict.stage, Stage::ve_equal) << axis << ' ' << sign;
+      EXPECT_EQ(verdict.time, 0.5) << axis << ' ' << sign;
+    }
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {

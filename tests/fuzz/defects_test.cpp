@@ -35,6 +35,19 @@ TEST(Defects, AreAtLeastThirtyWithNamesOfTheirOwn) {
   EXPECT_GE(names.size(), 30U);
 }
 
+TEST(Defects, MultiplyEveryToleranceByTheSameFactors) {
+  std::set<std::string> names;
+  for (const Defect& defect : defects()) names.insert(defect.name);
+  for (const NamedTolerance& tolerance : named_tolerances()) {
+    for (const double factor : {0.5, 0.1, 0.01, 0.0})
+      EXPECT_TRUE(names.contains(scaled_tolerance(tolerance.name, factor))) << tolerance.name << factor;
+    // A tolerance that accepts misses nothing when it is larger.
+    for (const double factor : {10.0, 100.0})
+      EXPECT_EQ(names.contains(scaled_tolerance(tolerance.name, factor)), !tolerance.accepts)
+          << tolerance.name << factor;
+  }
+}
+
 TEST(Defects, DecideAsWangDoesWhereNothingIsWrong) {
   const auto wang = make_subject("wang");
   const auto same = try_make_defect("defect:mu*1");

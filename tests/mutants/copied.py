@@ -76,7 +76,7 @@ def configure():
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'CMAKE_CXX_COMPILER': 'g++',
-        'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG',
+        'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS',
         'NEARMISS_MUTANTS': HERE,
         'CMAKE_PROJECT_nearmiss_INCLUDE': HERE / 'copy/CMakeLists.txt',
     }

@@ -13,6 +13,7 @@ endif()
 if(NEARMISS_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
 endif()
 
 if(NEARMISS_LIBFUZZER)

@@ -1,0 +1,55 @@
+// The picture of a step: which primitives it shows.
+#include "fuzz/scenes/marks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace nearmiss {
+namespace {
+
+constexpr int most = 8000;
+
+/// A mesh of points alone, in a row.
+MovingMesh row_of_points(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) mesh.points.emplace_back(i, 0, 0);
+  auto end = mesh.points;
+  return make_moving_mesh(std::move(mesh), std::move(end));
+}
+
+/// The marks of the dots in a picture, from two numbers a dot: its point and its mark.
+std::vector<int> marks_of_dots(const ScenePicture& picture) {
+  const auto json = nlohmann::json::parse(picture.json);
+  std::istringstream text(json["dots"].get<std::string>());
+  std::vector<int> marks;
+  for (int point = 0, mark = 0; text >> point >> mark;) marks.push_back(mark);
+  return marks;
+}
+
+ScenePicture picture_of(int points, int marked) {
+  Marks marks;
+  for (int i = 0; i < marked; ++i) marks.add_collision({Kind::vertex_triangle, {i, i, i, i}});
+  return marks.picture("step", row_of_points(points), {});
+}
+
+TEST(Marks, APictureShowsAllPrimitivesOfASmallMesh) {
+  const auto marks = marks_of_dots(picture_of(2 * most, most));
+  EXPECT_EQ(std::ranges::count(marks, 1), most);
+  EXPECT_EQ(std::ranges::count(marks, 0), most);
+}
+
+TEST(Marks, APictureShowsEightThousandPrimitivesOfEachSortAtMost) {
+  const auto marks = marks_of_dots(picture_of(2 * most + 20, most + 10));
+  EXPECT_EQ(std::ranges::count(marks, 1), most);
+  EXPECT_EQ(std::ranges::count(marks, 0), most);
+}
+
+TEST(Marks, APictureCountsThePrimitivesThatItDoesNotShow) {
+  EXPECT_EQ(nlohmann::json::parse(picture_of(2 * most + 20, most + 10).json)["primitives"], 2 * most + 20);
+}
+
+}  // namespace
+}  // namespace nearmiss
