@@ -144,7 +144,7 @@ TEST_F(Files, NamesTheLineOfABadSampleQuery) {
   std::string seven;
   for (int i = 0; i < 7; ++i) seven += row;
   expect_error(write("edge-edge/a.csv", seven), "a.csv:7: found 7 rows");
-  expect_error(write("edge-edge/b.csv", seven + "1,2,1,2,1,2,1\n"), "b.csv:8: found another truth");
+  expect_error(write("edge-edge/b.csv", seven + "1,2,1,2,1,2,1\n"), "b.csv:8: found a truth that differs");
   expect_error(write("edge-edge/c.csv", "1,3,1,2,1,2,0\n"),
                "c.csv:1: found 1/3, expected a number that is a double");
   expect_error(write("edge-edge/d.csv", "1,0,1,2,1,2,0\n"), "d.csv:1: found '1,0'");
