@@ -1,4 +1,4 @@
-// The ladder of precisions, and the audit of the rounding constants.
+// Draws the ladder of precisions, and the audit of the rounding constants.
 "use strict";
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;

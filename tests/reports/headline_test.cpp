@@ -35,7 +35,7 @@ TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
 
   bad.statistics.oracle_disagreements = 2;
   EXPECT_THAT(headline(bad.statistics, changes(bad, bad)).text,
-              HasSubstr("The oracle is not to be trusted: 2 "));
+              HasSubstr("The oracle cannot be trusted: 2 "));
   EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
 }
 

@@ -190,7 +190,7 @@ TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
 TEST_F(ReportTest, NeverReplacesAnythingElse) {
   write("home/letter.txt", "precious");
   EXPECT_THAT([&] { write_report(some_campaign("wang"), {}, file("home")); },
-              ThrowsMessage<Error>(HasSubstr("found something that is no report")));
+              ThrowsMessage<Error>(HasSubstr("found something that is not a report")));
   EXPECT_EQ(read("home/letter.txt"), "precious");
 }
 
