@@ -45,8 +45,7 @@ Scene open_scene(const std::vector<std::string>& arguments) {
   if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
   if (std::error_code error; !fs::exists(arguments[0], error))
     throw Error(fmt::format(
-        "{}: found neither a folder nor a built-in scene with this name (see nearmiss scene --list)",
-        arguments[0]));
+        "{}: found neither a folder nor a scene with this name (see nearmiss scene --list)", arguments[0]));
   return scene_of_folder(arguments[0]);
 }
 
