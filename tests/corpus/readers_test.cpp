@@ -1,4 +1,4 @@
-// Formats: exact round trips, and one clear line about each error.
+// File formats make exact round trips, and each error gives one clear line.
 #include "corpus/readers.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
 
-/// Each test has its own folder, which is removed at its end.
+/// Gives each test its own folder, and removes it at the end.
 class Files : public ::testing::Test {
  protected:
   Files() { fs::create_directories(folder_); }

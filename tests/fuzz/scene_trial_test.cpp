@@ -42,7 +42,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
   return held;
 }
 
-// One thread holds the trials of four parts at a time, three threads those of all parts.
+// One thread runs the trials of four parts at a time; three threads run those of all parts.
 TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
   const MovingMesh mesh = grids(12);
   const std::size_t parts = Plan(mesh, LeaveOut::all).parts();
