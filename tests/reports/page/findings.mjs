@@ -20,8 +20,7 @@ async function checkVerdicts(page, report) {
 
 async function checkCharts(page, report) {
   const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
-  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the subject
-                                                                // that missed
+  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the subject that missed
   assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
   assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>

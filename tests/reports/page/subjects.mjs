@@ -70,8 +70,7 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   };
   const points = () => count(page, "#error-time .concat_1_group .mark-symbol.role-mark path");
   const all = await points();
-  assert.equal(new Set(await legend()).size, 9); // the initial selection, and all other subjects in one
-                                                 // colour
+  assert.equal(new Set(await legend()).size, 9); // the initial selection, and all other subjects in one colour
   assert.ok((await legend()).includes("others"));
   await page.click("#picker summary");
   for (const [button, labels] of [["none", ["others"]], ["all", names]]) {
