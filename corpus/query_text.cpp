@@ -64,7 +64,7 @@ double parse_number(std::string_view text, std::string_view where) {
 }
 
 float parse_float(std::string_view text, std::string_view where) {
-  return parse<float>(text, where, "a number that a float can be");
+  return parse<float>(text, where, "a number in the range of float");
 }
 
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {

@@ -15,8 +15,8 @@ namespace nearmiss {
 /// influence. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
 
-/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number that
-/// a float can be", also for a number that is too large.
+/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number in
+/// the range of float", also for a number that is too large.
 float parse_float(std::string_view text, std::string_view where);
 
 /// A decimal integer without a plus sign; nothing if the text is not an integer in the range of the type.

@@ -95,7 +95,7 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->capture_default_str()
       ->type_name("T");
   command
-      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 is no limit")
+      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
       ->transform(CLI::AsSizeValue(false))
       ->default_str("1G")
       ->type_name("BYTES");

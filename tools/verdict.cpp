@@ -61,7 +61,7 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
   add_bound_option(*command, options->bound);
   command->add_flag(
       "--distance-bound", options->distance_bound,
-      "Add the largest distance that a false positive may have, and 'claimed', or 'wang' if it is wang's "
+      "Add the distance bound of false positives, and 'claimed', or 'wang' if it is wang's bound "
       "because the subject claims none");
   command->add_flag("--rounded", options->rounded,
                     "Add the query as the subject rounds it, by which its answer is judged: 24 numbers");

@@ -59,7 +59,7 @@ struct Campaign {
 /// into different numbers of shards.
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
-/// A line on the shards of a run that are missing or not complete; "" if all are complete.
+/// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.
 std::string missing_shards(const Run& run);
 
 }  // namespace nearmiss

@@ -121,9 +121,9 @@ Proportion proportion_of(const Statistics& statistics, const Signature& signatur
   return {seen, std::max(seen, statistics.queries_of(signature.subject))};
 }
 
-/// The expected number of new signatures in a campaign with `ratio` times as many queries. It is computed
-/// from the number of times that each known signature was seen, with the series of Good and Toulmin 1956, or
-/// with its first term for a larger campaign.
+/// The expected number of new signatures in a campaign with `ratio` times as many queries. This number is
+/// computed from the number of times that each known signature was seen, with the series of Good and Toulmin
+/// 1956, or with its first term for a larger campaign.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -137,7 +137,7 @@ double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
 
 /// Compares signatures with those of the baseline.
 void compare_signatures(const Statistics& now, const Statistics& before, Changes& changes) {
-  // How often each signature was seen before, by what failed and by subject.
+  // The numbers of times that signatures were seen before, by sort of failure and subject.
   std::map<std::pair<Finding::What, std::string>, std::vector<std::uint64_t>> seen_before;
   for (const auto& [signature, count] : before.seen)
     seen_before[{signature.what, signature.subject}].push_back(count);

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The text of each fate's line.
+/// The text of the line for each fate.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};

@@ -58,7 +58,7 @@ struct Fit {
 /// histogram's lowest border are left out. Nothing for fewer than three values of ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
 
-/// For each algorithm the fit over all origins, and the fit for each origin.
+/// For each algorithm, the fit over all origins, and the fit for each single origin.
 std::vector<Fit> fits(const Statistics& statistics);
 
 /// A fit in a line, for people.

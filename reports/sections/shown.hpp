@@ -1,4 +1,5 @@
-// Single queries that a report shows: findings and the farthest false positives. Each becomes a case file too.
+// Single queries that a report shows: findings and the farthest false positives. Each query becomes a case
+// file too.
 #pragma once
 
 #include <cstdint>

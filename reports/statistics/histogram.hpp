@@ -32,7 +32,7 @@ struct Histogram {
   static double border(std::size_t i);
   /// The lower border of the bin that holds this ratio.
   static double lower_border(double ratio);
-  /// The number of ratios that are at least 1. It is exact, because 1 is a border.
+  /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
   /// The bin of the smallest ratio such that a fraction `part` of all ratios, in (0, 1], does not exceed it;
   /// (0, 0) if all bins are empty.

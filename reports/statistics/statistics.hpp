@@ -31,7 +31,7 @@ struct CountsKey {
 /// Counters of a subject, added up over families.
 struct CountsSum {
   Counts counts;
-  bool is_sample = true;  ///< whether all queries were drawn at random; otherwise a rate is no probability
+  bool is_sample = true;  ///< whether all queries were drawn at random; otherwise a rate is not a probability
 
   void add(const std::string& family, const Counts& each);
 };

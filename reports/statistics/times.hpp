@@ -17,7 +17,7 @@
 
 namespace nearmiss {
 
-/// Run times per query of batches of queries, rounded to three significant digits. They are at least 1 ns,
+/// Run times per query of batches of queries, rounded to three significant digits. Times are at least 1 ns,
 /// because a clock cannot distinguish shorter times from an empty subject's.
 class BatchTimes {
  public:

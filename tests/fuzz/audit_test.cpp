@@ -223,8 +223,8 @@ Moving<AuditedRational> leaves(double reach, int position, int velocity) {
   return vector;
 }
 
-// Constants of constraints.hpp in units of u, for B = 1. The residual follows the rules. For the others,
-// Gappa proves smaller bounds than the rules give.
+// Constants of constraints.hpp in units of u, for B = 1. The bound of the residual follows the paper's rules.
+// For the others, Gappa proves smaller bounds than the rules give.
 TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   const double eps = 0x1p-60;
   const auto errors = full_errors(eps, 1.0, 0.0);

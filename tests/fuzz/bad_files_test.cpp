@@ -93,7 +93,7 @@ TEST_F(BadFilesTest, BadPlyIsNamedWithItsLine) {
   expect_refused(".ply", replaced(replaced(text_ply, "uchar int", "int int"), "3 0 1 2", "-1 0 1 2"),
                  ": found a list of -1 numbers in face 1");
   expect_refused(".ply", replaced(ply("ascii", "float", "uchar int", points_of_ply), "0.1", "1e39"),
-                 ":14: found '1e39', expected a number that a float can be");
+                 ":14: found '1e39', expected a number in the range of float");
 }
 
 TEST_F(BadFilesTest, BadBinaryPlyIsNamed) {

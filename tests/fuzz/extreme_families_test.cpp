@@ -103,7 +103,7 @@ TEST(Needle, EdgesAreLongAlongOneAxisAlone) {
     const auto all = edges(query, 0);
     return std::all_of(all.begin(), all.end(), [&](const auto& edge) { return sine(edge, all[0]) < 1e-4; });
   });
-  EXPECT_GT(thin, 360);  // an edge may have no part along that axis
+  EXPECT_GT(thin, 360);  // an edge may be orthogonal to the axis of the needle
 }
 
 TEST(Rigid, EdgesKeepTheirLengths) {

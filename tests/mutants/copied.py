@@ -1,5 +1,5 @@
-"""The copy of the tree that contains the mutants. It has its own C++ files; all other files are
-links."""
+"""The copy of the tree that contains the mutants. The copy has its own C++ files; all other files
+are links."""
 
 import os
 from pathlib import Path

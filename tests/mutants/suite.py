@@ -51,8 +51,8 @@ def commands():
 
 
 def run_tests(group, tests, env, seconds, cpu=None):
-    """Runs tests of a group until one fails. They cannot affect other processes, and their files
-    are removed."""
+    """Runs tests of a group until one fails. The tests cannot affect other processes, and their
+    files are removed."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         words = commands().get(group)
         if words is None:

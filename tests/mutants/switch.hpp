@@ -34,13 +34,14 @@ inline unsigned char* marks() {
 inline const int on = chosen();
 inline unsigned char* const reached = marks();
 
-/// Whether mutant k is switched on. It cannot be used in code that must be evaluated at compile time.
+/// Whether mutant k is switched on. The function cannot be used in code that must be evaluated at compile
+/// time.
 inline bool now(int k) {
   if (reached != nullptr && reached[k] == 0) reached[k] = 1;
   return k == on;
 }
 
-/// The same for constexpr functions. While these are evaluated at compile time, no mutant is on.
+/// The same as `now` for constexpr functions. While these are evaluated at compile time, no mutant is on.
 constexpr bool mutant(int k) { return !std::is_constant_evaluated() && now(k); }
 
 /// The value of an expression; expression templates of Eigen are evaluated.

@@ -82,7 +82,7 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
 TEST(Agreement, AFourthMethodThatLiesOnceIsCaught) {
   const Query lied_about = testing::falling_edge(1, -1);
   std::vector<Method> four(methods().begin(), methods().end());
-  four.push_back({"fourth", "as exact, but for one query", Claim::complete, [&](const Query& query) {
+  four.push_back({"fourth", "as exact, except for one query", Claim::complete, [&](const Query& query) {
                     return Answer{.collision = collides_exactly(query) != (query == lied_about)};
                   }});
   for (const Query& query : {hit, miss, testing::falling_edge(2, 1), testing::falling_edge(0, 1)})

@@ -111,7 +111,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-/// The smallest distance over a grid of times and of points of the primitives. It is an upper bound.
+/// The smallest distance over a grid of times and of points of the primitives. This distance is an upper
+/// bound.
 double sampled_distance(const Query& query) {
   double smallest = std::numeric_limits<double>::infinity();
   constexpr int n = 16;

@@ -27,7 +27,7 @@ TEST(RootParity, TheBoundaryIsACollision) {
   EXPECT_TRUE(root_parity(Query{}).on_boundary);
 }
 
-// Through the triangle and back: F has two roots, both inside.
+// The vertex goes through the triangle and back, so F has two roots, both inside.
 TEST(RootParity, EvenIsMissed) {
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{-0.375, -0.3125, 0.25}, {0, 0, 0}, {1, -1, 0}, {1, 0, 1}},

@@ -19,7 +19,8 @@ std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, P
 std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
-/// The faults of a claim about oracle/. It checks seen <= proven <= claimed, and the error of the witness.
+/// The faults of a claim about oracle/. The function checks seen <= proven <= claimed, and the error of the
+/// witness.
 std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
 
 /// A row of the table: the claimed, the proven and the seen value of a constant, in its unit.

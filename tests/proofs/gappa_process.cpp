@@ -49,8 +49,8 @@ std::pair<std::string, int> output_of(const std::string& command) {
   return {output, pclose(pipe)};
 }
 
-/// Whether Gappa warns of anything other than an unneeded hint or an abandoned search. It may have taken a
-/// hint on trust.
+/// Whether Gappa warns of anything other than an unneeded hint or an abandoned search. In that case, Gappa
+/// may have taken a hint on trust.
 bool has_grave_warning(const std::string& output) {
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);)

@@ -19,7 +19,7 @@ struct ProvenRange {
 /// The enclosures that Gappa printed, by expression.
 std::map<std::string, ProvenRange> bounds_in(const std::string& output);
 
-/// The lemmas of one problem. Each is proven when it is made.
+/// The lemmas of one problem. Each lemma is proven when it is made.
 class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);

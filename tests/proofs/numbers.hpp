@@ -14,7 +14,7 @@ namespace nearmiss::proofs {
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
-/// A double word. It can be divided only by 3, as in `third`.
+/// A double word. Double words can be divided only by 3, as in `third`.
 struct WordNumber {
   certified::DoubleWord x;
 

@@ -20,7 +20,7 @@ struct OracleClaim {
   std::string method;  ///< "Gappa", or the argument that replaces it
   /// The least value that is proven to be enough, at most `claimed`.
   std::function<double()> proven;
-  /// The exact error at given inputs, rounded to double. It is at most the proven value.
+  /// The exact error at given inputs, rounded to double. This error is at most the proven value.
   std::function<double(const Inputs&)> seen;
   /// Inputs with which a search for a witness begins.
   std::function<Inputs(Random&)> draw;

@@ -144,7 +144,8 @@ TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
 }
 
 // constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. The square of the largest s · (d × e)
-// over signs s is d·d (3 e·e - (s·e)²). It is convex in e, so checking the corners of the cube is enough.
+// over signs s is d·d (3 e·e - (s·e)²). This square is convex in e, so checking the corners of the cube is
+// enough.
 TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
   const auto corner = [](int i) {
     return Vector3<double>((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);

@@ -52,7 +52,7 @@ struct Branch {
   bool outcome;
 };
 
-/// The inputs of expressions, and the comparisons between the expressions. It must outlive their last
+/// The inputs of expressions, and the comparisons between the expressions. The trace must outlive their last
 /// comparison, and cannot be moved.
 class Trace {
  public:

@@ -1,4 +1,4 @@
-"""Changes values of reports, and finds out whether a check notices."""
+"""Changes values of reports, and finds out whether a check notices the change."""
 
 import contextlib
 

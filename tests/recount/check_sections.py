@@ -153,8 +153,8 @@ def _check_fits(comparison, where, found, expected):
 def fits(report):
     """The fits of each algorithm's farthest distance as a power of epsilon.
 
-    The fits are over all families ("") and by family. They use the report's largest ratios, which
-    are checked elsewhere."""
+    The fits are over all families ("") and by family. The fits use the report's largest ratios,
+    which are checked elsewhere."""
     lines = []
     families = sorted(
         {

@@ -41,8 +41,8 @@ class Units:
     def claimed(self, subject):
         """The bound that a subject claims; None if it claims no bound proportional to B.
 
-        It is the quotient of the subject's bound and wang's for the same queries, times wang's
-        bound."""
+        The bound is computed as the quotient of the subject's and wang's bounds for the same
+        queries, times wang's bound."""
         if subject not in self._known:
             self._known[subject] = self._measured(subject)
         return self._known[subject]

@@ -93,7 +93,7 @@ class Tally:
         """The first and the last bin that may contain the ratio that a fraction `part` of all does
         not exceed.
 
-        It is None without false positives."""
+        The result is None without false positives."""
         if self.false_positives == 0:
             return None
         place = max(int(np.ceil(part * self.false_positives)), 1) - 1

@@ -124,7 +124,7 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[1].origin, "directed search");
   EXPECT_EQ(all[2].origin, families.begin()->first.family);
   for (const Fit& each : all) {
-    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² has a term in ε beside that in ε^½
+    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² also has a term in ε
     EXPECT_EQ(each.precisions, 3);
   }
 }

@@ -63,8 +63,8 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(timeless_report("merged.db"), report);
 
   int kills = 0;
-  // The times between start and signal cover more than the interval between two saves. They grow until the
-  // campaign is complete, even on a slow machine.
+  // The times between start and signal cover more than the interval between two saves. These times grow until
+  // the campaign is complete, even on a slow machine.
   while (run_until_a_signal(std::chrono::milliseconds(137 * kills % 1000 + 20 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
