@@ -254,7 +254,7 @@ void add_plan_options(CLI::App& command, Options& options) {
       "Also ask the oracle about all pairs that are left out; exit code 1 if a collision is lost");
   command
       .add_option("--export", options.export_to,
-                  "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
+                  "Write the pairs that subjects are asked about to FILE.vt and FILE.ee, for nearmiss replay")
       ->type_name("FILE");
 }
 
