@@ -201,7 +201,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const Campaign two = with({{a, 40}});
   EXPECT_FALSE(is_new(10, two));
   EXPECT_TRUE(is_new(11, two));
-  const Campaign three = with({{a, 40}, {c, 1}});  // signature b, which no longer occurs, is compared too
+  const Campaign three = with({{a, 40}, {c, 1}});  // signature c, which no longer occurs, is compared too
   EXPECT_FALSE(is_new(11, three));
   EXPECT_TRUE(is_new(12, three));
 }
