@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Builds the libFuzzer targets as OSS-Fuzz and ClusterFuzzLite have it: from the current folder, with the compilers and
-# flags of the environment, into $OUT, with what goes beside each. Arguments name targets; without one it is all.
+# Builds the libFuzzer targets the way OSS-Fuzz and ClusterFuzzLite expect: from the current folder, with the
+# compilers and flags of the environment. $OUT receives each target, its seeds, its options, its dictionary
+# and its libraries. Arguments name targets; without arguments, all are built.
 set -euo pipefail
 
-# Ubuntu's libraries are built with libstdc++, which a program must share. What a newer clang warns of is no error here.
+# Ubuntu's libraries are built with libstdc++, so a program that links them must use it too. Warnings of a
+# newer clang must not stop the build, hence -w.
 CXXFLAGS="${CXXFLAGS//-stdlib=libc++/} -w"
 
 build=$WORK/build
@@ -26,7 +28,7 @@ for target in "$@"; do
     cp "fuzz/libfuzzer/$target.dict" "$OUT/$name.dict"
   fi
   cp "fuzz/libfuzzer/${kind}_target.options" "$OUT/$name.options"
-  # Where the target runs no library is certain to be there but those of glibc.
+  # The machine that runs the target has the libraries of glibc for certain, and no others.
   ldd "$build/$name" | awk '$2 == "=>" && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
     xargs cp -Lt "$OUT/lib"
 done

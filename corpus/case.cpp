@@ -36,7 +36,7 @@ Line split_line(std::string_view text) {
 
 std::string to_text(const Case& each) {
   std::string text;
-  std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // an empty last line counts
+  std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // the '\n' keeps an empty last line
   for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", line);
   text += fmt::format("kind {}\n", short_name(each.query.kind));
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);

@@ -10,13 +10,13 @@
 
 namespace nearmiss {
 
-/// A query, with its origin and the reason to keep it.
+/// A query with its origin and the reason to keep it.
 struct Case {
-  std::string name;  ///< the file that it comes from, with the line if the file has several cases
+  std::string name;  ///< source file, with the line if the file has several cases
   Query query;
-  std::optional<bool> truth;  ///< whether it is a collision, if that is recorded
-  std::string why;            ///< why it is kept; may have several lines
-  std::string provenance;     ///< its origin, such as "planted:1:42" (family, seed, index)
+  std::optional<bool> truth;  ///< whether the query is a collision, if that is recorded
+  std::string why;            ///< why the query is kept; may have several lines
+  std::string provenance;     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
 /// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three hex floats;

@@ -24,7 +24,7 @@ void replace_file(const std::filesystem::path& file, std::string_view text) {
   bool written = false;
   const auto status = std::filesystem::symlink_status(file, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    written = write(file, text);  // a link, pipe or device: written through, never replaced
+    written = write(file, text);  // a link, pipe or device is written through, never replaced
   } else {
     const std::filesystem::path part = file.string() + ".part";
     written = write(part, text);

@@ -1,4 +1,4 @@
-// Writing a file whole or not at all.
+// Writes a file whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// Replaces the file by this text: no reader ever sees half of it, and a full disk leaves the old file. A link or a
-/// device (/dev/stdout) is written through. Throws Error.
+/// Replaces the file's content by this text. No reader ever sees half of it, and a full disk leaves the old
+/// file unchanged. A link or a device (/dev/stdout) is written through. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace nearmiss

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view separators = " \t\r,";
 
-/// The next word of a line, cut off its front; empty at the end.
+/// Removes the first word from `rest` and returns it; empty at the end of the line.
 std::string_view next_word(std::string_view& rest) {
   const auto first = rest.find_first_not_of(separators);
   if (first == std::string_view::npos) return rest = {};
@@ -34,14 +34,22 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
   const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
   if (hex) digits.remove_prefix(2);
+<<<<<<< HEAD
   // from_chars takes a sign of its own, which has been read already, and "inf" and "nan".
   if (digits.find_first_of(".0123456789abcdefABCDEF") != 0) throw fail();
+=======
+  // from_chars would also accept a second sign, "inf" and "nan".
+  const bool starts_well =
+      !digits.empty() && (digits[0] == '.' || std::isxdigit(static_cast<unsigned char>(digits[0])));
+  if (!starts_well) throw fail();
+>>>>>>> english-b
   Number value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             hex ? std::chars_format::hex : std::chars_format::general);
   if (end != digits.data() + digits.size()) throw fail();
   if (error == std::errc::result_out_of_range) {
-    // Too large, or so small that it rounds to 0: only the former is refused. strtod and strtof tell them apart.
+    // The number is too large, or so small that it rounds to 0. Only the former is refused; strtod and strtof
+    // distinguish the two.
     const std::string again = std::string(hex ? "0x" : "").append(digits);
     if constexpr (std::is_same_v<Number, float>)
       value = std::strtof(again.c_str(), nullptr);
@@ -61,7 +69,7 @@ double parse_number(std::string_view text, std::string_view where) {
 }
 
 float parse_float(std::string_view text, std::string_view where) {
-  return parse<float>(text, where, "a number that a float can be");
+  return parse<float>(text, where, "a number in the range of float");
 }
 
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {

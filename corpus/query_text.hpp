@@ -11,15 +11,15 @@
 
 namespace nearmiss {
 
-/// A finite number, decimal or C hex float ("0x1.8p-3"), rounded to nearest where it is not a double; nothing
-/// is taken from the locale. Throws Error "<where>: found '...', expected a finite number".
+/// A finite number, decimal or C hex float ("0x1.8p-3"), rounded to the nearest double. The locale has no
+/// influence. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
 
-/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number that
-/// a float can be", also for a number that is too large.
+/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number in
+/// the range of float", also for a number that is too large.
 float parse_float(std::string_view text, std::string_view where);
 
-/// A decimal integer without a plus sign; nothing if the text is none, or is outside the range of the type.
+/// A decimal integer without a plus sign; nothing if the text is not an integer in the range of the type.
 template <class Integer>
 std::optional<Integer> parse_integer(std::string_view text) {
   Integer value{};
@@ -32,7 +32,7 @@ std::optional<Integer> parse_integer(std::string_view text) {
 /// Throws Error that starts with `where`.
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where);
 
-/// The shortest C hex float that is this double.
+/// The shortest C hex float with this value.
 std::string to_hex(double value);
 
 /// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1. parse_line reads it back exactly.

@@ -10,13 +10,14 @@
 
 namespace nearmiss {
 
-/// Receives one case at a time, so that a file may be of any length.
+/// Receives one case at a time, so that a file may have any length.
 using CaseSink = std::function<void(Case&&)>;
 
-/// Reads a file, or all files below a folder in the order of their paths. The name of a file gives its format:
+/// Reads a file, or all files below a folder in the order of their paths. The name of a file determines its
+/// format:
 ///  - *.case: one case (case.hpp);
 ///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the truth.
-///    The folder, edge-edge or vertex-face, gives the kind. A coordinate must be a double exactly;
+///    The folder, edge-edge or vertex-face, determines the kind. Every coordinate must be exactly a double;
 ///  - *.vt, *.ee: one query a line, 24 numbers; '#' starts a comment.
 /// Other files in a folder are ignored. Throws Error with file and line, also for a file that is empty, unreadable or
 /// of another format, and for a folder without a case.

@@ -18,8 +18,9 @@ Kind kind_of_folder(const std::filesystem::path& path) {
   const auto folder = std::filesystem::absolute(path).parent_path().filename();
   if (folder == "vertex-face") return Kind::vertex_triangle;
   if (folder == "edge-edge") return Kind::edge_edge;
-  throw Error(fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which says the kind",
-                          path.string(), folder.string()));
+  throw Error(
+      fmt::format("{}: found folder '{}', expected vertex-face or edge-edge, which determines the kind",
+                  path.string(), folder.string()));
 }
 
 std::vector<std::string> split_commas(const std::string& line) {
@@ -33,7 +34,7 @@ std::vector<std::string> split_commas(const std::string& line) {
   return words;
 }
 
-/// numerator / denominator, which must be a double exactly.
+/// numerator / denominator, which must be exactly a double.
 double exact_quotient(const std::string& numerator, const std::string& denominator,
                       const std::string& where) {
   mpz_class n, d;
@@ -73,7 +74,7 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
       each.truth = truth;
     }
     if (each.truth != truth)
-      throw Error(fmt::format("{}: found another truth than in the query's first row", where));
+      throw Error(fmt::format("{}: found a truth that differs from the query's first row", where));
     for (std::size_t k = 0; k < 3; ++k)
       each.query.x[3 * row + k] = exact_quotient(words[2 * k], words[2 * k + 1], where);
     if (++row == rows) {
@@ -81,7 +82,7 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
       sink(std::exchange(each, {}));
     }
   }
-  if (row != 0) throw Error(fmt::format("{}:{}: found {} rows of a query, expected 8", file, number, row));
+  if (row != 0) throw Error(fmt::format("{}:{}: found {} rows for a query, expected 8", file, number, row));
   if (number == 0) throw Error(fmt::format("{}: found no query", file));
 }
 

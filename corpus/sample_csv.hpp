@@ -8,7 +8,7 @@
 
 namespace nearmiss {
 
-/// See read_cases. The folder in `path` gives the kind; errors name `path`.
+/// See read_cases. The folder in `path` determines the kind; errors name `path`.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
 }  // namespace nearmiss

@@ -104,7 +104,8 @@ void add_counter(CsvColumns& columns, const Counter<Counts, SubjectTimes>& /*cou
   add_time_quantile(columns, "q99_ns", 0.99);
 }
 
-/// distances.csv has the histogram; the farthest false positives are case files.
+/// These members have no column: distances.csv has the histogram, and case files have the farthest false
+/// positives.
 template <class Member>
 void add_counter(CsvColumns& /*columns*/, const Counter<Counts, Member>& /*counter*/) {}
 

@@ -13,8 +13,8 @@ std::string statistics_csv(const Statistics& statistics);
 /// A row for each non-empty bin of the distance histograms.
 std::string distances_csv(const Statistics& statistics);
 
-/// A row for each finding. "shrunk" and "query" are 24 hex floats each, as in a query file; "seen" is the number of times
-/// that its signature was seen.
+/// A row for each finding. "shrunk" and "query" are 24 hex floats each, as in a query file; "seen" is the
+/// number of findings with the same signature.
 std::string findings_csv(const Campaign& campaign);
 
 }  // namespace nearmiss

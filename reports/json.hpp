@@ -14,8 +14,8 @@ namespace nearmiss {
 /// (sections/sweep.hpp); and other fields.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
-/// The runs: their facts, the command that repeats each, the number of cases that it decided, its missing shards,
-/// when it began, the run time of all shards together, and each environment once.
+/// The runs. Each run has its facts, the command that repeats it, the number of decided cases, its missing
+/// shards, when it began, the run time of all shards together, and each environment once.
 nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 }  // namespace nearmiss

@@ -30,7 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The moment at which the page shows a query: its first contact, or without contact when it is closest to one.
+/// The time at which the page shows a query: at the first contact, or without contact when the primitives are
+/// closest.
 double moment(const Query& query) {
   const auto contact = earliest_time(query, 1e-6);
   return contact ? contact->enclosure.lo : closest_time(query);
@@ -191,8 +192,9 @@ void write_report(const Campaign& campaign, const ReportContext& context, const 
   const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
   if (fs::exists(whole) &&
       !(fs::is_directory(whole) && (fs::is_empty(whole) || fs::exists(whole / "report.json"))))
-    throw Error(fmt::format(
-        "{}: found something that is no report, expected a new folder or an earlier report", whole.string()));
+    throw Error(
+        fmt::format("{}: found something that is not a report, expected a new folder or an earlier report",
+                    whole.string()));
   const fs::path part = whole.string() + ".part";
   try {
     fs::remove_all(part);

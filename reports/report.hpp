@@ -13,11 +13,11 @@
 
 namespace nearmiss {
 
-/// What a report shows besides its campaign.
+/// What a report shows in addition to its campaign.
 struct ReportContext {
   std::optional<Campaign> baseline = {};
-  std::vector<Hunt> hunts = {};  ///< for known defects
-  std::string audit = {};        ///< of rounding constants (audit_table.hpp)
+  std::vector<Hunt> hunts = {};  ///< hunts for known defects
+  std::string audit = {};        ///< audit of rounding constants (audit_table.hpp)
   std::vector<Environment> environments = {};
 };
 
@@ -30,7 +30,7 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 ///  - index.html: self-contained, opens offline; it contains report.json and only draws it;
 ///  - report.json;
 ///  - statistics.csv, distances.csv and findings.csv, with all counters and findings;
-///  - cases/: findings, shrunk and as they were found, as *.case files for nearmiss replay;
+///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
 /// An earlier report is replaced. Throws Error if the folder is something else or cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,

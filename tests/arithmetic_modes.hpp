@@ -1,4 +1,4 @@
-// Arithmetic that is not plain.
+// Modes of the processor's arithmetic that differ from the default.
 #pragma once
 
 #include <pmmintrin.h>
@@ -8,7 +8,7 @@
 
 namespace nearmiss::testing {
 
-/// A mode of the processor for a scope; plain arithmetic comes back.
+/// Sets a mode of the processor for a scope, and restores plain arithmetic at its end.
 class HostileArithmetic {
  public:
   explicit HostileArithmetic(int rounding, bool flushes = false) {

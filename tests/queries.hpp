@@ -1,4 +1,4 @@
-// Queries with a truth that the eye can check.
+// Queries whose truth is obvious.
 #pragma once
 
 #include <initializer_list>

@@ -1,4 +1,4 @@
-// Random queries for tests, and what repeats one of them.
+// Random queries for tests, and the command that repeats a query.
 #pragma once
 
 #include <sstream>
@@ -9,8 +9,8 @@
 
 namespace nearmiss::testing {
 
-/// "case 7: echo '0x1p+0 ...' | nearmiss oracle --kind vt -": the number of a random case, and the command that asks
-/// about its query.
+/// "case 7: echo '0x1p+0 ...' | nearmiss oracle --kind vt -": the number of a random case, and a command that
+/// decides its query.
 inline std::string repeat(std::size_t index, const Query& query) {
   std::ostringstream line;
   line << "case " << index << ": echo '" << std::hexfloat;
@@ -19,17 +19,17 @@ inline std::string repeat(std::size_t index, const Query& query) {
   return line.str();
 }
 
-/// The kinds in turn.
+/// Both kinds in turn.
 inline Kind kind_of_case(std::size_t index) { return kinds[index % kinds.size()]; }
 
-/// Coordinates are integers in [-largest, largest].
+/// A query whose coordinates are integers in [-largest, largest].
 inline Query integer_query(Random& random, Kind kind, int largest) {
   Query query{.kind = kind};
   for (double& c : query.x) c = random.integer(-largest, largest);
   return query;
 }
 
-/// Coordinates are uniform in [-1, 1).
+/// A query whose coordinates are uniform in [-1, 1).
 inline Query uniform_query(Random& random, Kind kind) {
   Query query{.kind = kind};
   for (double& c : query.x) c = random.uniform(-1, 1);

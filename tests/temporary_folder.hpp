@@ -1,4 +1,4 @@
-// A folder that a test may fill, and that is gone afterwards.
+// A folder for the files of a test, which is removed afterwards.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -39,7 +39,7 @@ void add_jobs_option(CLI::App& command, int& jobs) {
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
   command
       .add_option("--seed", seed,
-                  "Seed of the random queries; a query depends on nothing but its family, seed and number")
+                  "Seed of the random queries; a query depends only on its family, seed and number")
       ->capture_default_str()
       ->type_name("S");
 }
@@ -59,8 +59,9 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
       ->type_name("N");
   command.add_flag(
       "--compare-near-bounds", comparison.near_bounds,
-      fmt::format("Also compare where the filter would not decide with error bounds {} times as large",
-                  Comparison::caution));
+      fmt::format(
+          "Also compare queries that the filter could not decide if its error bounds were multiplied by {}",
+          Comparison::caution));
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {
@@ -94,7 +95,7 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->capture_default_str()
       ->type_name("T");
   command
-      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 is no limit")
+      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
       ->transform(CLI::AsSizeValue(false))
       ->default_str("1G")
       ->type_name("BYTES");

@@ -40,12 +40,12 @@ struct PluginLimitOptions {
   void add_to(CLI::App& command);
 };
 
-/// --kind vt|ee and FILE|-, one query a line.
+/// --kind vt|ee and FILE|-: the kind, and the file with one query a line.
 struct QueryInput {
   std::string kind, file = "-";
 
   void add_to(CLI::App& command);
-  /// Passes every query on, in order. Throws Error.
+  /// Passes every query to `sink`, in order. Throws Error.
   void read(const std::function<void(const Query&)>& sink) const;
 };
 

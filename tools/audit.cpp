@@ -1,4 +1,5 @@
-// nearmiss audit: the paper's rounding constants against what its rules give for our code, and the largest errors seen.
+// nearmiss audit: compares the paper's rounding constants with what its rules give for our code, and with the
+// largest errors seen.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -94,7 +95,7 @@ void add_audit(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "audit", "Derive the paper's rounding constants from our code, and search for the largest errors");
-  command->add_option("--queries", options->plan.queries, "Queries of each family that are read")
+  command->add_option("--queries", options->plan.queries, "Number of queries of each family")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--steps", options->plan.steps, "Steps of the hill climb for each constant")

@@ -1,4 +1,4 @@
-// nearmiss bench: the time that subjects take.
+// nearmiss bench: measures the run time of subjects.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,10 +31,10 @@ struct Options {
 
 struct Input {
   std::string name;
-  Queries queries;  ///< those that pass the box test
+  Queries queries;  ///< queries that pass the box test
 };
 
-/// Times of one subject on one input in ns per query, one for each run.
+/// Times of one subject on one input in ns per query, one entry for each run.
 using RunTimes = std::vector<double>;
 
 double median(RunTimes times) {
@@ -82,7 +82,7 @@ double time_once(const Subject& subject, const std::vector<Query>& queries, std:
   return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
 }
 
-/// All subjects in turn, run after run, so that noise of the machine falls on all of them alike.
+/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
 std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs) {
   std::vector<RunTimes> times(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
@@ -99,7 +99,7 @@ double median_ratio(const RunTimes& times, const RunTimes& first) {
   return median(ratios);
 }
 
-/// The runs of both kinds together, each kind weighted by its number of queries.
+/// Times of both kinds together, each kind weighted by its number of queries.
 std::vector<RunTimes> together(const std::vector<std::vector<RunTimes>>& by_kind,
                                const std::vector<double>& weights) {
   std::vector<RunTimes> sum(by_kind.front().size(), RunTimes(by_kind.front().front().size(), 0));
@@ -139,7 +139,7 @@ void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const I
                        {"ratio", median_ratio(times[s], times.front())}});
 }
 
-/// RunTimes, prints and records one input: each of its kinds, then both together.
+/// Times, prints and records one input: each of its kinds, then both together.
 void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann::ordered_json& results) {
   std::vector<std::vector<RunTimes>> by_kind;
   std::vector<double> weights;
@@ -155,7 +155,7 @@ void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann
 }
 
 void run(const Options& options) {
-  Subjects subjects;  // plug-ins run in this process too, because a process of their own costs time
+  Subjects subjects;  // plug-ins run in this process too, because a separate process would cost time
   for (const std::string& name : options.subjects) subjects.push_back(make_any_subject(name));
   const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();

@@ -1,4 +1,4 @@
-// nearmiss family: the queries of a family, as text.
+// nearmiss family: prints the queries of a family as text.
 #include "fuzz/families/families.hpp"
 
 #include <fmt/format.h>
@@ -31,10 +31,11 @@ void run(const Options& options) {
 }  // namespace
 
 void add_family(CLI::App& app, int& /*exit_code*/) {
-  constexpr auto most = std::uint64_t{1} << 62;  // of first and of count: their sum does not overflow
+  constexpr auto most = std::uint64_t{1} << 62;  // of `first` and `count` each, so that the sum fits
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "family", "Print queries of a family, one a line, as nearmiss oracle and nearmiss verdict read them");
+      "family",
+      "Print queries of a family, one a line, in the format that nearmiss oracle and nearmiss verdict read");
   command
       ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
       ->required();

@@ -31,7 +31,7 @@ struct Options {
   RecordOptions record;
 };
 
-/// The fraction of the campaign that is done: of its cases, or of its time if that ends sooner.
+/// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
 std::optional<double> part_done(const CampaignProgress& now, const CampaignPlan& plan) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
@@ -54,7 +54,7 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
   return line + ", " + show_duration(left) + " left";
 }
 
-/// The families that --family, --sweep, --mesh and --search ask for.
+/// The families chosen with --family, --sweep, --mesh and --search.
 std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
@@ -79,8 +79,8 @@ std::string list_of_families() {
   return lines;
 }
 
-/// Everything that the campaign's results depend on. Its time limit is left out: it changes the number of rounds, not
-/// what a round gives.
+/// Everything that the campaign's results depend on. The time limit is left out, because it changes the
+/// number of rounds, not the result of a round.
 RunInfo info_of(const Options& options, const CampaignPlan& plan) {
   RunInfo info = options.trial.run_info("fuzz");
   std::string& again = info["again"];
@@ -170,7 +170,7 @@ void add_common(CLI::App& command, Options& options) {
       ->needs("--db");
 }
 
-/// The named scalars, and those of 24, 32, ... 128 bits.
+/// The scalars with names, and the scalars of 24, 32, ... 128 bits.
 std::vector<std::string> default_scalars() {
   std::vector<std::string> names;
   for (const ladder::Scalar& scalar : named_scalars()) names.push_back(scalar.name);

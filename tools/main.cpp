@@ -11,7 +11,7 @@
 namespace {
 
 constexpr const char* about =
-    "nearmiss puts continuous collision detectors (CCDs) on trial: it runs them beside an exact oracle, "
+    "nearmiss puts continuous collision detectors (CCDs) on trial: it compares them with an exact oracle, "
     "hunts for\n"
     "collisions that they miss, and measures how far from contact their false alarms are.\n\n"
     "Try: nearmiss fuzz --subject basic,wang --cases 100000";
@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
         stderr,
         "nearmiss: found arithmetic that %s, expected rounding to nearest with subnormals; changed to that\n",
         odd.c_str());
-  // Set before any thread starts, because a thread inherits the arithmetic of the one that starts it.
+  // The arithmetic is set before any thread starts, because a thread inherits it from the thread that starts
+  // it.
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);

@@ -1,4 +1,4 @@
-// nearmiss merge: several stores into one.
+// nearmiss merge: merges several stores into one.
 #include <fmt/format.h>
 
 #include "reports/sections/summary.hpp"

@@ -44,7 +44,8 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// The answer that trials use, that of one method, or that of all. Throws Disagreement if all are asked and differ.
+/// The answer that trials use, the answer of one method, or the answer of all. Throws Disagreement if all
+/// methods are asked and differ.
 bool collides_by(const std::string& method, const Query& query) {
   if (method == filtered) return collides(query);
   if (method == all) {
@@ -66,13 +67,14 @@ std::vector<std::string> choices() {
 
 std::string help_on_methods() {
   std::string help =
-      fmt::format("{}: the answer that trials use: the filter's, or that of {} if the filter is unsure; ",
+      fmt::format("{}: the answer that trials use, from the filter or, if the filter is unsure, from {}; ",
                   filtered, methods().front().name);
   for (const Method& method : methods())
     help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
-  return help +
-         fmt::format("{}: all of these, compared. A parity method takes an even number of roots for none",
-                     all);
+  return help + fmt::format(
+                    "{}: all of these, compared. A parity method cannot distinguish an even number of roots "
+                    "from no root",
+                    all);
 }
 
 std::string answer(const Query& query, const Options& options) {

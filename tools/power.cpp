@@ -1,4 +1,4 @@
-// nearmiss power: how soon each way to hunt finds each of the known defects.
+// nearmiss power: measures how soon each way to hunt finds each of the known defects.
 #include <fmt/format.h>
 
 #include <array>
@@ -81,7 +81,7 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   return result;
 }
 
-/// "0.12 s  12,345", with a star for a refuted bound; "-" for nothing.
+/// "0.12 s  12,345", with a star for a refuted bound; "-" if nothing was found.
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const bool bound = *hunt.failure == name(Finding::What::refuted_bound);

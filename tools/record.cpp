@@ -69,7 +69,7 @@ Record::~Record() {
   std::filesystem::remove(options_.db, ignored);
 }
 
-/// Loads the run in the store as the beginning of this one. Throws Error if it is another run.
+/// Loads the run in the store as the beginning of this run. Throws Error if the store has another run.
 void Record::go_on() {
   store_.emplace(options_.db);
   saved_ = true;
@@ -77,16 +77,24 @@ void Record::go_on() {
   Run& run = before.runs.at(0);
   const auto expect = [&](const std::string& what, const std::string& found, const std::string& expected) {
     if (found != expected)
-      throw Error(fmt::format("{}: found a run with {} '{}', expected '{}' to go on with",
-                              options_.db.string(), what, found, expected));
+      throw Error(fmt::format("{}: found a run with {} '{}', expected '{}' to continue", options_.db.string(),
+                              what, found, expected));
   };
   for (const RunInfo* each : {&info_, &run.info})
     for (const auto& [name, value] : *each)
+<<<<<<< HEAD
       if (name != "again") expect(name, run.info[name], info_[name]);  // repeats the others
   const auto name = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
   expect("shard", name(run.shards.at(0)), name(shard_));
   shard_ = run.shards.at(0);
   seconds_before_ = shard_.seconds;
+=======
+      if (name != "again") expect(name, run.info[name], info_[name]);  // "again" repeats the other facts
+  const auto shard = [](const Shard& part) { return fmt::format("{}/{}", part.index, part.count); };
+  expect("shard", shard(run.shards.at(0)), shard(part_));
+  part_ = run.shards.at(0);
+  seconds_before_ = part_.seconds;
+>>>>>>> english-b
   statistics_ = std::move(before.statistics);
   findings_ = std::move(run.findings);
   saved_findings_ = findings_.size();

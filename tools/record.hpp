@@ -1,4 +1,4 @@
-// Saving and reporting what the commands that hold trials (fuzz, replay, scene) find.
+// Saves and reports the findings of the commands that run trials (fuzz, replay, scene).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -27,11 +27,11 @@ struct RecordOptions {
 /// The part of a run's description that all commands share: this version, and the command.
 RunInfo run_info(const std::string& command);
 
-/// Keeps what a command finds, saves it in a store if there is one, and reports it at the end.
+/// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
 class Record {
  public:
-  /// Throws Error, before any work is done, if a file cannot be made, or holds another run than the one to continue.
-  Record(RecordOptions options, RunInfo info, const Shard& shard = {});
+  /// Throws Error, before any work is done, if a file cannot be made, or if the store has another run.
+  Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
   /// Removes the store if nothing was ever saved in it.
@@ -41,7 +41,7 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result; saves at intervals. `rounds`: the rounds of a campaign that are done.
+  /// Adds a result; saves at intervals. `rounds` is the number of finished rounds of a campaign.
   void add(TrialResult&& result, std::uint64_t rounds = 0);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);

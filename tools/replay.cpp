@@ -1,4 +1,4 @@
-// nearmiss replay: subjects decide recorded cases.
+// nearmiss replay: lets subjects decide recorded cases.
 #include <fmt/format.h>
 
 #include "corpus/readers.hpp"
@@ -24,7 +24,8 @@ struct Options {
   RecordOptions record;
 };
 
-/// The name under which a case is counted: its folder, "NAME/", or the folder above edge-edge or vertex-face.
+/// The family under which a case is counted: the name of its folder, "NAME/". For edge-edge and vertex-face,
+/// it is the folder above.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();

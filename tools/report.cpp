@@ -1,4 +1,4 @@
-// nearmiss report: a page for people, data for scripts.
+// nearmiss report: writes a page for people and data for scripts.
 #include "reports/report.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ struct Options {
   std::filesystem::path folder, baseline, power, audit, environments;
 };
 
-/// Writes the report; its exit code.
+/// Writes the report, and returns the exit code.
 int run(const Options& options) {
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context;

@@ -44,8 +44,8 @@ Scene open_scene(const std::vector<std::string>& arguments) {
   if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
   if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
   if (std::error_code error; !fs::exists(arguments[0], error))
-    throw Error(fmt::format("{}: found neither a folder nor a scene of that name (see nearmiss scene --list)",
-                            arguments[0]));
+    throw Error(fmt::format(
+        "{}: found neither a folder nor a scene with this name (see nearmiss scene --list)", arguments[0]));
   return scene_of_folder(arguments[0]);
 }
 
@@ -68,7 +68,7 @@ class Export {
       files_[kind] = {name, std::ofstream(name)};
     }
   }
-  /// Writes the pairs of a step that are asked.
+  /// Writes the pairs of a step that subjects are asked about.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, const std::atomic<bool>& stop) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
@@ -90,7 +90,7 @@ class Export {
   std::map<Kind, std::pair<std::string, std::ofstream>> files_;
 };
 
-/// The options that the results of a run depend on, and the command that repeats it.
+/// The options that the results of a run depend on, and the command that repeats the run.
 RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);
@@ -110,8 +110,8 @@ RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
   return info;
 }
 
-/// Shows the progress of a scene: each step is asked about and, if that is wanted, verified, which takes most of the
-/// time.
+/// Shows the progress of a scene. In each step, subjects are asked; with --verify-plan, the plan is then
+/// verified, which takes most of the time.
 class SceneProgress {
  public:
   SceneProgress(const Options& options, std::size_t steps, const Record& record)
@@ -143,7 +143,7 @@ class SceneProgress {
 
 struct Verified {
   Verification verification;
-  std::chrono::duration<double> asking{};  ///< the time spent on following the plan
+  std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };
 
 /// Goes through all steps of a scene.
@@ -196,7 +196,7 @@ int run(Options options) {
   Record record(options.record, run_info(options, all.bound), {.environment = plugin_paths});
   const Verified verified = hold_trials(options, scene, all.subjects, record);
   fmt::print("{}", describe(scene));
-  if (record.statistics().counts.empty()) fmt::print("nothing had to be asked: the plan decides all pairs\n");
+  if (record.statistics().counts.empty()) fmt::print("no subject was asked: the plan decides all pairs\n");
   const int code = record.finish(interrupted(), !interrupted());
   if (!options.verify_plan || interrupted()) return code;
   const double asking = verified.asking.count();
@@ -246,15 +246,15 @@ void add_plan_options(CLI::App& command, Options& options) {
                   "rest or in translation relative to each other")
       ->check(CLI::IsMember({"nothing", "boxes", "all"}))
       ->capture_default_str();
-  command.add_flag(
-      "--plan-only", options.plan_only,
-      "Show only which pairs are left out and why, and what wang and the oracle need for the others");
+  command.add_flag("--plan-only", options.plan_only,
+                   "Show only which pairs are left out and why, and how much work wang and the oracle have "
+                   "with the others");
   command.add_flag(
       "--verify-plan", options.verify_plan,
-      "Ask the oracle about everything that is left out too; exit code 1 if a collision is lost");
+      "Also ask the oracle about all pairs that are left out; exit code 1 if a collision is lost");
   command
       .add_option("--export", options.export_to,
-                  "Write the pairs that are asked to FILE.vt and FILE.ee, for nearmiss replay")
+                  "Write the pairs that subjects are asked about to FILE.vt and FILE.ee, for nearmiss replay")
       ->type_name("FILE");
 }
 

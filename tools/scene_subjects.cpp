@@ -18,7 +18,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The largest bound B (§5) of the pairs whose boxes meet, over all steps, rounded up to four digits.
+/// The largest bound B (§5) of all pairs whose boxes meet, over all steps, rounded up to four digits.
 double scene_bound(const Scene& scene) {
   double largest = 0;
   for (std::size_t step = 0; step < scene.steps(); ++step) {
@@ -74,8 +74,7 @@ void keep_cheapest_within(const std::string& thickness, const Scene& scene, Leav
                                   : (each.claimed <= limit ? "" : "more than the thickness")});
   fmt::print("contact thickness {:g}\n{}\n", limit, columns(rows, 1));
   if (best == nullptr)
-    throw Error(
-        fmt::format("--thickness: found {}, expected at least what one of the subjects claims", thickness));
+    throw Error(fmt::format("--thickness: found {}, which is less than every subject claims", thickness));
   std::erase_if(subjects, [&](const auto& each) { return each->name() != best->subject; });
 }
 

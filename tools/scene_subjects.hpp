@@ -13,16 +13,17 @@ namespace nearmiss::tools {
 
 struct SceneSubjects {
   Subjects subjects;
-  std::optional<double> bound = {};  ///< the scene's, if a subject needs it
+  std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it
 };
 
-/// The subjects with each of the bounds "pair", "scene" or a number: NAME uses each pair's own bound, NAME@scene the
-/// largest of the scene's pairs, NAME@B the number. Throws Error.
+/// Makes the subjects with each of the bounds "pair", "scene" or a number. NAME uses each pair's own bound,
+/// NAME@scene the largest bound of the scene's pairs, and NAME@B the number. Throws Error.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene);
 
 /// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of contact;
-/// prints the claim and the cost of each subject. Throws Error if there is none, or the thickness is no number.
+/// prints the claim and the cost of each subject. Throws Error if there is no such subject, or if the
+/// thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
                           Subjects& subjects);
 

@@ -1,4 +1,4 @@
-// nearmiss shrink: the simplest query that fails in the same way.
+// nearmiss shrink: finds the simplest query that fails in the same way.
 #include "fuzz/trial/shrink.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ Case read_one(const std::filesystem::path& path) {
   return cases.front();
 }
 
-/// How a query fails. The oracle comes first, because it judges the subject.
+/// How a query fails. The oracle is checked first, because it judges the subject.
 Finding find_failure(const Case& each, const Subject& subject) {
   std::optional<Failure> failure = oracle_failure(each.query);
   if (!failure) failure = Judge(subject).failure(each.query);

@@ -1,4 +1,4 @@
-// nearmiss subjects: which CCDs can be put on trial.
+// nearmiss subjects: lists the CCDs that can be put on trial.
 #include <fmt/format.h>
 
 #include "fuzz/subjects/defects.hpp"
@@ -20,7 +20,7 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);
     fmt::print("{:<23} 2^(1 - N), N bits, from {} to {}\n", "NAME:pN", ladder::fewest_bits,
                ladder::most_bits);
-    fmt::print("\nWith a known defect each, to measure whether a hunt would find one:\n");
+    fmt::print("\nCCDs with one known defect each, to measure whether a hunt finds it:\n");
     for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
   });
 }

@@ -15,7 +15,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-// A signal handler may touch only what is lock-free.
+// A signal handler may use only lock-free objects.
 std::atomic<bool> stop{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);

@@ -8,8 +8,8 @@
 
 namespace nearmiss::tools {
 
-/// Set by SIGINT and SIGTERM from the first call on. A second signal, two seconds later or more, ends the program at
-/// once.
+/// SIGINT and SIGTERM set this flag, from the first call of this function on. A second signal, at least two
+/// seconds later, ends the program at once.
 const std::atomic<bool>& interrupted();
 
 /// Shows progress on stderr: one line that is overwritten; a new line every minute if stderr is not a terminal.
@@ -20,9 +20,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Whether a new line is due; a line need not be made before that.
+  /// Whether a new line is due. Callers need not make a line before that.
   [[nodiscard]] bool due() const;
-  /// `done`: the fraction that is done, if it is known; a terminal shows it as a bar.
+  /// `done` is the finished fraction, if it is known; a terminal shows it as a bar.
   void show(const std::string& line, std::optional<double> done = std::nullopt);
 
  private:

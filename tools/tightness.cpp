@@ -1,4 +1,4 @@
-// nearmiss tightness: how much slack the paper's constants have.
+// nearmiss tightness: measures how much slack the paper's constants have.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -63,7 +63,7 @@ void add_tightness(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("all|A,B,...");
-  command->add_option("--time", options->time, "Time limit for each: 10s, 2m")
+  command->add_option("--time", options->time, "Time limit for each tolerance or test, such as 10s or 2m")
       ->capture_default_str()
       ->type_name("T");
   command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")

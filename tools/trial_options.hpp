@@ -1,4 +1,4 @@
-// Options of the commands that hold trials: fuzz, replay, scene.
+// Options of the commands that run trials: fuzz, replay, scene.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// nearmiss verdict: one subject's answers to queries.
+// nearmiss verdict: prints one subject's answers to queries.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ struct Options {
   bool rounded = false;
 };
 
-/// The distance by which a false positive is measured: " B claimed", or " B wang" if the subject claims none.
+/// The distance bound by which a false positive is judged: " B claimed", or " B wang" if the subject claims
+/// no bound.
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const double bound = judge.unit(query);
   if (std::isnan(bound)) throw Error(fmt::format("{}: no distance bound", subject.name()));
@@ -52,17 +53,18 @@ void run(const Options& options) {
 void add_verdict(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
-      "verdict", "Decide queries by one subject: a line each, 0, or 1 with the accepting stage and the time");
+      "verdict",
+      "Let one subject decide queries: one line each, 0, or 1 with the accepting stage and the time");
   options->input.add_to(*command);
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
   add_bound_option(*command, options->bound);
   command->add_flag(
       "--distance-bound", options->distance_bound,
-      "Add the largest distance that a false positive may have, and 'claimed', or 'wang' if it is wang's "
+      "Add the distance bound of false positives, and 'claimed', or 'wang' if it is wang's bound "
       "because the subject claims none");
   command->add_flag("--rounded", options->rounded,
-                    "Add the query as the subject rounds it, which is what it is judged by: 24 numbers");
+                    "Add the query as the subject rounds it, by which its answer is judged: 24 numbers");
   command->footer(
       "\nExample: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss verdict --kind vt --subject wang");

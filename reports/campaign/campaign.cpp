@@ -15,13 +15,14 @@ namespace nearmiss {
 
 namespace {
 
-/// Sorts findings by the way in which they fail.
+/// Orders findings by the way in which they fail.
 bool is_before(const Finding& a, const Finding& b) {
   const auto key = [](const Finding& f) { return std::tie(f.what, f.subject, f.signature); };
   return key(a) < key(b);
 }
 
-/// Sorts findings as one machine would have found them, and drops those that it would not have kept.
+/// Sorts findings as one machine would have found them, and drops findings that one machine would not have
+/// kept.
 void keep_first(std::vector<Finding>& findings) {
   // A round is done by one shard, whose findings are in order.
   std::stable_sort(findings.begin(), findings.end(),
@@ -52,7 +53,7 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
-/// Puts the runs of several campaigns together.
+/// Merges the runs of several campaigns.
 class RunMerger {
  public:
   void add(const Run& each, const std::string& name) {
@@ -88,7 +89,7 @@ class RunMerger {
   }
 
   std::map<RunInfo, Run> runs_;
-  std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that has a shard
+  std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 
 }  // namespace

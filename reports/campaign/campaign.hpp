@@ -21,7 +21,7 @@ inline constexpr std::string_view until_the_time_is_over = "until the time is ov
 
 /// One machine's part of a run.
 struct Shard {
-  std::uint64_t index = 0;  ///< among `count` shards, from 0
+  std::uint64_t index = 0;  ///< position among `count` shards, from 0
   std::uint64_t count = 1;
   std::uint64_t rounds = 0;  ///< rounds of blocks that are done; a campaign resumes after them
   std::uint64_t cases = 0;   ///< cases that the oracle decided
@@ -59,7 +59,7 @@ struct Campaign {
 /// into different numbers of shards.
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
-/// A line on the shards of a run that are missing or not complete; "" if all are complete.
+/// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.
 std::string missing_shards(const Run& run);
 
 }  // namespace nearmiss

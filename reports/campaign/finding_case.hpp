@@ -1,4 +1,4 @@
-// Findings as cases to keep.
+// Converts findings to cases.
 #pragma once
 
 #include <string>

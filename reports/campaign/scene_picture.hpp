@@ -5,9 +5,9 @@
 
 namespace nearmiss {
 
-/// JSON, since only a page reads it:
+/// The picture is JSON, because only a page reads it:
 ///   meanings   the meaning of bit i of a mark: "collides" and so on
-///   primitives the number of primitives of the step; a picture of very many leaves some out
+///   primitives the number of primitives of the step; a large picture leaves some of them out
 ///   points     x y z at t = 0 and x y z at t = 1, one after the other, as integers with blanks between them: the
 ///              box of all is within 0 and 9999, on one scale
 ///   triangles  three points and a mark, one after the other; lines: two and a mark; dots: one and a mark

@@ -10,7 +10,7 @@ const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transpar
 
 const drawn = {};
 
-/** Draws a chart in place of an earlier one. No code is made from strings, so that the strictest content policy allows it. */
+/** Draws a chart in place of an earlier one. It makes no code from strings, so that the strictest content policy allows it. */
 async function draw(id, description, spec) {
   const node = element(id);
   node.style.minHeight = `${node.offsetHeight}px`; // keeps the page below from jumping
@@ -31,18 +31,18 @@ const algorithmColor = (names) => ({
   field: "algorithm", type: "nominal", title: "algorithm",
   scale: { domain: names, range: names.map(colorOfAlgorithm) },
 });
-/** A colour halfway between two, "#rrggbb" all. */
+/** The colour halfway between two colours, all as "#rrggbb". */
 const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 
-/** A logarithmic axis with places for 0 and infinity at its ends, labelled so. `at` gives the place of a value. */
+/** A logarithmic axis whose ends stand for 0 and infinity. `at` returns the place of a value. */
 function logAxis(values) {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
   const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
   const highest = exponents.length === 0 ? 0 : Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
   const step = Math.max(Math.ceil((highest - lowest) / 7), 1);
-  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // no scale ends at 0 or infinity
+  const power = (i) => Math.min(Math.max(10 ** i, Number.MIN_VALUE), Number.MAX_VALUE); // a scale cannot end at 0 or infinity
   const bottom = power(values.includes(0) ? lowest - step : lowest);
   const top = power(values.includes(Infinity) ? highest + step : highest);
   const ticks = [bottom, top];
@@ -52,7 +52,7 @@ function logAxis(values) {
     axis: { values: ticks, labelExpr: label } };
 }
 
-/** Rates of random families except sweeps; cases and scenes are no samples. */
+/** Rates of random families except sweeps; cases and scenes are not random samples. */
 function rateRows() {
   const isShownElsewhere = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isShownElsewhere(row.family))
@@ -96,7 +96,7 @@ function drawRates() {
     ],
     resolve: { axis: { y: "shared" } },
   });
-  return draw("rates", "For each family and subject the rate of false positives with its confidence interval.",
+  return draw("rates", "For each family and subject, the rate of false positives with its confidence interval.",
     { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
@@ -142,7 +142,7 @@ function drawDistances() {
       bound,
     ],
   });
-  return draw("distances", "How many false positives there are at each distance, and the share that is not farther.", {
+  return draw("distances", "The number of false positives at each distance, and the share of false positives up to each distance.", {
     data: { values: values.filter(isChosen) },
     hconcat: ["vt", "ee"].filter((kind) => values.some((v) => v.kind === kind)).map((kind) => ({ vconcat: [
       panel(kind, "count", "false positives", "step-after", { scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } }),
@@ -159,12 +159,12 @@ function stageValues() {
   return values;
 }
 
-/** Plug-ins do not report the stage that accepts. */
+/** Whether any subject reports the stages that accept. Plug-ins do not. */
 const hasStages = () => stageValues().some(({ stage, count }) => count > 0 && stage !== "unspecified");
 
 function drawStages() {
   const values = stageValues().filter(isChosen);
-  return draw("stages", "For each subject and kind the share of the true and of the false positives that each test accepted.", {
+  return draw("stages", "For each subject and kind, the shares of the true and of the false positives that each test accepted.", {
     data: { values },
     facet: { column: { field: "truth", title: null, sort: ["true positives", "false positives"] } },
     spec: {
@@ -172,7 +172,7 @@ function drawStages() {
       mark: "bar",
       encoding: {
         y: { field: "row", type: "nominal", title: null, axis: { labelLimit: 0 }, sort: chosenNames().flatMap((name) => [`${name} ee`, `${name} vt`]) },
-        x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of what was accepted", stack: "normalize", axis: { format: "%" } },
+        x: { field: "count", type: "quantitative", aggregate: "sum", title: "share of positives", stack: "normalize", axis: { format: "%" } },
         color: { field: "stage", type: "nominal", title: "accepted by", sort: report.stages, scale: { domain: report.stages, range: palette } },
         order: { field: "stage", sort: "ascending" },
         tooltip: [{ field: "row", title: "subject" }, { field: "truth" }, { field: "stage" }, { field: "count", aggregate: "sum" }],
@@ -206,7 +206,7 @@ function drawSweeps() {
     ],
     resolve: { scale: { color: "independent" } },
   });
-  return draw("sweeps", "Heat maps of misses, false positives, their distance and the run time along a parameter.", {
+  return draw("sweeps", "Heat maps of misses, false positives, their distances and the run time along a parameter.", {
     data: { values },
     resolve: { scale: { color: "independent" } },
     vconcat: [

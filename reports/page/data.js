@@ -1,7 +1,7 @@
-// The report's data, which is part of the page.
+// Reads the report's data, which is part of the page.
 "use strict";
 
-/** The largest double stands for a distance over a bound of 0: JSON has no infinity. */
+/** The largest double stands for a distance divided by a bound of 0, because JSON has no infinity. */
 const withInfinity = (value) => (Array.isArray(value) ? value.map(withInfinity) : value === Number.MAX_VALUE ? Infinity : value);
 const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));

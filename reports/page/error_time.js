@@ -1,4 +1,4 @@
-// Error against run time: a mark for each subject, or lines if there are algorithms over many scalars.
+// Draws error against run time: a mark for each subject, or lines if there are algorithms over many scalars.
 "use strict";
 
 const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
@@ -7,7 +7,7 @@ const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: 
 
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
-/** A mark for each subject; only chosen subjects have a colour and a shape of their own. */
+/** Draws a mark for each subject; only chosen subjects have their own colour and shape. */
 function drawErrorTimeOfEach() {
   const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, name: isChosen({ subject }) ? subject : "others", ...each,
@@ -46,7 +46,7 @@ function drawErrorTimeOfEach() {
       ],
     };
   };
-  return draw("error-time", "For each subject the run time of a query, and how far and how many its false positives are.", {
+  return draw("error-time", "For each subject, the run time of a query, and the distances and the rate of its false positives.", {
     hconcat: [
       panel("distance / bound of false positives", "max_fp_distance_over_bound",
         ["median", "q99"], front_by_distance),
@@ -96,7 +96,7 @@ function placedLabels(points, [width, height]) {
   return placed;
 }
 
-/** A line for each algorithm and sort of scalars; some points are labelled with their scalars. */
+/** Draws a line for each algorithm and sort of scalars; some points are labelled with their scalars. */
 function drawErrorTimeOfLadder() {
   const { subjects, ladder, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));
@@ -149,7 +149,7 @@ function drawErrorTimeOfLadder() {
       ],
     };
   };
-  return draw("error-time", "For each algorithm and scalar the run time of a query, and how far and how many its false positives are.", {
+  return draw("error-time", "For each algorithm and scalar, the run time of a query, and the distances and the rate of its false positives.", {
     hconcat: [
       panel("farthest false positive / B", "farthest_over_B", ladder.front_by_distance, [ladder.paper_bound],
         [{ name: "chosen", select: { type: "point", fields: ["algorithm"] }, bind: "legend" }]),

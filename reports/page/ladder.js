@@ -1,4 +1,4 @@
-// The ladder of precisions, and the audit of the rounding constants.
+// Draws the ladder of precisions, and the audit of the rounding constants.
 "use strict";
 
 const power = (epsilon) => `2^${Math.round(Math.log2(epsilon))}`;
@@ -43,7 +43,7 @@ function drawLadder() {
     { field: "claimed", title: "claimed / B", format: ".4~g" }, { field: "false_positives", title: "false positives" },
     { field: "false_negatives", title: "missed" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
   const distance = (field) => ({ field, type: "quantitative", title: "distance / B", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } });
-  return draw("ladder-chart", "For each machine epsilon the farthest false positive and the distance bound.", {
+  return draw("ladder-chart", "For each machine epsilon, the farthest false positive and the distance bound.", {
     width: 640, height: 320, title: "how far false positives are: lines the bound, points the farthest found", layer: [
       { data: { values: rungs }, mark: { type: "line", strokeWidth: 1.5, strokeDash: [5, 4] }, encoding: { x, y: distance("claimed"), color: hue } },
       { data: { values: rungs.filter((r) => r.farthest > 0) }, mark: { type: "point", filled: true, size: 50 },

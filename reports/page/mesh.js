@@ -1,4 +1,5 @@
-// A picture of a scene's step: its mesh, with collisions and wrong answers marked. Mouse and keys turn it.
+// Draws a step of a scene: its mesh, with collisions and wrong answers marked. Mouse and keys turn the
+// picture.
 "use strict";
 
 /** Colours of marked primitives: the bits of a mark, its meaning, and the name of the colour. The first match applies. */
@@ -13,7 +14,7 @@ function markColours(meanings, subject) {
 
 const numbersOf = (text) => (text === "" ? [] : text.split(" ").map(Number));
 
-/** The primitives of a picture by kind: [{points: [indices], mark}]. */
+/** The primitives of a picture, as a list of {points: [indices], mark}. */
 function primitivesOf(picture) {
   const cut = (text, size) => {
     const list = numbersOf(text);
@@ -48,7 +49,7 @@ function drawMesh(picture) {
     "arrow keys turn the picture, + and - change its size" });
   const legend = made("div", [], { class: "mesh-legend" });
 
-  /** All points on the screen at the view's time: x, y, and depth away from the eye. */
+  /** The positions of all points on the screen at the view's time: x, y, and depth away from the eye. */
   function seen(size) {
     const at = new Float64Array(3 * count);
     const scale = (view.zoom * size) / 13000;

@@ -50,9 +50,9 @@ function drawBaseline() {
   for (const way of ways(baseline.new_signatures)) say(`New: ${way}.`, true);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
   if (baseline.unseen_signatures.length > 0)
-    say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but as rare as chance explains ` +
+    say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but no more frequent than chance explains ` +
       `(about ${short(Math.round(baseline.expected_unseen))} were expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
-  for (const way of ways(baseline.gone_signatures)) say(`Not seen any more: ${way}.`);
+  for (const way of ways(baseline.gone_signatures)) say(`No longer seen: ${way}.`);
   say(baseline.changed_rates.length === 0
     ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (exact tests, ` +
       `level ${baseline.level} for all together).`
@@ -89,7 +89,7 @@ const noAnswer = {
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
-/** The farthest false positive of a subject and kind, in a family or in any. */
+/** The farthest false positive of a subject and kind, in one family or in all. */
 const farthestOf = ({ subject, kind, family }) => report.farthest
   .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family))
   .reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
@@ -128,7 +128,7 @@ function drawSlowest() {
   ], rows);
 }
 
-/** Which stage decided, for subjects that pass queries on. */
+/** Draws which stage decided, for subjects that pass queries on. */
 function drawDeciders() {
   const rows = report.deciders;
   if (!rows) return;
@@ -210,7 +210,7 @@ function drawTightness() {
 
 // --- cases ----------------------------------------------------------------------------------------
 
-/** The failure, how often it was seen, and where it was found. */
+/** Shows the failure, the number of times that it was seen, and the origin of its query. */
 function drawFailure(finding) {
   const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio)}` : "");
   return made("div", [
@@ -220,7 +220,7 @@ function drawFailure(finding) {
   ]);
 }
 
-/** The command that replays it, the shrunk query, and a fold-out with the query that was found. */
+/** Shows the command that replays the finding, the shrunk query, and a fold-out with the original query. */
 function drawShrunk(finding) {
   const original = made("details", [made("summary", finding.original_file), queryText(finding.original), copyQuery(finding.original)]);
   return made("div", [command(finding.again), queryText(finding.shrunk), copyQuery(finding.shrunk), original]);
@@ -236,10 +236,10 @@ function drawFindings() {
   element("findings-note").textContent = seen === 0
     ? "None: no false negative, no bound refuted, no disagreement."
     : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way are kept and shrunk to the ` +
-      "simplest query that fails in the same way. findings.csv lists them, and cases/ has a case file for each, beside the query " +
-      "that was found. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
-      "Pictures show both primitives at contact, or when they are closest if there is no contact; pale at t = 0, pale and dashed " +
-      "at t = 1. Mouse and arrow keys turn them.";
+      "simplest query that fails in the same way. findings.csv lists them, and cases/ has a case file for each shrunk query and for " +
+      "each original query. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
+      "Pictures show both primitives at contact, or when they are closest if there is no contact. They are pale at t = 0, and pale " +
+      "and dashed at t = 1. Mouse and arrow keys turn the pictures.";
   if (seen === 0) return;
   const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));
   fillTable(element("findings"), [
@@ -267,7 +267,7 @@ function drawHow() {
     const lines = [...Object.entries(facts), ["cases decided", integer(cases_done)], ["run time of all shards", duration(seconds)],
       ...environments.flatMap((each) => Object.entries(each))].map(([name, value]) =>
       made("tr", [made("th", name, { scope: "row" }), made("td", value)]));
-    if (again) lines.unshift(made("tr", [made("th", "the same again", { scope: "row" }), made("td", command(again))]));
+    if (again) lines.unshift(made("tr", [made("th", "command to repeat", { scope: "row" }), made("td", command(again))]));
     element("how").append(made("div", made("table", made("tbody", lines)), { class: "scroll" }));
   }
 }
@@ -303,7 +303,7 @@ const charts = [
 for (const [id] of charts) show(id);
 drawNavigation();
 
-/** Draws charts after those of an earlier call; a later call supersedes all earlier ones. */
+/** Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn. */
 let calls = 0;
 let drawing = Promise.resolve();
 function drawCharts(some) {

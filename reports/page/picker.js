@@ -1,4 +1,5 @@
-// The choice of subjects for charts with a row or a line for each: all subjects, or a selection if there are many.
+// Chooses the subjects for charts with a row or a line for each: all subjects, or a selection if there are
+// many.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);
@@ -14,7 +15,7 @@ const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
 
-/** `many` evenly spaced entries of a list, including its ends. */
+/** Picks `many` evenly spaced entries of a list, including its ends. */
 const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
@@ -99,13 +100,13 @@ function drawPicker(redraw) {
   const group = (title, members, titleOf) => {
     const subjects = members.map((place) => place.subject);
     const toggle = () => changed(subjects, !subjects.every((subject) => chosenColors.has(subject)));
-    return made("fieldset", [made("legend", button(title, toggle, "all or none of them")), ...members.map((place) => checkbox(place, titleOf(place)))]);
+    return made("fieldset", [made("legend", button(title, toggle, "choose all or none of these")), ...members.map((place) => checkbox(place, titleOf(place)))]);
   };
   const alone = places.filter((place) => place.isAlone);
   const algorithms = [...new Set(places.filter((place) => !place.isAlone).map((place) => place.algorithm))];
   element("picker-choices").append(
     made("div", [button("all", () => change(new Set(subjectNames))), button("none", () => change(new Set())),
-      button("as at first", () => change(firstChoice()))], { class: "buttons" }),
+      button("reset", () => change(firstChoice()))], { class: "buttons" }),
     ...algorithms.map((name) => group(name, places.filter((place) => place.algorithm === name), (place) => place.scalar)),
     ...(alone.length === 0 ? [] : [group(algorithms.length === 0 ? "subjects" : "others", alone, (place) => place.subject)]));
   update();

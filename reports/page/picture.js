@@ -1,4 +1,5 @@
-// A picture of a query: both primitives at t = 0, at contact or when closest, and at t = 1, with the paths of their vertices.
+// Draws a query: both primitives at t = 0, at contact or when closest, and at t = 1, with the paths of their
+// vertices.
 "use strict";
 
 /** @param {string} kind "vt" or "ee" @param {number[]} x 24 numbers @param {number} time in [0, 1] */

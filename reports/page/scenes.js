@@ -1,4 +1,5 @@
-// Scenes: what became of their pairs, and the subjects' answers for the pairs that they were asked about.
+// Draws scenes: what became of their pairs, and the subjects' answers for the pairs that they were asked
+// about.
 "use strict";
 
 const isStep = (family) => family.startsWith("scene:");
@@ -46,7 +47,7 @@ function drawScenes() {
     text("scene", "scene"), ...steps, text("kind", "kind"), count("all pairs", "all"), share("boxes apart", "boxes_apart", "all"),
     share("share a vertex", "share_vertex", "all"), share("at rest", "at_rest", "all"), share("in translation", "in_translation", "all"),
     count("static collisions", "touching"), share("asked", "asked", "all"),
-    { title: "found in", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
+    { title: "search time", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
   ], summed(all, by), true);
   const asked = summed(askedRows(), byStep ? ["scene", "step", "subject"] : ["scene", "subject"]);
   fillTable(element("scene-subjects"), [
@@ -64,7 +65,7 @@ function drawScenePictures() {
   for (const picture of report.pictures ?? []) element("scene-pictures").append(drawMesh(picture));
 }
 
-/** Along the steps: the number of pairs, the subjects' answers, and the run time. */
+/** Draws the number of pairs, the subjects' answers, and the run time along the steps. */
 function drawSceneSteps() {
   const funnels = summed(funnelRows(), ["scene", "step"]);
   const rows = summed(askedRows(), ["scene", "step", "subject"]).map((r) => ({ ...r, ns_per_query: r.time / r.queries, rate: falsePositiveRate(r) }));
@@ -77,7 +78,7 @@ function drawSceneSteps() {
       ...(coloured ? { color: subjectColor } : { color: { value: color("--soft") } }),
       tooltip: [...(coloured ? [{ field: "subject" }] : []), { field: "step" }, { field, title, format: ",.4~r" }] },
   });
-  return draw("scene-steps", "For each step of a scene the pairs asked, collisions, false positives and the run time.", {
+  return draw("scene-steps", "For each step of a scene, the pairs asked, the collisions, the false positives and the run time.", {
     vconcat: scenes.map((scene) => ({ hconcat: [
       line(funnels, scene, "asked", "pairs asked", false, true), line(rows, scene, "collisions", "collisions", false),
       line(rows, scene, "false_positives", "false positives", true), line(rows, scene, "ns_per_query", "ns a query", true),
@@ -85,12 +86,12 @@ function drawSceneSteps() {
   });
 }
 
-/** One panel a scene, one mark a subject. */
+/** Draws one panel for each scene, with one mark for each subject. */
 function drawSceneErrorTime() {
   const rows = summed(askedRows(), ["scene", "subject"]).map((r) => ({ ...r, ns_per_query: r.time / r.queries, rate: falsePositiveRate(r) }));
   const axis = logAxis(rows.map((r) => r.rate));
   for (const row of rows) row.shown = axis.at(row.rate);
-  return draw("scene-error-time", "For each scene and subject the run time of a query and the rate of false positives.", {
+  return draw("scene-error-time", "For each scene and subject, the run time of a query and the rate of false positives.", {
     data: { values: rows },
     facet: { field: "scene", type: "nominal", title: null }, columns: 4,
     spec: {

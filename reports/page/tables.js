@@ -1,10 +1,13 @@
-// Tables: rows of report.json under headings that sort.
+// Draws tables: rows of report.json under headings that sort.
 "use strict";
 
 const integer = (n) => n.toLocaleString("en-US");
 const short = (x) =>
   x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
-/** Three digits, or more if a number below 1 would be rounded to 1. A number below all borders is known from above only. */
+/**
+ * Formats a ratio with three digits, or with more if a number below 1 would be rounded to 1. Only an upper bound is known of a
+ * ratio below all borders.
+ */
 function fraction(x) {
   const lowest = report.histogram_borders[1];
   if (x > 0 && x < lowest) return `below ${short(lowest)}`;
@@ -14,7 +17,7 @@ function fraction(x) {
 }
 const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fraction(x)} of the bound`);
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
-/** A column of ranges in which a number is known to be. */
+/** A column of ranges that contain a number. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
   text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;

@@ -1,4 +1,4 @@
-// Turning a picture with mouse and keys.
+// Turns a picture with mouse and keys.
 "use strict";
 
 /**

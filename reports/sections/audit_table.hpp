@@ -1,4 +1,4 @@
-// The audit of the paper's rounding constants, as another command wrote it.
+// The audit of the paper's rounding constants, read from the file that another command writes.
 #pragma once
 
 #include <filesystem>

@@ -29,7 +29,7 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// All rates that both campaigns have, changed or not.
+/// All rates that both campaigns have, whether changed or not.
 std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics& before) {
   std::vector<ChangedRate> pairs;
   for (const auto& [key, counts] : now.counts) {
@@ -46,14 +46,16 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics&
   return pairs;
 }
 
-/// Numbers of failures up to which a family has few. All are tried, because larger campaigns have more failures.
+/// A family has few failures up to one of these numbers. All are tried, because larger campaigns have more
+/// failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
-/// A subject, and which of its rates.
+/// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The pairs with failures, but at most `few` in both campaigns together, by the rate's name. Selecting pairs by this sum
-/// favours neither campaign: given the sum, each failure is as likely in one campaign as in the other.
+/// The pairs that have at least one failure and at most `few` in both campaigns together, by the rate's name.
+/// Selecting pairs by this sum favours neither campaign, because each failure counted in the sum is as likely
+/// in one campaign as in the other.
 std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
     const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> found;
@@ -63,13 +65,13 @@ std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_fe
   return found;
 }
 
-/// The rates of each subject over all families and kinds with few failures. Among the numbers in `fews` it takes the one
-/// with the smallest p, and multiplies this p by their number.
+/// The rates of each subject over all families and kinds with few failures. The function takes the number in
+/// `fews` that gives the smallest p, and multiplies this p by the length of `fews`.
 std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
   std::map<RateName, ChangedRate> best;
   for (const std::uint64_t few : fews)
     for (const auto& [name, proportions] : pairs_with_few(pairs, few)) {
-      if (proportions.size() == 1) continue;  // this family is compared by itself
+      if (proportions.size() == 1) continue;  // a single family is compared elsewhere
       ChangedRate sum{name.second, name.first, "vt, ee", fmt::format("families with at most {}", few),
                       {},          {}};
       for (const auto& [now, before] : proportions) {
@@ -113,15 +115,15 @@ std::vector<Signature> only_in(const Campaign& one, const Campaign& other) {
   return signatures;
 }
 
-/// How often a signature was seen, among the queries of its subject.
+/// The number of queries with this signature, among all queries of its subject.
 Proportion proportion_of(const Statistics& statistics, const Signature& signature) {
   const std::uint64_t seen = statistics.times_seen(signature);
   return {seen, std::max(seen, statistics.queries_of(signature.subject))};
 }
 
-/// The expected number of signatures that a campaign with `ratio` times as many queries brings and that were not seen
-/// before, computed from how often each known one was seen: the series of Good and Toulmin 1956, or its first term for a
-/// larger campaign.
+/// The expected number of new signatures in a campaign with `ratio` times as many queries. This number is
+/// computed from the number of times that each known signature was seen, with the series of Good and Toulmin
+/// 1956, or with its first term for a larger campaign.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -135,7 +137,7 @@ double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
 
 /// Compares signatures with those of the baseline.
 void compare_signatures(const Statistics& now, const Statistics& before, Changes& changes) {
-  // How often each signature was seen before, by what failed and by subject.
+  // The numbers of times that signatures were seen before, by sort of failure and subject.
   std::map<std::pair<Finding::What, std::string>, std::vector<std::uint64_t>> seen_before;
   for (const auto& [signature, count] : before.seen)
     seen_before[{signature.what, signature.subject}].push_back(count);

@@ -1,4 +1,4 @@
-// What has changed since an earlier campaign.
+// Changes since an earlier campaign.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct ChangedRate {
   [[nodiscard]] bool worse() const { return now.rate() > before.rate(); }
 };
 
-/// A fact of the runs that differs: all of its values, joined by " | ".
+/// A fact that differs between the campaigns' runs; `before` and `now` join all of its values with " | ".
 struct ChangedFact {
   std::string name, before, now;
 };
@@ -34,7 +34,7 @@ struct Changes {
   /// Signatures of a failing subject that are missing in the baseline and no more frequent than chance explains.
   std::vector<Signature> unseen_signatures;
   double expected_unseen = 0;              ///< expected number of unseen signatures if nothing has changed
-  std::vector<Signature> gone_signatures;  ///< only in the baseline
+  std::vector<Signature> gone_signatures;  ///< signatures that only the baseline has
   std::vector<ChangedRate> rates;
   std::size_t compared_rates = 0;
   std::vector<ChangedFact> facts;
@@ -43,17 +43,18 @@ struct Changes {
   [[nodiscard]] bool for_the_worse() const;
 };
 
-/// The probability that `changes` reports a changed rate although no rate has changed; and the same for ways to fail.
+/// The probability that `changes` reports a changed rate although no rate has changed, and also that it
+/// reports a new way to fail although none is new.
 inline constexpr double false_alarm_risk = 1e-3;
 
 /// Compares the rates of all families that both campaigns have, by Fisher's exact test. For each subject it also compares
-/// the sum over all families and kinds in which both campaigns have few failures, so that a new way to fail is noticed that
-/// is spread over many families. Cases and meshes are left out, because they are no random samples.
+/// the sum over all families and kinds in which both campaigns have few failures, to notice a new way to fail
+/// that is spread over many families. Cases and meshes are left out, because they are not random samples.
 ///
-/// If the baseline has no failure of a subject of one sort, any failure of that sort is new; so is any failure of the
-/// oracle. A subject that fails anyway brings a few unseen signatures every time, so a signature of it is new only if
-/// Fisher's exact test finds it more frequent among the subject's queries than chance explains. Each test divides
-/// false_alarm_risk among all its comparisons (Bonferroni).
+/// If a subject has no failure of a sort in the baseline, each failure of that sort is new. Any failure
+/// of the oracle is new. A subject that fails anyway shows a few unseen signatures every time. Therefore such
+/// a subject's signature is new only if Fisher's exact test finds it more frequent among the subject's
+/// queries than chance explains. Each test divides false_alarm_risk among all its comparisons (Bonferroni).
 Changes changes(const Campaign& now, const Campaign& baseline);
 
 /// A line for each change; "" without changes.

@@ -29,7 +29,7 @@ ordered_json value_json(const std::vector<FarCase>& cases) {
   return json;
 }
 
-/// All times but ns_per_query.
+/// All times except ns_per_query.
 ordered_json value_json(const SubjectTimes& times) {
   ordered_json json;
   json["timed_queries"] = times.queries();

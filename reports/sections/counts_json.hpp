@@ -20,7 +20,7 @@ nlohmann::ordered_json counts_json(const Counts& counts, bool is_sample);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 
-/// "all", the fates by their names, "touching", and "times".
+/// An object with "all", a count for each fate under its name, "touching", and "times".
 nlohmann::ordered_json funnel_json(const Funnel& funnel);
 
 /// Adds "disagreements" and "mismatches_with_recorded_truth".

@@ -40,8 +40,8 @@ std::string row_family(const std::string& family) {
   return family.starts_with("scene:") ? scene_of(family) : std::string(shown_family(family));
 }
 
-/// The time of a subject over that of another, for the keys that are shown and timed for both; nothing if there are
-/// no such keys.
+/// The run time of a subject divided by that of another, over the keys that are shown and timed for both;
+/// nothing if there are no such keys.
 template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
                                 const std::string& other, const IsShown& is_shown) {

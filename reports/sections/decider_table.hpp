@@ -1,4 +1,4 @@
-// Which stage decides the queries of a subject that passes queries on where its own algorithm is not sure, by family.
+// For subjects that pass queries on if their own algorithm is not sure: which stage decides, by family.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace nearmiss {
 
 inline constexpr std::size_t decider_count = 4;
 
-/// Names of the deciders in the order in which they are asked, as they stand in files. The last three stand for the
-/// stages and rejections of these names, "algorithm" for all others.
+/// Names of the deciders in files, in the order in which they are asked. The last three stand for the stages
+/// and rejections with the same names, "algorithm" for all others.
 inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
                                                                            "exact"};
 
@@ -26,8 +26,9 @@ struct DeciderRow {
   std::string subject;
   std::string family;  ///< "" for all families; a scene is one family with all its steps
   std::array<std::uint64_t, decider_count> queries{};
-  std::optional<double> ns_per_query;       ///< nothing if it was not timed
-  std::map<std::string, double> time_over;  ///< time over another subject's, for the same families and kinds
+  std::optional<double> ns_per_query;       ///< nothing if the subject was not timed
+  std::map<std::string, double> time_over;  ///< time divided by another subject's, over the same families and
+                                            ///< kinds
 
   [[nodiscard]] std::uint64_t all() const;
 };

@@ -15,7 +15,7 @@ namespace nearmiss {
 struct Environment {
   std::string subject, compiler, flags, mode;
   std::uint64_t queries = 0, collisions = 0, missed = 0, false_positives = 0, refuted_bounds = 0, faults = 0;
-  std::optional<std::string> first = {};  ///< the first failure, and its query's provenance
+  std::optional<std::string> first = {};  ///< the first failure, with its query's provenance
 
   /// The guarantee is that no collision is missed: "keeps it", "misses", or "gives no answer" to some
   /// queries.

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The text of each fate's line.
+/// The text of the line for each fate.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
@@ -47,7 +47,7 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A line with the numbers of both kinds, as parts of `all`.
+/// A row with the numbers of both kinds and their percentages of `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -57,10 +57,10 @@ Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<st
   return cells;
 }
 
-/// Adds rows on the work that the asked pairs need: of subjects that report it, and of the oracle.
+/// Adds rows on the work that the asked pairs need, for subjects that report it and for the oracle.
 void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std::vector<Row>& rows) {
   static const std::map<Rejection, std::string_view> left_out{
-      {Rejection::planes, "planes separate, nothing else is computed"},
+      {Rejection::planes, "planes separate the primitives, nothing else is computed"},
       {Rejection::apart, "too far apart for a root"},
       {Rejection::no_root, "the cubic has no root, no test is needed"},
       {Rejection::culled, "vertex-edge tests are culled"}};
@@ -85,7 +85,7 @@ void add_needs(const ScenePairs& scene, std::array<std::uint64_t, 2> asked, std:
   const auto undecided = [&](std::size_t i) {
     return scene.oracle[i].by_stage[static_cast<std::size_t>(FilterStage::undecided)];
   };
-  rows.push_back(row("  oracle: its filter decides, exact arithmetic is not needed",
+  rows.push_back(row("  oracle: the filter decides, exact arithmetic is not needed",
                      {scene.oracle[0].queries - undecided(0), scene.oracle[1].queries - undecided(1)},
                      asked));
 }
@@ -110,10 +110,11 @@ std::string funnel_tables(const Statistics& statistics) {
     if (!scene.subjects.empty()) add_needs(scene, {vt[PairFate::asked], ee[PairFate::asked]}, rows);
     text += fmt::format("\n{}\n{}", name, columns(rows, 1));
     if (vt.all() == 0) text += "vertex-triangle: there are no triangles, or no vertices\n";
-    if (ee.all() == 0) text += "edge-edge: there are no two edges\n";
+    if (ee.all() == 0) text += "edge-edge: there are fewer than two edges\n";
     const auto seconds = [](std::uint64_t ns) { return 1e-9 * static_cast<double>(ns); };
-    text += fmt::format("of one core: pairs found in {:.3g} s, fates told in {:.3g} s\n",
-                        seconds(vt.finding_ns + ee.finding_ns), seconds(vt.deciding_ns + ee.deciding_ns));
+    text +=
+        fmt::format("time of one core: {:.3g} s to find the pairs, {:.3g} s to decide what becomes of them\n",
+                    seconds(vt.finding_ns + ee.finding_ns), seconds(vt.deciding_ns + ee.deciding_ns));
   }
   return text;
 }

@@ -43,7 +43,7 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
     (each.clean ? clean : failed).push_back(each.subject);
   const std::string complaint = oracle_complaint(statistics);
   std::string text;
-  if (!complaint.empty()) text = "The oracle is not to be trusted: " + complaint + ". ";
+  if (!complaint.empty()) text = "The oracle cannot be trusted: " + complaint + ". ";
   if (!failed.empty()) text += subjects(failed) + " failed";
   if (!clean.empty()) text += fmt::format("{}{} did not fail", failed.empty() ? "" : "; ", subjects(clean));
   if (const auto queries = statistics.oracle_total().queries; queries != 0)

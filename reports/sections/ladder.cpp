@@ -34,7 +34,7 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// A ratio below all borders of the histogram is known from above only.
+/// Only an upper bound is known of a ratio below all borders of the histogram.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -54,7 +54,7 @@ LadderPlace place_of(const std::string& subject) {
   LadderPlace place{std::string(algorithm) + given_bound, scalar.empty() ? "double" : std::string(scalar),
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
-  if (algorithm == "basic" || algorithm == "basic-plain")  // they claim no bound, and are measured by wang's
+  if (algorithm == "basic" || algorithm == "basic-plain")  // these claim no bound, and are measured by wang's
     place.unit = claimed_distance("wang", double_exponent);
   else if (algorithm == "wang-tight")
     place.unit = claimed_distance("wang-tight", *exponent);
@@ -69,7 +69,7 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
     const auto [algorithm, scalar] = split_scalar(key.subject);
     const auto exponent = epsilon_exponent_of(scalar);
     if (!exponent || std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) continue;
-    if (key.subject.find('@') != std::string::npos) continue;  // B is not the pair's own
+    if (key.subject.find('@') != std::string::npos) continue;  // a given B, not each pair's own
     if (!only.empty() && origin(key.family) != only) continue;
     Rung& rung = by_subject[key.subject];
     rung.subject = key.subject;
@@ -90,12 +90,12 @@ std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
 
 namespace {
 
-/// The exponent of ε and the binary logarithm of the farthest distance.
+/// The binary logarithms of ε and of the farthest distance.
 struct LogPoint {
   double x = 0, y = 0;
 };
 
-/// Fits a line to the points by least squares: its slope, and the slope's standard error.
+/// Fits a line to the points by least squares. Returns its slope and the slope's standard error.
 std::pair<double, double> slope(const std::vector<LogPoint>& points) {
   const auto n = static_cast<double>(points.size());
   LogPoint mean;

@@ -18,45 +18,47 @@ struct Rung {
   double claimed = 0;  ///< the distance bound
   CountsSum sum;       ///< over all families and kinds
 
-  /// Farthest distance / claimed distance; 0 without false positives.
+  /// Farthest distance divided by claimed distance; 0 without false positives.
   [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
   /// Distance of the farthest false positive; 0 without false positives.
   [[nodiscard]] double farthest() const { return part() * claimed; }
 };
 
-/// A subject's place on a ladder. A subject that is on no ladder is an algorithm of its own.
+/// A subject's place on a ladder. For a subject that is not on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
   std::string algorithm, scalar;  ///< the algorithm includes its bound if one is given: "wang@0.5"
   int epsilon_exponent = 0;
-  /// The distance bound of its false positives' ratios, in units of B; nothing if it is not known.
+  /// The distance bound that divides the false positives' distances, in units of B; nothing if it is not
+  /// known.
   std::optional<double> unit;
 };
 
 LadderPlace place_of(const std::string& subject);
 
-/// wang and wang-tight over the scalars that the statistics contain, by ascending precision; for queries of one origin
-/// (family.hpp), or of all origins if it is "".
+/// The rungs of wang and wang-tight over the scalars in the statistics, by ascending precision. Counts the
+/// queries of one origin (family.hpp), or of all origins if `origin` is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view origin = "");
 
-/// The power of ε by which the farthest distance of an algorithm falls, fitted by least squares to its logarithm, for one
+/// The farthest distance of an algorithm as a power of ε, fitted by least squares to logarithms, for one
 /// origin or for all.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
-  double half_width_95 = 0;                  ///< of the exponent's 95 % confidence interval (Student's t)
+  double half_width_95 = 0;                  ///< half the width of its 95 % confidence interval (Student's t)
   int points = 0;                            ///< number of subjects
   int precisions = 0;                        ///< number of different ε
-  double least_part = 0, greatest_part = 0;  ///< of Rung::part()
+  double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
 
-  /// Whether the claimed distances are almost reached, so that the exponent is that of their formula.
+  /// Whether the claimed distances are almost reached, so that the fit only repeats the exponent in their
+  /// formula.
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
-/// Fits to the rungs of an algorithm with ε from 2^-127 to 2^-23 whose farthest false positive is not below the histogram's
-/// lowest border; nothing for fewer than three ε.
+/// Fits an algorithm's rungs with ε from 2^-127 to 2^-23. Rungs whose farthest false positive is below the
+/// histogram's lowest border are left out. Nothing for fewer than three values of ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm);
 
-/// For each algorithm the fit over all origins, and the fit for each origin.
+/// For each algorithm, the fit over all origins, and the fit for each single origin.
 std::vector<Fit> fits(const Statistics& statistics);
 
 /// A fit in a line, for people.

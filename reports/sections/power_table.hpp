@@ -12,7 +12,7 @@ namespace nearmiss {
 /// One way to hunt for one defect.
 struct Hunt {
   std::string subject, way;
-  /// The failure that was found, if any; without one, all that follows is meaningless.
+  /// The failure that was found, if any; without a failure, the members below are meaningless.
   std::optional<std::string> failure = {};  ///< "false-negative" or "refuted-bound"
   double seconds = 0;
   std::uint64_t cases = 0;

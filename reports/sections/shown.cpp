@@ -18,7 +18,7 @@ namespace {
 ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
   Finding simplest = finding;
   simplest.query = finding.shrunk;
-  simplest.ratio = 0;  // that of the query that was found
+  simplest.ratio = 0;  // the ratio belongs to the original query
   simplest.provenance = "shrunk from " + finding.provenance;
   const auto exported = [&](const Finding& what, std::string_view suffix) {
     Exported result{case_file_name(what, fmt::format("{:03}{}", number, suffix)), to_case(what)};
@@ -63,7 +63,7 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
 
 namespace {
 
-/// The run that has a finding; null if no run has it.
+/// The run that contains a finding; null if there is none.
 const Run* run_of(const Campaign& campaign, const Finding& finding) {
   for (const Run& run : campaign.runs)
     if (std::find(run.findings.begin(), run.findings.end(), finding) != run.findings.end()) return &run;

@@ -1,4 +1,5 @@
-// Single queries that a report shows: findings and the farthest false positives. Each becomes a case file too.
+// Single queries that a report shows: findings and the farthest false positives. Each query becomes a case
+// file too.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +17,19 @@ struct Exported {
   Case content;
 };
 
-/// A finding, and the cases of its shrunk query and of the query that was found.
+/// A finding, with the cases of its shrunk query and of its original query.
 struct ShownFinding {
   Finding finding;
   std::uint64_t seen;
   Exported shrunk, original;
 };
 
-/// The first findings of each signature (FirstFindings); the files are numbered by subject and by what failed. All
-/// findings are in findings.csv.
+/// The first findings of each signature (FirstFindings). The files are numbered separately for each subject
+/// and each kind of failure. All findings are in findings.csv.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
-/// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in has the path
-/// that it has on the machine that found it.
+/// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in's
+/// path is that of the machine that found it.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 /// The farthest false positive of one subject, kind and family.

@@ -18,7 +18,7 @@ std::string meaning(const Extreme& extreme) {
   if (extreme.of == Extreme::Of::distance)
     return extreme.found() ? fmt::format("reach {:.4g} of the bound", extreme.value) : "no false positive";
   if (!extreme.found()) return "no miss found with any factor";
-  return fmt::format("a miss with {} {:.3g}, none beyond",
+  return fmt::format("misses found with factors {} {:.3g}",
                      extreme.of == Extreme::Of::accepting_tolerance ? "<=" : ">=", extreme.value);
 }
 
@@ -29,7 +29,7 @@ std::string rate_below(const CountsSum& sum) {
 }
 
 std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
-  std::vector<std::vector<std::string>> rows{{"tolerance or tests", "times this factor", "queries", "from"}};
+  std::vector<std::vector<std::string>> rows{{"tolerance or tests", "result", "queries", "from"}};
   for (const auto& [name, each] : extremes)
     rows.push_back({name, meaning(each), with_separators(each.queries), each.provenance});
   return columns(rows, 1);

@@ -21,10 +21,10 @@ struct SubjectVerdict {
 /// A verdict for each subject, in the order of their names.
 std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
 
-/// What is wrong with the oracle, in a line; "" if nothing is.
+/// The failures of the oracle, in a line; "" without failures.
 std::string oracle_complaint(const Statistics& statistics);
 
-/// The verdicts, a line each; then a table with a row for each subject and kind, and the oracle's counters.
+/// One line for each verdict; then a table with a row for each subject and kind, and the oracle's counters.
 std::string summary_table(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -19,7 +19,7 @@ std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& st
 /// A table for each sweep and subject with a row for each value; "" without sweeps.
 std::string sweep_tables(const Statistics& statistics);
 
-/// FAMILY.SUBJECT: a list in the order of the values; an empty object without sweeps.
+/// An object FAMILY.SUBJECT with a list in the order of the values; empty without sweeps.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 
 }  // namespace nearmiss

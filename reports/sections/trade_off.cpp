@@ -16,7 +16,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   std::set<std::string> subjects;
   for (const auto& [key, counts] : statistics.counts)
     if (is_timed(counts)) subjects.insert(key.subject);
-  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // number of subjects, by kind and family
+  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // number of subjects by kind and family
   for (const auto& [key, counts] : statistics.counts)
     if (subjects.contains(key.subject)) ++asked[{key.kind, key.family}];
   std::map<std::string, Counts> all;

@@ -11,37 +11,41 @@
 
 namespace nearmiss {
 
-/// Run time and error of a subject, over all kinds and families that every subject was asked.
+/// Run time and error of a subject, over all kinds and families about which every subject was asked.
 struct TradeOff {
   std::string subject;
-  /// Timed families only. Rates are computed from these too, because the rates of a directed search are meaningless.
+  /// The sum over timed families. Rates are computed from it too, because the rates of a directed search are
+  /// meaningless.
   CountsSum timed;
   Counts all;
   LadderPlace place;
 
-  /// Distance of its farthest false positive in units of B; nothing if the unit is not known.
+  /// Distance of the subject's farthest false positive in units of B; nothing if the unit is not known.
   [[nodiscard]] std::optional<double> farthest() const {
     if (all.false_positives == 0) return 0;
     return place.unit ? std::optional(all.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether it may be on a front: it answered every query, missed no collision, and no bound was refuted.
+  /// Whether the subject may be on a front: it answered every query, missed no collision, and no bound was
+  /// refuted.
   [[nodiscard]] bool sound() const {
     return all.false_negatives == 0 && all.refuted_bounds == 0 && all.faults_total() == 0;
   }
 };
 
-/// A TradeOff for each subject that was timed, in the order of their names; empty if no family was asked of all.
+/// A TradeOff for each timed subject, in the order of their names; empty if there is no family about which
+/// all were asked.
 std::vector<TradeOff> trade_offs(const Statistics& statistics);
 
-/// The Pareto front of the sound subjects, fastest first: those for which no other sound subject is at least as fast with
-/// at most the same error. Of subjects with equal times and errors, the first name is on the front. `error` computes the
-/// error of a subject.
+/// The Pareto front of the sound subjects, fastest first. A subject is on the front unless another sound
+/// subject is at least as fast with at most the same error. If several subjects have equal times and errors,
+/// only the first name is on the front. `error` computes the error of a subject.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
-/// "subjects" with ns_per_query, rates and the farthest distance of each, "front_by_distance" (the largest one),
-/// "front_by_rate" (of false positives). If an algorithm has at least three scalars, also "ladder": "front_by_distance"
-/// and the "paper_bound" of double in units of B, because fractions of different bounds cannot be compared.
+/// "subjects" with ns_per_query, rates and the farthest distance of each; "front_by_distance", of the
+/// farthest distance; "front_by_rate", of the rate of false positives. If an algorithm has at least three
+/// scalars, also "ladder": "front_by_distance" and the "paper_bound" of double in units of B, because
+/// fractions of different bounds cannot be compared.
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 }  // namespace nearmiss

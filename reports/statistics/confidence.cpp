@@ -69,7 +69,7 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
     seen += static_cast<double>(now.count);
   }
-  if (std::abs(seen - expected) < 1) return {};  // the theorem does not apply, and the sum is as expected
+  if (std::abs(seen - expected) < 1) return {};  // the theorem does not apply, but the sum is as expected
   return tails(Binomial(trials, expected / trials), seen, 0.0);
 }
 

@@ -1,4 +1,4 @@
-// Confidence bounds of rates, and exact tests of two rates.
+// Confidence bounds of rates, and exact tests that compare two rates.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 namespace nearmiss {
 
-/// The one-sided 95 % upper confidence bound of a rate, if `count` of `total` were seen (Clopper and Pearson 1934):
-/// the rate with which at most `count` are seen with probability 5 %. 1 if total is 0.
+/// The one-sided 95 % upper confidence bound of a rate if `count` events were seen in `total` trials (Clopper
+/// and Pearson 1934). With this rate, the probability of at most `count` events is 5 %. The bound is 1 if
+/// `total` is 0.
 double clopper_pearson_upper(std::uint64_t count, std::uint64_t total);
 
 /// A confidence interval of a rate, within [0, 1].
@@ -41,23 +42,24 @@ struct Proportion {
   }
 };
 
-/// The p-values of a test whether two proportions, `now` and `before`, have the same rate.
+/// The p-values of a test of the hypothesis that two proportions, `now` and `before`, have the same rate.
 struct ExactTest {
-  double more = 1;  ///< probability that now.count is at least as large as it is
-  double less = 1;  ///< probability that now.count is at most as large as it is
+  double more = 1;  ///< probability of a count at least as large as now.count
+  double less = 1;  ///< probability of a count at most as large as now.count
 
-  /// Two-sided: twice the smaller one, at most 1.
+  /// The two-sided p-value: twice the smaller one, at most 1.
   [[nodiscard]] double either() const { return std::min({1.0, 2 * more, 2 * less}); }
 };
 
-/// Fisher's exact test, given the sum of both counts. If both totals exceed 2^31 together, or both counts a million, a
-/// binomial distribution takes the place of the hypergeometric one; its p-values are larger.
+/// Fisher's exact test, given the sum of both counts. If the sum of the totals exceeds 2^31, or the sum of
+/// the counts a million, a binomial distribution replaces the hypergeometric one; its p-values are larger.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
-/// The same for the sum over several pairs {now, before}; each pair has a rate of its own. Given its sum, each pair's
-/// now.count is a sum of independent trials with mean probability now.total / (now.total + before.total). By Hoeffding's
-/// theorem (1956) the tails of the sum over all pairs, beyond 1 from its expectation, are at most those of a binomial
-/// distribution with the same number of trials and their mean probability.
+/// The same test for the sum over several pairs {now, before}; each pair has its own rate. If the sum of a
+/// pair's counts is given, now.count is a sum of independent trials with mean probability now.total /
+/// (now.total + before.total). Hoeffding's theorem (1956) bounds the tails of the sum over all pairs at a
+/// distance of more than 1 from the expectation: they are at most those of a binomial distribution with the
+/// same number of trials and their mean probability.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 
 }  // namespace nearmiss

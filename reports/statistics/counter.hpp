@@ -12,10 +12,10 @@
 
 namespace nearmiss {
 
-/// Where report.json shows a counter.
+/// The place of a counter in report.json.
 enum class Shown : std::uint8_t {
   with_rates,  ///< in every summary of counters, followed by the rates that are computed from it
-  in_full,     ///< where all counters of a subject, kind and family are shown
+  in_full,     ///< in the list of all counters of a subject, kind and family
   in_times,    ///< a time in ns, in the object "times"
 };
 
@@ -30,17 +30,18 @@ struct Counter {
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
 
-/// Counts by name: an array with a name for each entry.
+/// An array of counts with a name for each entry.
 template <class Owner, std::size_t size>
 struct NamedCounts {
   std::string_view name;  ///< column of the store
   std::array<std::uint64_t, size> Owner::*member;
   std::array<std::string_view, size> names;
   std::string_view
-      json_key;  ///< of an object with an entry for each name; "" if its entries stand in the owner's
+      json_key;  ///< key of an object with an entry for each name; "" if the entries are in the owner's
+                 ///< object
   std::string_view csv_prefix;  ///< statistics.csv has a column PREFIX_NAME for each name
-  std::size_t first = 0;        ///< entries before this one are never counted, and not shown
-  bool shows_zeros = false;     ///< in report.json
+  std::size_t first = 0;        ///< index of the first entry that is counted and shown
+  bool shows_zeros = false;     ///< whether report.json shows zero entries
 };
 
 /// Calls `use` with each declaration of `Owner`, in the order in which files show them.
@@ -69,7 +70,7 @@ template <class Merges>
 requires requires(Merges& own, const Merges& other) { own.merge(other); }
 void add_up(Merges& own, const Merges& other) { own.merge(other); }
 
-/// Adds each counter of `other`: numbers by their sum, anything else by add_up or merge of its type.
+/// Adds each counter of `other`. Numbers are summed; other types are merged with their add_up or merge.
 template <class Owner>
 void merge_counters(Owner& own, const Owner& other) {
   for_each_counter<Owner>([&](const auto& counter) { add_up(own.*counter.member, other.*counter.member); });

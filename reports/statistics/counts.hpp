@@ -18,9 +18,9 @@
 
 namespace nearmiss {
 
-/// A false positive that is kept because it is among the farthest away.
+/// A false positive that is kept because it is among the farthest.
 struct FarCase {
-  double ratio = 0;  ///< distance / claimed bound
+  double ratio = 0;  ///< distance divided by claimed bound
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
@@ -30,34 +30,35 @@ struct FarCase {
 /// Adds cases and keeps the farthest, at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
 
-/// A subject's answer beside the oracle's.
+/// A subject's answer with the oracle's.
 struct Outcome {
   Verdict verdict;
   bool collision = false;
-  /// For a false positive: certified distance over [0, 1] / claimed bound, rounded up, and in the right bin of a
-  /// Histogram. It is right to a part in a thousand if the case may be among the farthest and is not in the first bin.
-  /// If the subject claims no bound, wang's bound for the same pair takes its place.
+  /// For a false positive: the certified distance over [0, 1] divided by the claimed bound, rounded up
+  /// without leaving its Histogram bin. The relative error is at most 1/1000 if the case may be among the
+  /// farthest and is not in the first bin. If the subject claims no bound, wang's bound for the same pair is
+  /// used.
   double ratio = 0;
-  bool bound_refuted = false;  ///< certainly farther away than claimed
+  bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
 };
 
 /// Counters of one subject, kind and family.
 struct Counts {
-  std::uint64_t queries = 0;     ///< that it was asked, `faults` included
-  std::uint64_t collisions = 0;  ///< among the queries that it answered, by the oracle
+  std::uint64_t queries = 0;     ///< queries that the subject was asked, including `faults`
+  std::uint64_t collisions = 0;  ///< collisions, by the oracle, among the queries that the subject answered
   std::uint64_t positives = 0;   ///< queries that the subject reported as collisions
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
-  std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by the reason
-  SubjectTimes times;                               ///< in ns
+  std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
+  SubjectTimes times;                               ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
-  std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by the reason
-  Histogram distances;                                       ///< of false positives
-  std::vector<FarCase> farthest;                             ///< at most far_cases, farthest first
+  std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
+  Histogram distances;                                       ///< distances of false positives
+  std::vector<FarCase> farthest;                             ///< farthest first, at most far_cases
 
-  /// Every counter. To add one, declare it here and count it in add().
+  /// Lists every counter. To add a counter, declare it here and count it in add().
   static constexpr auto counters() {
     return std::tuple{
         Counter{"queries", &Counts::queries, Shown::with_rates},
@@ -80,18 +81,18 @@ struct Counts {
 
   static constexpr std::size_t far_cases = 5;
 
-  /// `query` and its provenance are kept if the outcome is a far false positive.
+  /// Counts an outcome. Keeps `query` and its provenance if the outcome is a far false positive.
   void add(const Outcome& outcome, const Query& query, const std::function<std::string()>& provenance);
   void merge(const Counts& other) { merge_counters(*this, other); }
 
   [[nodiscard]] std::uint64_t faults_total() const;
-  /// The queries that it answered and that are no collisions.
+  /// Queries that the subject answered and that are not collisions.
   [[nodiscard]] std::uint64_t others() const { return queries - faults_total() - collisions; }
-  /// Among others(); 0 if there are no others.
+  /// Rate of false positives among others(); 0 if there are no others.
   [[nodiscard]] double false_positive_rate() const {
     return others() == 0 ? 0 : static_cast<double>(false_positives) / static_cast<double>(others());
   }
-  /// Among collisions; 0 if there are no collisions.
+  /// Rate of false negatives among collisions; 0 if there are no collisions.
   [[nodiscard]] double false_negative_rate() const {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
   }
@@ -100,8 +101,8 @@ struct Counts {
   [[nodiscard]] bool keeps(double ratio) const {
     return farthest.size() < far_cases || ratio >= farthest.back().ratio;
   }
-  /// The bin of the smallest ratio that is not exceeded by a fraction `part` of the false positives; the bin's upper end
-  /// is at most the largest ratio.
+  /// The bin of the smallest ratio such that a fraction `part` of the false positives does not exceed it. The
+  /// bin's upper end is at most the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};
@@ -116,9 +117,9 @@ struct OracleCounts {
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;
   std::array<std::uint64_t, filter_stage_count>
-      by_stage{};                 ///< queries by the stage of the filter that decided
-  std::uint64_t near_bounds = 0;  ///< decided near the filter's bounds; only some campaigns count these
-  std::uint64_t compared = 0;     ///< decided by all exact methods
+      by_stage{};                         ///< queries by the stage of the filter that decided
+  std::uint64_t near_bounds = 0;          ///< queries decided near the filter's bounds; not in all campaigns
+  std::uint64_t compared = 0;             ///< queries decided by all exact methods
   std::uint64_t compared_collisions = 0;  ///< collisions among `compared`
   std::uint64_t missed_by_parity = 0;     ///< collisions among `compared` that have an even number of roots
 

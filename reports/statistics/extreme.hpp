@@ -1,4 +1,4 @@
-// How much slack the tolerances have: the most extreme queries that were found.
+// The most extreme queries that were found, which show how much slack the tolerances have.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// The most extreme query that was found for one tolerance, or for one sort of tests.
+/// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
     accepting_tolerance,  ///< the largest factor with which a collision is missed; 0 if no factor misses one
@@ -21,25 +21,25 @@ struct Extreme {
   };
 
   Of of{};
-  std::string name;           ///< of the tolerance or tests
-  double value = 0;           ///< a factor is on this tolerance alone, all others as the paper has them
+  std::string name;           ///< name of the tolerance or tests
+  double value = 0;           ///< a factor applies to this tolerance alone; all others are the paper's
   Query query;                ///< meaningless if nothing was found
-  std::string provenance;     ///< of the query; empty if nothing was found
+  std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried
 
   [[nodiscard]] bool found() const { return !provenance.empty(); }
 
-  /// Keeps the more extreme of two queries for the same tolerance or tests, or the one with the lesser provenance if they
-  /// are equal; adds up the queries.
+  /// Keeps the more extreme of two queries for the same tolerance or tests. If both are equally extreme,
+  /// keeps the query with the lesser provenance. Adds up the numbers of queries.
   void merge(const Extreme& other);
 
   bool operator==(const Extreme&) const = default;
 };
 
-/// Nothing found yet.
+/// The state before anything is found.
 Extreme nothing_found(Extreme::Of of, std::string name);
 
-/// Names of what an extreme is of, in order, as they stand in files and reports.
+/// Names of the values of Extreme::Of in files and reports, in order.
 inline constexpr std::array<std::string_view, 3> extreme_names{"accepting-tolerance", "keeping-tolerance",
                                                                "distance"};
 

@@ -11,14 +11,14 @@ namespace nearmiss {
 inline constexpr std::string_view miss_search_family = "search-miss-";
 inline constexpr std::string_view far_search_family = "search-far-";
 
-/// Whether a family's queries are drawn at random: cases and scenes are not.
+/// Whether a family's queries are drawn at random. Cases and scenes are not.
 bool is_random(std::string_view family);
 
-/// The family under which a report shows queries: "search-miss" or "search-far" for directed searches, whatever
-/// subject they are for; any other family under its own name.
+/// The family under which a report shows queries. Directed searches for all subjects are shown as
+/// "search-miss" or "search-far", other families under their own names.
 std::string_view shown_family(std::string_view family);
 
-/// Where queries come from: "directed search", or their family.
+/// The origin of queries: "directed search", or their family.
 std::string_view origin(std::string_view family);
 
 /// Statistics in which families that are shown as one are added up.

@@ -1,4 +1,4 @@
-// Failures: what failed, and in which way.
+// Failures: the sort of failure, and the way in which a query fails.
 #pragma once
 
 #include <array>
@@ -28,15 +28,15 @@ struct Finding {
   std::string family;
   Query query;
   std::string provenance;
-  double ratio = 0;            ///< distance / bound if a bound was refuted
-  std::string signature = {};  ///< in which way the query fails, such as "vt simple-root inside on-edge"
-  Query shrunk = {};        ///< the simplest query known that fails in the same way; perhaps the query itself
+  double ratio = 0;            ///< distance divided by bound, if a bound was refuted
+  std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
+  Query shrunk = {};        ///< the simplest known query that fails in the same way; may be the query itself
   std::uint64_t round = 0;  ///< the round of the campaign in which it was found
 
   bool operator==(const Finding&) const = default;
 };
 
-/// Names of what failed, in order, as they stand in files and reports.
+/// Names of the sorts of failure in files and reports, in order.
 inline constexpr std::array<std::string_view, 5> what_names{"false-negative", "refuted-bound",
                                                             "oracle-disagreement", "truth-mismatch", "fault"};
 
@@ -58,13 +58,13 @@ inline Signature signature_of(const Finding& finding) {
   return {finding.what, finding.subject, finding.signature};
 }
 
-/// How many findings of each signature are kept, and shown; Statistics::seen counts all.
+/// Number of findings of each signature that are kept and shown; Statistics::seen counts all.
 inline constexpr std::size_t findings_kept = 3;
 
 /// Takes findings in order and picks the first ones of each signature.
 class FirstFindings {
  public:
-  /// Whether this finding is among the first ones of its signature; it counts from now on.
+  /// Counts the finding. Whether it is among the first ones of its signature.
   bool take(const Finding& finding) { return ++taken_[signature_of(finding)] <= findings_kept; }
 
  private:

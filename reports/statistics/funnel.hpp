@@ -1,4 +1,5 @@
-// What became of the pairs of a scene: which were left out, why, and which were asked.
+// What became of the pairs of a scene: which pairs were left out and why, and about which pairs subjects were
+// asked.
 #pragma once
 
 #include <array>
@@ -11,27 +12,27 @@
 
 namespace nearmiss {
 
-/// What becomes of a pair. All but the last are left out: a subject is not asked.
+/// What becomes of a pair. Subjects are asked only about pairs with the last fate; all others are left out.
 enum class PairFate : std::uint8_t {
   boxes_apart,     ///< the boxes that the primitives sweep do not meet
   share_vertex,    ///< the primitives have a vertex in common
-  at_rest,         ///< relative to each other: a static test decides
-  in_translation,  ///< relative to each other: a linear test decides
+  at_rest,         ///< the primitives are at rest relative to each other; a static test decides
+  in_translation,  ///< the primitives are in translation relative to each other; a linear test decides
   asked,
 };
 
 inline constexpr std::size_t pair_fate_count = 5;
 
-/// Names of the fates, in their order; they stand in files.
+/// Names of the fates in files, in order.
 inline constexpr std::array<std::string_view, pair_fate_count> pair_fate_names{
     "boxes_apart", "share_vertex", "at_rest", "in_translation", "asked"};
 
 /// Pairs of one kind in one step of a scene.
 struct Funnel {
-  std::array<std::uint64_t, pair_fate_count> pairs{};  ///< by their fate
+  std::array<std::uint64_t, pair_fate_count> pairs{};  ///< number of pairs with each fate
   std::uint64_t touching = 0;                          ///< pairs at rest or in translation that collide
   std::uint64_t finding_ns = 0;                        ///< time to find the pairs whose boxes meet
-  std::uint64_t deciding_ns = 0;  ///< time to find out fates, and to decide pairs at rest or in translation
+  std::uint64_t deciding_ns = 0;  ///< time to determine fates, and to decide pairs at rest or in translation
 
   static constexpr auto counters() {
     return std::tuple{NamedCounts<Funnel, pair_fate_count>{.name = "pairs",

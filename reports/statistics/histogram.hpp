@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-/// A range in which a number is known to be.
+/// A range that contains a number.
 struct Bin {
   double from = 0;
   double to = 0;
@@ -15,8 +15,9 @@ struct Bin {
   bool operator==(const Bin&) const = default;
 };
 
-/// Counts of the distances of false positives, as fractions of the bound that the subject claims: log-spaced
-/// bins, four to a decade from 10^-16 to 10^1, one for everything below them and one for everything above.
+/// Counts the distances of false positives, as fractions of the bound that the subject claims. The bins are
+/// log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for everything below and one for
+/// everything above.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;
@@ -31,10 +32,10 @@ struct Histogram {
   static double border(std::size_t i);
   /// The lower border of the bin that holds this ratio.
   static double lower_border(double ratio);
-  /// The number of ratios that are at least 1. 1 is a border, so this is exact.
+  /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
-  /// The bin of the smallest ratio that is not exceeded by a fraction `part` of all, in (0, 1]; (0, 0) if all bins are
-  /// empty.
+  /// The bin of the smallest ratio such that a fraction `part` of all ratios, in (0, 1], does not exceed it;
+  /// (0, 0) if all bins are empty.
   [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

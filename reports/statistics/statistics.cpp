@@ -48,7 +48,7 @@ std::uint64_t Statistics::queries_of(const std::string& subject) const {
 
 namespace {
 
-/// The sum over all counters of what `count` gives of one.
+/// The sum of `count` over all counters.
 template <class Count>
 std::uint64_t sum_of(const std::map<CountsKey, Counts>& counts, const Count& count) {
   return std::accumulate(

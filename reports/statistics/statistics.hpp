@@ -1,4 +1,4 @@
-// What a campaign counts. Statistics merge in any order, from any number of shards, to the same bytes.
+// The counters of a campaign. Statistics merge in any order, from any number of shards, to the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace nearmiss {
 
-/// What a subject's counters are kept for.
+/// Identifies a subject's counters.
 struct CountsKey {
   std::string subject;
   Kind kind{};
@@ -31,7 +31,7 @@ struct CountsKey {
 /// Counters of a subject, added up over families.
 struct CountsSum {
   Counts counts;
-  bool is_sample = true;  ///< whether all queries were drawn at random; otherwise a rate is no probability
+  bool is_sample = true;  ///< whether all queries were drawn at random; otherwise a rate is not a probability
 
   void add(const std::string& family, const Counts& each);
 };
@@ -41,13 +41,13 @@ struct Statistics {
   std::map<CountsKey, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
   std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
-  std::map<Signature, std::uint64_t> seen;                      ///< how often a query failed in each way
+  std::map<Signature, std::uint64_t> seen;                      ///< number of queries that failed in each way
   std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
-  std::uint64_t oracle_disagreements = 0;  ///< queries on which the exact methods disagree
+  std::uint64_t oracle_disagreements = 0;  ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
-      0;  ///< cases on which the oracle contradicts the recorded truth
+      0;  ///< cases for which the oracle contradicts the recorded truth
 
-  /// The counters of the campaign as a whole.
+  /// Lists the counters of the campaign as a whole.
   static constexpr auto counters() {
     return std::tuple{Counter{"disagreements", &Statistics::oracle_disagreements},
                       Counter{"mismatches_with_recorded_truth", &Statistics::mismatches_with_recorded_truth}};
@@ -59,7 +59,7 @@ struct Statistics {
   [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
   /// The oracle's counters summed over families and kinds.
   [[nodiscard]] OracleCounts oracle_total() const;
-  /// How often a query failed in this way.
+  /// The number of queries that failed in this way.
   [[nodiscard]] std::uint64_t times_seen(const Signature& signature) const;
   /// The number of queries that a subject was asked.
   [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;

@@ -1,4 +1,4 @@
-// How long subjects take. Times merge in any order to the same bytes.
+// Run times of subjects. Times merge in any order to the same bytes.
 #pragma once
 
 #include <array>
@@ -17,14 +17,15 @@
 
 namespace nearmiss {
 
-/// Run times of batches of queries, as the time per query: rounded to three significant digits, and at least 1 ns,
-/// because a clock cannot distinguish a shorter time from an empty subject's.
+/// Run times per query of batches of queries, rounded to three significant digits. Times are at least 1 ns,
+/// because a clock cannot distinguish shorter times from an empty subject's.
 class BatchTimes {
  public:
   void add(const BatchTime& time);
   void merge(const BatchTimes& other);
   [[nodiscard]] std::uint64_t queries() const;
-  /// The time per query in ns that batches with half of the queries did not exceed. At least one query must be timed.
+  /// The median time per query in ns: batches with half of the queries did not exceed it. At least one query
+  /// must be timed.
   [[nodiscard]] double median() const;
 
   /// Number of queries by their time in ps.
@@ -48,8 +49,8 @@ struct TimeHistogram {
   void add(std::uint64_t nanoseconds);
   void merge(const TimeHistogram& other);
   [[nodiscard]] std::uint64_t total() const;
-  /// The upper border in ns of the bin of the time that a fraction `part` of all queries, in (0, 1], did not exceed;
-  /// nothing if no query was timed.
+  /// A quantile in ns, as the upper border of its bin: a fraction `part` of all queries, in (0, 1], did not
+  /// exceed it. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> quantile(double part) const;
 
   bool operator==(const TimeHistogram&) const = default;
@@ -67,16 +68,17 @@ struct SlowCase {
 /// Adds cases and keeps the slowest, at most SubjectTimes::slow_cases.
 void add_up(std::vector<SlowCase>& own, const std::vector<SlowCase>& other);
 
-/// Batches by kind and family.
+/// Batch times by kind and family.
 using BatchesByFamily = std::map<std::pair<Kind, std::string>, BatchTimes>;
 
 void add_up(BatchesByFamily& own, const BatchesByFamily& other);
 
-/// How long a subject took to answer.
+/// The run times of a subject.
 struct SubjectTimes {
-  BatchesByFamily batches;        ///< kept apart, because a median is meaningful for similar batches only
+  BatchesByFamily batches;        ///< separate for each kind and family, because a median is meaningful for
+                                  ///< similar batches only
   std::uint64_t nanoseconds = 0;  ///< total over all timed queries
-  TimeHistogram each;             ///< of a sample of the queries, timed one by one
+  TimeHistogram each;             ///< times of a sample of the queries, timed one by one
   std::vector<SlowCase> slowest;  ///< the slowest of that sample, at most slow_cases, slowest first
 
   static constexpr auto counters() {
@@ -93,10 +95,11 @@ struct SubjectTimes {
 
   /// The number of queries that were timed in batches.
   [[nodiscard]] std::uint64_t queries() const;
-  /// Time per query in ns: the median over the batches of each kind and family; then the mean of these medians, weighted
-  /// by their numbers of queries. Nothing if no query was timed.
+  /// Time per query in ns: the mean of the medians over the batches of each kind and family, weighted by
+  /// their numbers of queries. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> ns_per_query() const;
-  /// Mean time of all timed queries in ns. Rare slow queries and disturbances show in it. Nothing if no query was timed.
+  /// Mean time of all timed queries in ns. Unlike the median, it shows rare slow queries and disturbances.
+  /// Nothing if no query was timed.
   [[nodiscard]] std::optional<double> mean() const;
 
   bool operator==(const SubjectTimes&) const = default;

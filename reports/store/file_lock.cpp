@@ -23,7 +23,7 @@ FileLock::FileLock(const std::filesystem::path& file) : lock_(file.string() + ".
     if (locked && fstat(descriptor_, &held) == 0 && held.st_nlink > 0) return;
     close(descriptor_);
     if (!locked) throw Error(fmt::format("{}: another process is writing it", file.string()));
-    // The holder removed the file just before it released the lock: try a new file.
+    // The holder removed the lock file just before it released the lock. Try again with a new lock file.
   }
 }
 

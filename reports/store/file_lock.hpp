@@ -5,8 +5,8 @@
 
 namespace nearmiss {
 
-/// Held by the process that writes a file, beside which FILE.lock exists meanwhile. The system releases the lock when the
-/// process ends, in whatever way.
+/// A lock held by the process that writes a file. Meanwhile FILE.lock exists next to it. The system releases
+/// the lock however the process ends.
 class FileLock {
  public:
   /// Throws Error if another process holds the lock, or if it cannot be made.

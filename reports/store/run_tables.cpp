@@ -104,7 +104,7 @@ void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const Sce
 
 std::vector<Run> read_runs(SQLite::Database& db) {
   std::vector<Run> all;
-  std::map<std::uint64_t, std::size_t> index;  // where each run stands in `all`
+  std::map<std::uint64_t, std::size_t> index;  // position of each run in `all`
   runs().read(db, [&](RunRow&& row) {
     index[row.run] = all.size();
     all.push_back({std::move(row.content), {}, {}});

@@ -20,13 +20,14 @@ void write_run(SQLite::Database& db, std::uint64_t run, const RunInfo& info);
 /// Adds or replaces a shard of a run.
 void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard);
 
-/// Adds findings of a run after those that are there.
+/// Appends findings to those of a run.
 void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> findings);
 
 /// Adds pictures of a run.
 void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> pictures);
 
-/// All runs. Throws Error for a value that no store has, and what SQLite and the JSON library throw.
+/// Reads all runs. Throws Error for an invalid value, and passes on exceptions of SQLite and the JSON
+/// library.
 std::vector<Run> read_runs(SQLite::Database& db);
 
 }  // namespace nearmiss

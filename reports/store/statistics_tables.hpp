@@ -13,7 +13,8 @@ void make_statistics_tables(SQLite::Database& db);
 /// Replaces all counters.
 void write_statistics(SQLite::Database& db, const Statistics& statistics);
 
-/// Throws Error for a value that no store has, and what SQLite and the JSON library throw.
+/// Reads all counters. Throws Error for an invalid value, and passes on exceptions of SQLite and the JSON
+/// library.
 Statistics read_statistics(SQLite::Database& db);
 
 }  // namespace nearmiss

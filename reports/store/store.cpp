@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int application_id = 0x6e656172;  // "near"
 
-/// Version of the tables and of what stands in them; every change raises it.
+/// Version of the tables and of their contents; every change raises it.
 constexpr int schema_version = 12;
 
 void make_schema(SQLite::Database& db) {
@@ -26,7 +26,7 @@ void make_schema(SQLite::Database& db) {
       fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {};", schema_version, application_id));
 }
 
-/// Throws Error if it is no store, or one of another version.
+/// Throws Error if the database is not a store, or is a store of another version.
 void check_version(SQLite::Database& db) {
   if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
     throw Error("found another kind of database, expected a store of nearmiss");
@@ -54,16 +54,16 @@ struct Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
     try {
-      db.exec("PRAGMA journal_mode = DELETE");  // one plain file is left, for readers that may not write
+      db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
     } catch (const SQLite::Exception&) {
-      return;  // then the log stays beside it, and nothing is lost
+      return;  // then the log remains next to the file, and nothing is lost
     }
   }
 
   SQLite::Database db;
 };
 
-/// Whether a file is a database without tables, which a kill during the creation of a store leaves.
+/// Whether a file is a database without tables. A kill during the creation of a store leaves such a file.
 bool is_empty_database(const fs::path& file) {
   try {
     SQLite::Database db(file.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
@@ -122,7 +122,7 @@ Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file))
     check_version(db);
     const std::vector<Run> runs = read_runs(db);
     if (runs.size() != 1 || runs.front().shards.size() != 1)
-      throw Error("found several shards or runs, expected one to go on with");
+      throw Error("found several shards or runs, expected one to continue");
   });
 }
 

@@ -9,17 +9,18 @@
 
 namespace nearmiss {
 
-/// The file of one shard of a run while it runs. Every save is one transaction: it is complete or does not happen at all,
-/// and earlier saves survive a full disk, an interrupt or a kill. One process at a time writes a file; others may read it
-/// meanwhile.
+/// The file to which a running shard saves its results. Every save is one transaction: it is complete or does
+/// not happen at all. Earlier saves survive a full disk, an interrupt or a kill. Only one process at a time
+/// writes a file; others may read it meanwhile.
 class Store {
  public:
-  /// Whether there is a store to resume. A kill during the creation of a store may leave a database without tables, which
-  /// is no store yet.
+  /// Whether there is a store to resume. A kill during the creation of a store may leave a database without
+  /// tables, which is not a store yet.
   static bool exists(const std::filesystem::path& file);
-  /// Makes a new file. Throws Error if there is another file, or it cannot be made.
+  /// Makes a new file. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
-  /// Resumes with a file. Throws Error unless it is a store of one shard of one run that no other process writes.
+  /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no
+  /// other process writes it.
   explicit Store(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -37,7 +38,7 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-/// Reads a whole campaign. Throws Error if the file is missing, is no store, or has another version.
+/// Reads a whole campaign. Throws Error if the file is missing, is not a store, or has another version.
 Campaign load_campaign(const std::filesystem::path& file);
 
 /// Reads several files as one campaign. Throws Error as load_campaign and merge_campaigns do.

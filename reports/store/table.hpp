@@ -1,4 +1,4 @@
-// A table of the store: its columns are declared once, each with its name and the member of a row that it holds.
+// A table of the store. Each column is declared once, with its name and the member of a row that it stores.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -26,7 +26,7 @@ struct Column {
   std::function<void(const SQLite::Column&, Row&)> read;
 };
 
-/// Declares a column. `member_of(row)` is a reference to the member of the row that it holds.
+/// Declares a column. `member_of(row)` is a reference to the member of the row that the column stores.
 template <class Row, class MemberOf>
 Column<Row> column(std::string name, const MemberOf& member_of) {
   using Stored = decltype(to_stored(member_of(std::declval<Row&>())));
@@ -68,7 +68,7 @@ template <class Row>
 struct Table {
   std::string name;
   std::string constraint;  ///< "" or a constraint of the table
-  std::string order;       ///< of its rows when they are read
+  std::string order;       ///< order of the rows when they are read
   std::vector<Column<Row>> columns;
 
   void make(SQLite::Database& db) const {
@@ -96,7 +96,7 @@ struct Table {
     }
   }
 
-  /// Passes on every row.
+  /// Passes every row to `take`.
   void read(SQLite::Database& db, const std::function<void(Row&&)>& take) const {
     SQLite::Statement rows(db, fmt::format("SELECT * FROM {} ORDER BY {}", name, order));
     while (rows.executeStep()) {

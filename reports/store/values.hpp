@@ -1,5 +1,5 @@
-// Values as they stand in the columns of a store: integers, reals, and text. from_stored reads what to_stored gives; it
-// throws Error, with `where`, for anything else.
+// Conversion of values to and from the columns of a store: integers, reals, and text. from_stored reads what
+// to_stored returns. It throws Error, with `where`, for anything else.
 #pragma once
 
 #include <cstdint>

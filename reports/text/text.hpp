@@ -1,4 +1,4 @@
-// Numbers and tables as text, the same in all terminals and reports.
+// Formats numbers and tables as text, in the same way for all terminals and reports.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace nearmiss {
 
-/// A table in columns: the first `left_aligned` ones are aligned left, the others right.
+/// A table in columns. The first `left_aligned` columns are aligned left, the others right.
 std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t left_aligned);
 
 /// 1234567 as "1,234,567".
@@ -22,9 +22,9 @@ std::string percent(std::uint64_t part, std::uint64_t total);
 /// A time in ns, rounded to a whole number; "-" if there is none.
 std::string whole_ns(const std::optional<double>& ns);
 
-/// distance / bound with three digits, or with more if a ratio below 1 would be rounded to 1. "below 1e-16" for a ratio
-/// in the lowest bin of a Histogram, which is known from above only; "inf" for the largest double, which stands for any
-/// distance over a bound of 0.
+/// A ratio distance / bound with three digits, or with more if a ratio below 1 would be rounded to 1. "below
+/// 1e-16" for a ratio in the lowest bin of a Histogram, of which only an upper bound is known. "inf" for the
+/// largest double, which stands for any distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", or "beyond a bound of 0".

@@ -1,5 +1,6 @@
-// The subjects basic and wang as plug-ins with a planted defect: one answer in NEARMISS_PLANTED (environment) is wrong,
-// chosen by the bits of the coordinates; none if the variable is 0 or not set.
+// The subjects basic and wang as plug-ins with a planted defect. If the environment variable NEARMISS_PLANTED
+// is N, one answer in N is wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is
+// wrong.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

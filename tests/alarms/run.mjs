@@ -1,5 +1,6 @@
-// Counts how often a report with a baseline raises an alarm: over pairs of equal campaigns, where every alarm is false, and
-// over pairs with a planted defect in one query of 3,000, in a clean subject and in one that fails anyway.
+// Counts how often a report with a baseline raises an alarm. For pairs of equal campaigns, every alarm is
+// false. Other pairs have a planted defect in one query of 3,000, in a subject without failures or in a
+// subject that fails anyway.
 //
 //     node tests/alarms/run.mjs NEARMISS PLUGINS [PAIRS [CASES [equal|wang|basic]]]
 import { execFileSync, spawnSync } from "node:child_process";

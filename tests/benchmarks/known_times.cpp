@@ -1,5 +1,5 @@
-// The times that a trial measures of subjects whose time is known: ns per query of the same arithmetic in a plain loop, in
-// a built-in, and in a plug-in, which runs in its own process.
+// Measures subjects whose run time is known: ns per query of the same arithmetic in a plain loop, in a
+// built-in subject, and in a plug-in, which runs in its own process.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Arithmetic that is not plain is told, named and undone.
+// Arithmetic that is not plain is detected, named and undone.
 #include "ccd/arithmetic.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,8 @@ TEST(Arithmetic, OfTheCallerIsNotThatOfOurSubjects) {
   wang->decide(std::span(&query, 1), std::span(&verdict, 1));
   EXPECT_TRUE(verdict.hit);
   EXPECT_FALSE(
-      (::nearmiss::wang<Kind::vertex_triangle, double, WangOptions{}>(query).hit));  // as it is without
+      (::nearmiss::wang<Kind::vertex_triangle, double, WangOptions{}>(query).hit));  // the answer is the same
+                                                                                     // as in plain arithmetic
 }
 
 }  // namespace

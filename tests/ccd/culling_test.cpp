@@ -1,4 +1,4 @@
-// The culling of vertex-edge tests at the border of its bounds, with numbers that are exact.
+// The culling of vertex-edge tests at its exact bounds, with exact numbers.
 #include "ccd/ve_culling.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double eps = 0x1p-52;
 
-/// A pair whose bound B is 1, and whose velocities are within 1; its vectors are not looked at.
+/// A pair whose bound B is 1, and whose velocities are within 1. Its vectors are not used.
 Pair<Kind::vertex_triangle, double> unit_pair() {
   Pair<Kind::vertex_triangle, double> pair;
   for (Moving<double>* vector : {&pair.p, &pair.q, &pair.r}) vector->xv.setZero();
@@ -19,7 +19,7 @@ Pair<Kind::vertex_triangle, double> unit_pair() {
   return pair;
 }
 
-/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, and a first weight that may be outside.
+/// A triangle with ‖q‖₁ = ‖r‖₁ = ‖N‖₁ = 1, whose first weight may be outside.
 Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
   Configuration<Kind::vertex_triangle, double> configuration(unit_pair(), 0.5);
   configuration.q = {1, 0, 0};
@@ -30,19 +30,19 @@ Configuration<Kind::vertex_triangle, double> with_weight(double weight) {
   return configuration;
 }
 
-/// F with the root 1/2 and a slope.
+/// A linear F with this slope and the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
-/// μ of 2^-40, and no other tolerance.
+/// Tolerances with μ = 2^-40 and zeros otherwise.
 Tolerances<double> tolerances() {
   Tolerances<double> tol{};
   tol.mu = 0x1p-40;
   return tol;
 }
 
-/// The value that |F| has to exceed beside a root: μ + 2E + m.
+/// The value that |F| must exceed next to a root: μ + 2E + m.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
-/// The rounding errors of a weight and of how far it may move.
+/// The rounding errors of a weight and of the bound of its movement.
 constexpr double rounding = (1160 + 4400) * eps;
 
 template <VeCulling culling>
@@ -74,7 +74,7 @@ TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9));
 }
 
-// h is at most 1, and four thresholds are less than the slope times that.
+// h is at most 1, so four thresholds must be less than the slope.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
   EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));

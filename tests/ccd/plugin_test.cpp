@@ -1,4 +1,4 @@
-// Plug-in subjects, good and bad.
+// Good and bad plug-in subjects.
 #include "ccd/plugin.hpp"
 
 #include <gmock/gmock.h>

@@ -39,7 +39,7 @@ TEST(Quadratic, SmallRootDoesNotCancel) {
   EXPECT_EQ(quadratic_roots(1, 1e8, -1), (Roots{1e-8}));
 }
 
-/// The number of a random case, which makes it again, and its cubic.
+/// The number of a random case, which repeats it, and its cubic.
 std::string shown(std::uint64_t index, const Cubic<double>& F) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << F.a << ' ' << F.b << ' ' << F.c << ' ' << F.d;
@@ -87,7 +87,7 @@ TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
   const double mu = 64 * std::ldexp(1.0, -39);
   for (std::uint64_t i = 0; i < 20000; ++i) {
     Random random(2, 0, i);
-    // Clustered roots, so that F stays near 0 between them.
+    // Makes clustered roots, so that F stays near 0 between them.
     const double r0 = random.uniform();
     const double spread = std::pow(10.0, -8 * random.uniform());
     const double r1 = r0 + spread * (random.uniform() - 0.5);

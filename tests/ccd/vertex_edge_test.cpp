@@ -1,4 +1,4 @@
-// VV and VE: what is within their thresholds is reported, and nothing farther away than the bound.
+// VV and VE report everything within their thresholds, and nothing farther away than the bound.
 #include "ccd/vertex_edge.hpp"
 
 #include <gtest/gtest.h>
@@ -36,12 +36,12 @@ TEST(Tolerances, AreThePapersForDouble) {
   EXPECT_EQ(tol.mu, 64 * e * e * e);
   EXPECT_EQ(tol.tau, 64 * e * e);
   EXPECT_EQ(tol.eta, 4 * e);
-  EXPECT_GE(tol.mu, 33492 * epsilon<double>());  // what makes the cubic solver failure-proof
+  EXPECT_GE(tol.mu, 33492 * epsilon<double>());  // the condition for a failure-proof cubic solver
 }
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {
   const double D = std::sqrt(tol.D2);
-  // Passing at distance D at t = 1/2; at rest at that distance; apart by a little more.
+  // Two vertices pass at distance D at t = 1/2; rest at this distance; or are slightly farther apart.
   EXPECT_EQ(vertex_vertex(moving({D, -0.5, 0}, {0, 1, 0}), tol), 0.5);
   EXPECT_EQ(vertex_vertex(moving({D, 0, 0}, {0, 0, 0}), tol), 0);
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));
@@ -62,8 +62,8 @@ TEST(VertexVertex, LooksOnlyWithinTheStep) {
   EXPECT_EQ(vertex_vertex(moving({0.5, 0, 0}, {-0.5, 0, 0}), tol), 1);
 }
 
-// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions, made so that no earlier case in
-// the algorithm's order sees it.
+// One vertex-edge pair for each case of the Karush-Kuhn-Tucker conditions. No earlier case in the algorithm's
+// order reports it.
 
 VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<double>& xji) {
   return {x0i, xji, moving(x0i.x() - xji.x(), x0i.v() - xji.v())};
@@ -71,7 +71,7 @@ VertexEdge<double> vertex_edge_pair(const Moving<double>& x0i, const Moving<doub
 
 TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
   for (const double t : {0.0, 1.0}) {
-    // On the edge's middle at time t, elsewhere far away.
+    // The vertex is on the edge's middle at time t, and far away at other times.
     const auto pair =
         vertex_edge_pair(moving({0.25, -0.5 * t, 0}, {0, 0.5, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
     const Verdict verdict = vertex_edge(pair, tol);
@@ -81,8 +81,8 @@ TEST(VertexEdge, Case1AtTheEndsOfTheStep) {
 }
 
 TEST(VertexEdge, Case2AtTheMinimumOfOnePiece) {
-  // A vertex grazes a turning edge: no component of the cross product comes near zero (then it were case 4).
-  // Found by random search; the bound B of the pair is 2.64.
+  // A vertex grazes a turning edge. No component of the cross product comes near zero, because this would be
+  // case 4. The pair was found by random search; its bound B is 2.64.
   const Vector vertex(-0x1.5d08p+0, 0x1.3c7p-2, 0x1.075cp-2);
   const Vector vertex_end(0x1.4418p-2, -0x1.629p-4, -0x1.50ap-4);
   const Vector edge(-0x1.ebc8p-1, 0x1.6ce8p-2, 0x1.7e48p-2);
@@ -116,7 +116,7 @@ TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
-  // Passes the end xj at a third of D beyond it: the projection is never inside.
+  // The vertex passes at a third of D beyond the end xj, so its projection is never inside.
   const double d = std::sqrt(tol.D2) / 3;
   const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
@@ -135,7 +135,7 @@ double distance_to_edge(const VertexEdge<double>& pair, double t) {
   return (a - w * edge).norm();
 }
 
-/// A vertex that is `distance` away from a point of the edge at a random time, all vectors within 1.
+/// A vertex at `distance` from a point of the edge at a random time, with all vectors within 1.
 VertexEdge<double> pair_at_distance(Random& random, double distance, double& time) {
   const Vector edge = random.vector(random.log_uniform(1e-6, 0.5));
   const Vector edge_velocity = random.vector(random.log_uniform(1e-6, 0.5));
@@ -147,7 +147,7 @@ VertexEdge<double> pair_at_distance(Random& random, double distance, double& tim
   return vertex_edge_pair(moving(at_time - time * velocity, velocity), moving(edge, edge_velocity));
 }
 
-/// The number of a random case, which makes it again, and its vectors.
+/// The number of a random case, which repeats it, and its vectors.
 std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   std::ostringstream text;
   text << "case " << index << ": " << std::hexfloat << "x0i " << pair.x0i.xv.transpose() << ", xji "
@@ -155,7 +155,7 @@ std::string shown(std::uint64_t index, const VertexEdge<double>& pair) {
   return text.str();
 }
 
-// Algorithm 2's promise, the one that VT and EE build on: whatever comes within R is reported.
+// Algorithm 2's promise, on which VT and EE rely: every vertex that comes within R is reported.
 TEST(VertexEdge, ReportsWhateverComesWithinR) {
   for (std::uint64_t i = 0; i < 200000; ++i) {
     Random random(3, 0, i);

@@ -74,8 +74,8 @@ TEST_P(EveryWang, ReportsContactAtTheEnd) {
   EXPECT_TRUE(decide(falling_edge(1, 0)).hit);
 }
 
-// The cubic is below its threshold all the time, so t = 0, outside of the triangle, is its only root: t = 1
-// is tested by itself.
+// The cubic is always below its threshold, so its only root is t = 0, where the vertex is outside of the
+// triangle. Therefore t = 1 must be tested separately.
 TEST_P(EveryWang, TestsTheEndOfTheStepWhereTheCubicSeesOnlyItsStart) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
   const Verdict verdict =
@@ -95,7 +95,7 @@ TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
   EXPECT_FALSE(decide(falling_edge(2, 1)).hit);
 }
 
-// Algorithm 3 read literally would test t = 0 without looking at F.
+// Taken literally, Algorithm 3 would test t = 0 whatever F is.
 TEST_P(EveryWang, DoesNotReportAVertexFarAboveATriangleAtRest) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
 }
@@ -104,7 +104,7 @@ TEST_P(EveryWang, ReportsThePairThatIsAllZero) {
   for (const Kind kind : kinds) EXPECT_TRUE(decide(Query{.kind = kind}).hit);
 }
 
-// B = 0 makes every threshold 0: each test by itself must accept equality.
+// B = 0 makes every threshold 0, so each test must accept equality.
 TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   const Tolerances<double> tol = paper_tolerances(0.0);
   Moving<double> rest;
@@ -126,7 +126,8 @@ TEST(AcceptingComparisons, AcceptThePairThatIsAllZero) {
   EXPECT_TRUE(Configuration(ee, 0.0).inside());
 }
 
-// The edges q and r are within 1, but the third one, r - q, is (-2, s, 0), and the height over it is half as large.
+// The edges q and r are within 1, but the third edge, r - q, is (-2, s, 0), and the height over it is half as
+// large.
 TEST(Configuration, TheHeightTestLooksAtAllThreeEdgesOfATriangle) {
   constexpr double s = 0x1p-10;
   Pair<Kind::vertex_triangle, double> pair;
@@ -165,8 +166,8 @@ TEST_P(EveryWang, ReportsCollisionsWhoseDifferencesOverflow) {
       decide(make_query(Kind::vertex_triangle, {{0, 0, big}, a, b, c}, {{0, 0, big / 2}, a, b, c})).hit);
 }
 
-// At both times x0 and x1, or x0 and x2, are farther apart than the largest double, and the relative velocity
-// is infinity less infinity.
+// At both times, x0 and x1, or x0 and x2, are farther apart than the largest double. Their relative velocity
+// is computed as infinity minus infinity.
 TEST_P(EveryWang, ReportsCollisionsWhosePositionsOverflowAtBothTimes) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3<double> far = std::numeric_limits<double>::max() * Vector3<double>::Unit(axis);
@@ -226,7 +227,7 @@ TEST(Wang, BoundUsesRelativeVelocities) {
 }
 
 TEST(Wang, EdgeEdgeFindsTheEndPointsThatAreClosest) {
-  // x0 and x2 are 1000 apart while the edges are long on one side only: every order gives one answer.
+  // x0 and x2 are 1000 apart, and the edges are long on one side only. Every order gives the same answer.
   const Vector3<double> a(-1000, 0, 1), b(1, 0, 1), c(0, -1000, 0), d(0, 1, 0);
   const Vector3<double> down(0, 0, -2);
   for (const bool swap_first : {false, true}) {

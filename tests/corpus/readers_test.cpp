@@ -1,4 +1,4 @@
-// Formats: exact round trips, and one clear line about each error.
+// File formats make exact round trips, and each error gives one clear line.
 #include "corpus/readers.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
 
-/// Each test has its own folder, which is removed at its end.
+/// Gives each test its own folder, and removes it at the end.
 class Files : public ::testing::Test {
  protected:
   Files() { fs::create_directories(folder_); }
@@ -144,7 +144,7 @@ TEST_F(Files, NamesTheLineOfABadSampleQuery) {
   std::string seven;
   for (int i = 0; i < 7; ++i) seven += row;
   expect_error(write("edge-edge/a.csv", seven), "a.csv:7: found 7 rows");
-  expect_error(write("edge-edge/b.csv", seven + "1,2,1,2,1,2,1\n"), "b.csv:8: found another truth");
+  expect_error(write("edge-edge/b.csv", seven + "1,2,1,2,1,2,1\n"), "b.csv:8: found a truth that differs");
   expect_error(write("edge-edge/c.csv", "1,3,1,2,1,2,0\n"),
                "c.csv:1: found 1/3, expected a number that is a double");
   expect_error(write("edge-edge/d.csv", "1,0,1,2,1,2,0\n"), "d.csv:1: found '1,0'");

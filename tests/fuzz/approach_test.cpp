@@ -1,4 +1,4 @@
-// The search for the smallest distance, on queries of families.
+// Tests the search for the smallest distance on queries of families.
 #include "oracle/distance/approach.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
     for (const Query& query : queries_of(family, 200)) {
       if (collides(query)) continue;
       ++apart;
-      // Nothing is required below 2^-300 of the differences.
+      // Below 2^-300 of the differences, no precision is required.
       const Approach approach = closest_approach(
           VertexDifferences(query), [](double upper) { return upper < 0x1p-300 ? 0 : 0.999 * upper; });
       EXPECT_TRUE(approach.enough) << family;
@@ -59,7 +59,7 @@ TEST(DistanceInUnits, LiesInOneBin) {
   EXPECT_GT(resolved, 50);
 }
 
-/// A query of which double intervals once said that it was at 4.85e-08 of its bound.
+/// A query for which double intervals once gave a distance of 4.85e-08 of its bound.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

@@ -75,11 +75,11 @@ TEST(Audit, GivesTheSameForTheSamePlan) {
   }
 }
 
-// The operations of ccd/ are those that the paper counts: B_f and k_f as it writes them.
+// ccd/ has the operations that the paper counts, with the paper's B_f and k_f.
 TEST(Audit, FindsThePapersBoundsInOurOperations) {
   std::map<std::string_view, ErrorBound> bounds;
   for (const AuditRow& row : rows())
-    bounds.emplace(row.name, row.bound);  // the first of a name is the paper's
+    bounds.emplace(row.name, row.bound);  // the first row with a name is the paper's
   EXPECT_EQ(bounds["VV: m = x.v"], (ErrorBound{3, 2, 3}));
   EXPECT_EQ(bounds["VE: squared length"], (ErrorBound{3, 2, 7}));
   EXPECT_EQ(bounds["VE: weight"], (ErrorBound{3, 2, 7}));
@@ -95,7 +95,8 @@ TEST(Audit, FindsThePapersBoundsInOurOperations) {
   EXPECT_EQ(bounds["EE: barycentric test, far p"], (ErrorBound{36, 4, 15}));
 }
 
-/// The derived error of each row by its name; rows with the rounding of relative vectors have a name of their own.
+/// The derived error of each row by its name. Rows with the rounding of relative vectors have their own
+/// names.
 const std::map<std::string, double>& derived_errors() {
   static const auto derived = [] {
     std::map<std::string, double> by_name;
@@ -167,8 +168,8 @@ TEST(Audit, DerivesTheErrorsWithTheRoundingOfRelativeVectors) {
                  1e-9);
 }
 
-// 12ρ, and terms of the order of ε: three components twice, the slope of a piece and the times of roots; for ψ
-// also the error of F_0ij.
+// The bound is 12ρ plus terms of the order of ε: three components twice, the slope of a piece, and the times
+// of roots. For ψ, the error of F_0ij is added.
 TEST(Audit, DerivesPsiFromRho) {
   const double S = 18 * 0x1p-13;
   const double near = 6 * (4 + 12 + 4 + 4) + (26 + S) + 6 * (24 + S);
@@ -180,7 +181,8 @@ TEST(Audit, DerivesPsiFromRho) {
                  1e-12);
 }
 
-// The paper takes relative positions of edges for bounded by B. Constants that rest on it are too small, except δ.
+// The paper assumes that relative positions of edges are bounded by B. Constants that depend on this
+// assumption are too small, except δ.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   std::vector<std::string> findings;
   for (const AuditRow& row : rows())
@@ -191,8 +193,8 @@ TEST(Audit, FindsWhatThePaperHasTooSmall) {
                                      "EE: distance of a false positive, far p"));
 }
 
-// With the rounding of relative vectors the theorem's bound is above the paper's constants, by less than 10 %; the bound
-// that Gappa proves is below.
+// With the rounding of relative vectors, the theorem's bound is less than 10 % above the paper's constants.
+// The bound that Gappa proves is below them.
 TEST(Audit, KnowsWhatHoldsThoughTheTheoremDoesNotShowIt) {
   std::vector<std::string> names;
   for (const AuditRow& row : rows())
@@ -212,7 +214,8 @@ TEST(Audit, SeesNoMoreThanIsProven) {
   for (const AuditRow& row : rows()) EXPECT_FALSE(row.seen > row.proven) << row.name;
 }
 
-/// A moving vector with a bound of its ends, and the roundings in its position and its velocity.
+/// A moving vector with a bound of its ends, and with the numbers of roundings in its position and its
+/// velocity.
 Moving<AuditedRational> leaves(double reach, int position, int velocity) {
   Moving<AuditedRational> vector;
   for (int i = 0; i < 6; ++i)
@@ -220,8 +223,8 @@ Moving<AuditedRational> leaves(double reach, int position, int velocity) {
   return vector;
 }
 
-// constraints.hpp: in units of u, and B = 1. The residual is by the rules; of the others Gappa proves less than
-// these allow.
+// Constants of constraints.hpp in units of u, for B = 1. The bound of the residual follows the paper's rules.
+// For the others, Gappa proves smaller bounds than the rules give.
 TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   const double eps = 0x1p-60;
   const auto errors = full_errors(eps, 1.0, 0.0);
@@ -260,7 +263,7 @@ TEST(FullErrors, AreNotAboveThoseOfTheRules) {
   EXPECT_LT(roundings(errors.F), taken(3));
 }
 
-// solver_errors.hpp: in units of u, and B = S = 1. Underflow has 1 u.
+// Constants of solver_errors.hpp in units of u, for B = S = 1. Underflow counts as 1 u.
 TEST(FullErrors, OfTheSolversAreThoseOfTheRules) {
   const double eps = 0x1p-60;
   const auto errors = full_errors(eps, 1.0, 0.0);
@@ -279,7 +282,7 @@ TEST(FullErrors, OfTheSolversAreThoseOfTheRules) {
                                                 audit_parts::threshold(-1, 2));
   const auto bound = [](const AuditedRational& x) { return x.bound(); };
   const double kappa = bound(g.a[0]).error() + bound(g.b[0]).error() + bound(g.c[0]).error();
-  const double vectors = 2 * (1 + 3);  // of x_ji, times S
+  const double vectors = 2 * (1 + 3);  // errors of x_ji, times S
   std::vector<std::pair<AuditedRational, AuditedRational>> kept;
   Tolerances<AuditedRational> tol{};
   tol.S = audit_parts::threshold(1, 1);
@@ -294,7 +297,7 @@ TEST(FullErrors, OfTheSolversAreThoseOfTheRules) {
 }
 
 // §4.1: "B is also an upper bound on the relative positions at any time", and x20 is the closest pair. Here
-// the end points x1, x2 are the closest at t = 0, at 1.5, and 5 apart at t = 1; B is 1 + 3.5.
+// x1 and x2 are the closest end points at t = 0, at distance 1.5. At t = 1 their distance is 5. B is 1 + 3.5.
 TEST(Audit, EdgesMayMoveOutOfTheBoundOfTheirClosestPair) {
   const auto x = [](double a) { return Vector3<double>(a, 0, 0); };
   const Query query =

@@ -1,4 +1,4 @@
-// Meshes from files of all formats: what is refused, and what the message says.
+// Meshes from files of all formats: refused files, and the messages about them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST_F(BadFilesTest, BadPlyIsNamedWithItsLine) {
   expect_refused(".ply", replaced(replaced(text_ply, "uchar int", "int int"), "3 0 1 2", "-1 0 1 2"),
                  ": found a list of -1 numbers in face 1");
   expect_refused(".ply", replaced(ply("ascii", "float", "uchar int", points_of_ply), "0.1", "1e39"),
-                 ":14: found '1e39', expected a number that a float can be");
+                 ":14: found '1e39', expected a number in the range of float");
 }
 
 TEST_F(BadFilesTest, BadBinaryPlyIsNamed) {
@@ -155,7 +155,8 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
 
 using Parse = Mesh (*)(std::istream&, const std::string&);
 
-/// Cut anywhere, the text is refused, except within the last bytes, where the rest may be a whole file.
+/// Expects that the text is refused after a cut anywhere, except within the last bytes, where the rest may be
+/// a complete file.
 void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t last) {
   for (std::size_t size = 0; size + last < text.size(); ++size) {
     std::istringstream in(text.substr(0, size));
@@ -163,7 +164,7 @@ void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t l
   }
 }
 
-// Text may lack its last newline, and the name of a solid; any other cut is noticed.
+// Text may lack its last newline, and the name of a solid. Any other cut is noticed.
 TEST(CutFileTest, ACutFileIsRefused) {
   expect_refused_when_cut(parse_off, off, 1);
   expect_refused_when_cut(parse_ply, text_ply, 1);

@@ -1,4 +1,4 @@
-// Scenes made by formula, and what they are made of.
+// Built-in scenes, which are made by formulas, and their parts.
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@
 
 namespace nearmiss {
 
-/// How a parameter is printed in a test's name.
+/// Prints a parameter in a test's name.
 void PrintTo(const BuiltInScene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
@@ -49,7 +49,7 @@ std::uint64_t fingerprint(const Scene& scene) {
   return hash;
 }
 
-// The same on every machine, by every compiler.
+// The hash is the same on every machine and with every compiler.
 TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
   const std::map<std::string, std::uint64_t> recorded{
       {"spikes", 0x8d7e972405206fac},   {"sheets", 0x4fd2649ab8e8d0bd}, {"points", 0x0b33ff0c26f7bae3},
@@ -121,7 +121,7 @@ TEST_P(EveryScene, HasCollisionsButMostCandidatesHaveNone) {
   }
 }
 
-// Edges are about 1 long.
+// The edges have a length of about 1.
 TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
   for (const int size : {300, 5000, 60000}) {
     const Scene scene = of_size(size);
@@ -140,7 +140,7 @@ TEST_P(EveryScene, AStepIsOfTheOrderOfAnEdgeInAllSizes) {
   }
 }
 
-/// Candidates of a step in the middle, for each triangle.
+/// The number of candidates per triangle, in a step in the middle.
 double candidates_per_triangle(const Scene& scene) {
   double count = 0;
   const MovingMesh mesh = moving_mesh(scene, scene.steps() / 2);
@@ -249,7 +249,7 @@ TEST(Formulas, TheSmoothMaximumHasNoKink) {
   EXPECT_NEAR(smooth_max(1, 1 + 1e-6, 0.5) - smooth_max(1, 1, 0.5), 0.5e-6, 1e-11);
 }
 
-/// Whether a surface is closed, and all its triangles have the same side outside: each edge is there once in
+/// Whether a surface is closed, with the same side of all triangles outside. Then each edge occurs once in
 /// each direction.
 bool is_closed(const Mesh& mesh) {
   std::map<std::array<int, 2>, int> edges;

@@ -28,7 +28,7 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs) {
   return plan;
 }
 
-/// With wang; and with basic, which misses, if the test needs findings.
+/// A campaign of wang, and also of basic, which misses collisions, if the test needs findings.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const std::atomic<bool>& stop = false,
         int most_saves = 0) {
   Subjects subjects;

@@ -1,4 +1,4 @@
-// The pairs of a moving mesh whose swept boxes meet.
+// Finding the pairs of a moving mesh whose swept boxes meet.
 #include "fuzz/scenes/candidates.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
   return make_moving_mesh({start, faces, {}}, end);
 }
 
-/// All pairs, one by one.
+/// Checks all pairs, one by one.
 std::multiset<Candidate> by_brute_force(const MovingMesh& mesh) {
   std::multiset<Candidate> found;
   const auto add = [&](const Candidate& candidate) {
@@ -47,7 +47,7 @@ std::multiset<Candidate> by_brute_force(const MovingMesh& mesh) {
   return found;
 }
 
-// Integer coordinates: many boxes only touch.
+// With integer coordinates, many boxes only touch.
 TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeet) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const MovingMesh mesh = random_mesh(seed, 60, 80);
@@ -77,7 +77,7 @@ TEST(Candidates, TheSweepFindsTheSamePairs) {
   }
 }
 
-/// The candidates of a kind; `finder` is find_candidates or find_candidates_by_sweep.
+/// The candidates of a kind. `finder` is find_candidates or find_candidates_by_sweep.
 template <class Finder>
 std::multiset<Candidate> candidates(const MovingMesh& mesh, Kind kind, const Finder& finder) {
   std::multiset<Candidate> found;
@@ -101,7 +101,7 @@ TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
   }
 }
 
-/// A vertex at rest at a height above, beside or before a triangle at rest whose box is the unit cube.
+/// A vertex at rest, displaced along an axis from a triangle at rest whose box is the unit cube.
 MovingMesh vertex_beside_triangle(int axis, double height) {
   Vector3<double> vertex(0.5, 0.5, 0.5);
   vertex[axis] = height;
@@ -109,7 +109,7 @@ MovingMesh vertex_beside_triangle(int axis, double height) {
   return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
 }
 
-// To the last bit, on all sides.
+// Tests all sides to the last bit.
 TEST(Candidates, BoxesThatTouchMeet) {
   const Kind kind = Kind::vertex_triangle;
   for (int axis = 0; axis < 3; ++axis)

@@ -49,7 +49,7 @@ TEST(Corpus, NoFalsePositiveIsBeyondTheBound) {
   }
 }
 
-// A defect that no longer misses anything would measure nothing.
+// A defect that no longer misses any case would measure nothing.
 TEST(Corpus, EachDefectMissesItsOwnCase) {
   std::set<std::string> missed;
   read_cases(NEARMISS_CORPUS "/defects", [&](const Case& each) {
@@ -64,7 +64,7 @@ TEST(Corpus, EachDefectMissesItsOwnCase) {
   EXPECT_GE(missed.size(), 35U);
 }
 
-// Each of Algorithm 2's candidate cases is needed by a query that no other case reports.
+// For each candidate case of Algorithm 2, there is a query that no other case reports.
 TEST(Corpus, EachVertexEdgeCaseAcceptsItsOwn) {
   const std::map<std::string, Stage> stages{
       {"case-1-end.case", Stage::ve_end},     {"case-2-minimum.case", Stage::ve_minimum},

@@ -1,4 +1,4 @@
-// The library of defects: the real code with one thing changed.
+// The library of defects, each of which is the real code with one change.
 #include "fuzz/subjects/defects.hpp"
 
 #include <gmock/gmock.h>

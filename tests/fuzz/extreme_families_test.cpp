@@ -1,4 +1,4 @@
-// The families at the ends of what double can hold keep their promises.
+// The families at the limits of double keep their promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(Scale, IsThatOfTheLargestCoordinate) {
         << exponent;
 }
 
-/// The fastest motion of a point relative to another, over the longest edge.
+/// The fastest motion of a point relative to another point, divided by the longest edge.
 double relative_speed(const Query& query) {
   double speed = 0;
   double size = 0;
@@ -47,7 +47,7 @@ TEST(Stiff, ThePrimitivesMoveAsFastAsTheParameterSays) {
     });
   };
   EXPECT_GT(between("stiff@8", 1e6, 1e10),
-            300);  // the direction is short in some, and shapes change in others
+            300);  // in some queries the direction is short, and in others the shapes change
   EXPECT_GT(between("stiff@-8", 1e-10, 1e-6), 300);
   EXPECT_EQ(between("stiff@-8", 0, 1e-6), 400);
 }
@@ -103,7 +103,7 @@ TEST(Needle, EdgesAreLongAlongOneAxisAlone) {
     const auto all = edges(query, 0);
     return std::all_of(all.begin(), all.end(), [&](const auto& edge) { return sine(edge, all[0]) < 1e-4; });
   });
-  EXPECT_GT(thin, 360);  // an edge may have no part along that axis
+  EXPECT_GT(thin, 360);  // an edge may be orthogonal to the axis of the needle
 }
 
 TEST(Rigid, EdgesKeepTheirLengths) {

@@ -1,4 +1,4 @@
-// Families: pure functions, finite, true to their promises.
+// Families are pure functions, make finite numbers, and keep their promises.
 #include "fuzz/families/families.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace nearmiss {
 
-/// How a parameter is printed in a test's name.
+/// Prints a parameter in a test's name.
 void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
 
 namespace {
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFamily, ::testing::ValuesIn(families().begin(
                          });
 
 TEST(Random, IsPhilox4x64) {
-  // Known answer of the authors' test vectors (kat_vectors: philox4x64 10, all zero).
+  // The known answer from the authors' test vectors (kat_vectors: philox4x64 10, all zero).
   Random random(0, 0, 0);
   EXPECT_EQ(random.bits(), 0x16554d9eca36314cU);
   EXPECT_EQ(random.bits(), 0xdb20fe9d672d0fdcU);
@@ -58,8 +58,8 @@ std::uint64_t fingerprint(const Family& family) {
   return hash;
 }
 
-// A provenance gives the same query for ever, with every compiler. (Families that draw
-// log-uniform numbers make others on processors without fused multiply-add.)
+// A provenance always gives the same query, with every compiler. (Families that draw log-uniform numbers make
+// other queries on processors without fused multiply-add.)
 TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
   const std::map<std::string, std::uint64_t> recorded{
       {"uniform", 0x9d788afc3f9872d2},
@@ -110,7 +110,8 @@ TEST_P(EveryFamily, IsFiniteAndOfBothKinds) {
     for (const Family& step : sweep(GetParam(), 3)) expect_finite_and_of_both_kinds(step);
 }
 
-// A family hunts for nothing if its queries hardly ever collide, or always do, unless they are planted collisions.
+// A family is useless if its queries hardly ever collide, or always collide, unless they are planted
+// collisions.
 TEST_P(EveryFamily, HasCollisionsAndMisses) {
   constexpr int count = 1000;
   int collisions[2] = {0, 0};
@@ -120,7 +121,8 @@ TEST_P(EveryFamily, HasCollisionsAndMisses) {
     if (GetParam().planted) {
       EXPECT_EQ(c, count);
     } else {
-      const int least = GetParam().name == "uniform-slow" ? 0 : count / 50;  // about 3 in 1000 there
+      const int least = GetParam().name == "uniform-slow" ? 0 : count / 50;  // about 3 in 1000 collide in
+                                                                             // this family
       EXPECT_GE(c, least);
       EXPECT_LE(c, count - count / 50);
     }
@@ -131,7 +133,7 @@ TEST_P(EveryFamily, HasCollisionsAndMisses) {
 
 // --- parameters -----------------------------------------------------------------------------------------
 
-/// Its queries say what they were made from.
+/// A family whose queries contain the parameter that they were made from.
 Family telling_family() {
   return with_parameter("telling", "", {"", -3, 5, false, [](Random& random, Kind kind, double x) {
                                           Query query{.kind = kind};

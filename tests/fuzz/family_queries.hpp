@@ -1,4 +1,4 @@
-// Queries of a family, counted.
+// Counts queries of a family.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace nearmiss::testing {
 
-/// How many of the queries 0 .. 399 of a family have a property, with seed 5: `nearmiss family NAME --seed 5`.
+/// The number of queries among 0 .. 399 of a family, with seed 5, that have a property: `nearmiss family NAME
+/// --seed 5`.
 template <class Property>
 int count_of_400(std::string_view name, const Property& has_property) {
   const Family family = find_family(name);
@@ -26,7 +27,7 @@ inline double largest_coordinate(const Query& query) {
   return largest;
 }
 
-/// The edges at t = 0 or t = 1: the three of the triangle, or both edges.
+/// The edges at t = 0 or t = 1: the triangle's three edges, or both edges.
 inline std::vector<Vector3<double>> edges(const Query& query, int time) {
   const auto x = [&](int i) { return time == 0 ? query.start(i) : query.end(i); };
   if (query.kind == Kind::edge_edge) return {x(1) - x(0), x(3) - x(2)};

@@ -1,4 +1,4 @@
-// Plug-ins in worker processes: whatever they do, every other query is answered.
+// Plug-ins in worker processes. Whatever they do, every other query is answered.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using ::testing::ThrowsMessage;
 
 std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// Whether tests/plugin/misbehaving.c does something else to a query than to report it.
+/// Whether tests/plugin/misbehaving.c misbehaves on a query.
 bool is_chosen(const Query& query) {
   std::uint64_t hash = 0;
   for (const double c : query.x) {
@@ -41,7 +41,8 @@ bool is_chosen(const Query& query) {
   return hash % 100 == 0;
 }
 
-/// Little memory. The time limit is short only for plug-ins that exceed it, since a busy machine may exceed it too.
+/// Limits with little memory. The time limit is short only for plug-ins that exceed it, because a busy
+/// machine may exceed it too.
 isolation::PluginLimits limits_for(Fault fault) {
   const auto time = fault == Fault::time ? std::chrono::milliseconds(100) : std::chrono::seconds(60);
   return {.time = time, .bytes = std::uint64_t{64} << 20};
@@ -85,7 +86,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   }
 }
 
-// It sleeps at least this long, so this does not depend on speed.
+// The plug-in sleeps at least this long, so the test does not depend on speed.
 TEST(Isolation, WaitingForADeviceCounts) {
   const auto queries = some_queries(20);
   std::vector<Verdict> verdicts(queries.size());
@@ -146,7 +147,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
-  // An eighth of a second for each of 12 queries: together more than the limit.
+  // Each of 12 queries takes an eighth of a second, together more than the limit.
   const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
   const auto queries = one_batch(12);
   std::vector<Verdict> verdicts(queries.size());

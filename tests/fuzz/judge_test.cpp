@@ -1,4 +1,4 @@
-// The judge: whether an answer is a failure, and which.
+// The judge decides whether an answer is a failure, and of which sort.
 #include "fuzz/trial/judge.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using testing::falling_vertex;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Reports everything and claims one bound; refuses a vertex that starts at z = 0.
+/// A subject that reports everything and claims one bound. It refuses a vertex that starts at z = 0.
 class Alarmist final : public Subject {
  public:
   explicit Alarmist(double bound) : bound_(bound) {}
@@ -89,7 +89,7 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
 }
 
 TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {
-  // A vertex that stops above the triangle by less than half a float's last digit.
+  // A vertex that stops above the triangle by less than half of a float's last bit.
   const Query query = falling_vertex(0.25, 0.25, 1, 0x1p-160);
   ASSERT_FALSE(collides(query));
   Query rounded = query;
@@ -126,7 +126,8 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-/// What a trial counts as a failure is one when it is judged again: it shrinks, and fails in the same way.
+/// Expects that a failure in a trial is a failure when it is judged again, so that it can be shrunk and fails
+/// in the same way.
 class BadBound : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {

@@ -1,4 +1,4 @@
-// Subjects over other scalars than double.
+// Subjects over scalars other than double.
 #include "fuzz/subjects/ladder/scalars.hpp"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ double error(const DoubleDouble& computed, const Rational& exact) {
   return static_cast<double>(relative) * 0x1p102;
 }
 
-/// Two double-doubles, often so near each other that their difference cancels.
+/// Two double-doubles, which are often so near each other that their difference cancels.
 std::pair<DoubleDouble, DoubleDouble> operands(Random& random) {
   const auto draw = [&] {
     const double high = random.uniform(-1, 1);
@@ -63,7 +63,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
     sum = std::max(sum, error(a - b, exactly(a) - exactly(b)));
     product = std::max(product, error(a * b, exactly(a) * exactly(b)));
     quotient = std::max(quotient, error(a / b, exactly(a) / exactly(b)));
-    const DoubleDouble r = sqrt(abs(a));  // its error is half of its square's
+    const DoubleDouble r = sqrt(abs(a));  // the root's error is half of its square's
     root = std::max(root, error(r * r, abs(exactly(a))) / 2);
   }
   EXPECT_LE(sum, 3.0 / 16 + 1e-9);
@@ -75,7 +75,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
 
 // The reason why DoubleDouble does not use the + of Debian's libqd.
 TEST(DoubleDouble, LibqdsOwnSumHasNoRelativeBound) {
-  // High parts that differ in the last bit, and low parts that almost make it up.
+  // The high parts differ in the last bit, and the low parts almost compensate for this.
   const DoubleDouble a(dd_real(1, 0x1.fffffffffffffp-54));
   const DoubleDouble b(dd_real(-0x1.0000000000001p+0, 0x1.ffffffffffffep-54));
   EXPECT_GT(error(DoubleDouble(a.value() + b.value()), exactly(a) + exactly(b)), 1000);
@@ -89,20 +89,21 @@ TEST(DoubleDouble, NearTheEndsOfItsRangeItIsADouble) {
   EXPECT_EQ(most * 1.0, most);
 }
 
-/// The rational number that this is.
+/// The value as a rational number.
 Rational exactly(const MpfrFloat& a) {
   Rational value;
   mpfr_get_q(value.backend().data(), a.value());
   return value;
 }
 
-// The paper's model: every result is the exact one times 1 + d, |d| <= u. And it has no more digits than set.
+// The paper's model: every result is the exact one times 1 + d, |d| <= u. The result has no more digits than
+// were set.
 TEST(MpfrFloat, EveryOperationIsWithinHalfItsEpsilon) {
   Random random(2, 0, 0);
   for (int i = 0; i < 20000; ++i) {
     const int bits = random.integer(2, MpfrFloat::most);
     const MpfrFloat::PrecisionScope precision(bits);
-    const auto draw = [&] {  // all digits, and often near to 1
+    const auto draw = [&] {  // a number with all digits, often near 1
       MpfrFloat value(1);
       for (int k = 0; k < random.integer(1, 6); ++k)
         value += MpfrFloat(random.uniform(-1, 1)) * ldexp(MpfrFloat(1), random.integer(-bits, 0));
@@ -194,7 +195,7 @@ TEST(Scalars, AreKnownByName) {
   EXPECT_NEAR(bound("wang-tight:dd@7"), 11.9335 * 7 * std::pow(2, -25.5), 1e-9);
 }
 
-/// A batch of each family, both kinds.
+/// A batch of queries of each family and both kinds.
 std::vector<Batch> batches(std::uint64_t seed, int queries) {
   std::vector<Batch> all;
   for (const Family& family : families())
@@ -247,7 +248,7 @@ TEST(Ladder, The53BitsOfDoubleAnswerAsDoubleDoes) {
 }
 
 TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
-  // Above the triangle by less than an ulp of float.
+  // The vertex is above the triangle by less than an ulp of float.
   const Query query = testing::falling_vertex(0.25, 0.25, 1, 0x1p-40);
   Query moved = query;
   for (int i = 0; i < 4; ++i)

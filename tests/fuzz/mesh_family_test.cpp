@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Two square sheets of 5 x 5 points; the upper one falls through the other, a little to the side.
+/// Two square sheets of 5 x 5 points. The upper sheet falls through the lower one, slightly displaced.
 MovingMesh falling_sheet() {
   std::vector<Vector3<double>> start;
   std::vector<Vector3<double>> end;
@@ -46,7 +46,7 @@ std::set<QueryCoordinates> pairs_of(const MovingMesh& mesh) {
   return pairs;
 }
 
-/// The pairs of the mesh that are among the family's queries unchanged.
+/// The pairs of the mesh that occur unchanged among the family's queries.
 std::set<QueryCoordinates> pairs_among(const Family& family, const std::set<QueryCoordinates>& pairs) {
   std::set<QueryCoordinates> found;
   for (std::uint64_t i = 0; i < 2000; ++i)

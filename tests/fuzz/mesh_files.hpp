@@ -1,4 +1,4 @@
-// Files of one mesh, a square, in all formats, and a fixture that reads them.
+// Files of one mesh, a square, in all formats, with a fixture that reads them.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 
 namespace nearmiss::mesh_files {
 
-// As one polygon or as two triangles.
+// The square, as one polygon or as two triangles.
 inline const std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.1\nf 1 2 3\nf 1 3 4\n";
 inline const std::string off = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.1\n3 0 1 2\n3 0 2 3\n";
 inline const std::string points_of_ply = "0 0 0\n1 0 0\n1 1 0\n0 1 0.1\n";
@@ -84,7 +84,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
   }
 
-  /// The message follows the file's name.
+  /// Expects that a file is refused with this message after its name.
   void expect_refused(const std::string& ending, const std::string& text, const std::string& message) const {
     using ::testing::HasSubstr;
     const auto path = write("mesh" + ending, text);
@@ -96,7 +96,7 @@ class MeshFilesTest : public testing::TemporaryFolder {
     std::string old, by, message;
   };
 
-  /// Each change alone makes a good file one that is refused with its message.
+  /// Expects that each change of a good file by itself causes its message.
   void expect_refused_with(const std::string& ending, const std::string& good,
                            std::initializer_list<Change> changes) const {
     for (const auto& [old, by, message] : changes) expect_refused(ending, replaced(good, old, by), message);

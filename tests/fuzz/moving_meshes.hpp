@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// Thirty small tetrahedra with integer coordinates. In turn they rest, move as a whole, or bend.
+/// Thirty small tetrahedra with integer coordinates. In turn they rest, move as a whole, or change shape.
 inline MovingMesh tetrahedra(std::uint64_t seed) {
   Random random(seed, 0, 0);
   Mesh mesh;
@@ -31,7 +31,7 @@ inline MovingMesh tetrahedra(std::uint64_t seed) {
   return make_moving_mesh(std::move(mesh), std::move(end));
 }
 
-/// Two square grids of n by n squares; the upper one falls through the lower one.
+/// Two square grids of n by n squares. The upper grid falls through the lower one.
 inline MovingMesh grids(int n) {
   Mesh mesh;
   std::vector<Vector3<double>> end;

@@ -1,4 +1,4 @@
-// Chains of mutations, and crossings: pure functions, finite, and they keep to collisions.
+// Chains of mutations, and crossings, are pure functions, make finite numbers, and keep collisions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
   EXPECT_NE(mutated(other, query), result);
 }
 
-/// Queries to start from: of all families, and of extreme coordinates.
+/// The queries to start from: of all families, and with extreme coordinates.
 std::vector<Query> seeds() {
   std::vector<Query> queries;
   for (const Family& family : families())
@@ -84,7 +84,7 @@ TEST(Mutated, KeepsToCollisions) {
   EXPECT_GE(collisions, chains * steps / 2);
 }
 
-/// Whether the choice between two parents, by coordinate, is one by the parts alone.
+/// Whether the parent of each coordinate depends only on the coordinate's part.
 bool is_by(const std::array<bool, 24>& choice, const std::function<std::size_t(std::size_t)>& part) {
   std::array<std::set<bool>, 24> seen;
   for (std::size_t i = 0; i < 24; ++i) seen[part(i)].insert(choice[i]);
@@ -108,7 +108,7 @@ TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
       from_first[k] = child.x[k] == first.x[k];
       ASSERT_TRUE(from_first[k] || child.x[k] == second.x[k]);
     }
-    if (is_by(from_first, [](std::size_t) { return 0; })) continue;  // all of one
+    if (is_by(from_first, [](std::size_t) { return 0; })) continue;  // all coordinates are from one parent
     if (is_by(from_first, [](std::size_t k) { return k / 3 % 4; }))
       ++vertices;
     else if (is_by(from_first, [](std::size_t k) { return k % 3; }))

@@ -1,4 +1,4 @@
-// Mutations: finite, pure functions, and each changes what its name says.
+// Mutations are pure functions, make finite numbers, and change what their names say.
 #include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ std::vector<Query> some_queries(std::string_view family) {
   return queries;
 }
 
-/// Applies a sort of mutation to queries of a family; the check must hold for all that change, and at least
-/// half must.
+/// Applies a sort of mutation to queries of a family. The check must hold for all changed queries, and at
+/// least half must change.
 void expect_of(std::string_view name, std::string_view family,
                const std::function<bool(const Query& before, const Query& after)>& holds) {
   int changed = 0;
@@ -48,7 +48,7 @@ void expect_of(std::string_view name, std::string_view family,
   EXPECT_GE(changed, static_cast<int>(queries.size() / 2)) << name << ", " << family;
 }
 
-/// How many queries of a family collide after a sort of mutation, of 1000.
+/// The number of queries, of 1000 of a family, that collide after a sort of mutation.
 int collisions_after(std::string_view name, std::string_view family) {
   int collisions = 0;
   std::uint64_t number = 0;
@@ -60,7 +60,7 @@ int collisions_after(std::string_view name, std::string_view family) {
   return collisions;
 }
 
-/// The positions, 0 .. 3 at t = 0 and 4 .. 7 at t = 1, that differ.
+/// The positions that differ, 0 .. 3 at t = 0 and 4 .. 7 at t = 1.
 std::set<int> changed_positions(const Query& before, const Query& after) {
   std::set<int> changed;
   for (std::size_t i = 0; i < 24; ++i)
@@ -134,7 +134,7 @@ TEST(Mutation, ACopiedCoordinateIsAnotherOrItsNegation) {
 TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
   expect_of("round", "uniform", [](const Query& before, const Query& after) {
     for (std::size_t i = 0; i < 24; ++i) {
-      const double units = std::ldexp(after.x[i], 30);  // the largest is in [1/2, 2]
+      const double units = std::ldexp(after.x[i], 30);  // the largest coordinate is in [1/2, 2]
       const bool multiple = units == std::nearbyint(units);
       if (after.x[i] != before.x[i] && (!multiple || std::abs(after.x[i] - before.x[i]) > 1)) return false;
     }
@@ -142,7 +142,7 @@ TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
   });
 }
 
-// Contact is planted next to borders and ends too, where half of the time rounding takes it away.
+// Contact is also planted next to borders and ends. There rounding removes it half of the time.
 TEST(Mutation, PlantMakesCollisionsByMovingOnePosition) {
   for (const char* family : {"uniform", "uniform-slow", "sliver"}) {
     expect_of("plant", family, [](const Query& before, const Query& after) {

@@ -1,4 +1,4 @@
-// Places: primitives are made to touch by moving one position.
+// Places make primitives touch by moving one position.
 #include "fuzz/families/place.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace nearmiss {
 namespace {
 
-/// The vector between the two points of a place, in more bits than a double has.
+/// The vector between the two points of a place, with more bits than a double.
 std::array<long double, 3> gap(const Query& query, const Place& place) {
   const long double alpha = place.alpha;
   const long double beta = place.beta;

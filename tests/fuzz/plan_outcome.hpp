@@ -1,4 +1,4 @@
-// A plan followed to its end.
+// Follows a plan to its end.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@ namespace nearmiss {
 
 inline constexpr auto never = [] { return false; };
 
-/// The outcome of a plan; the oracle decides the pairs that are asked.
+/// The outcome of a plan. The oracle decides the asked pairs.
 struct PlanOutcome {
   Funnels funnels;
   std::set<Candidate> colliding;

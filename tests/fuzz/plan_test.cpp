@@ -1,4 +1,4 @@
-// Plans: what they leave out collides nowhere, or is decided by an exact test.
+// The pairs that a plan leaves out do not collide, or are decided by an exact test.
 #include "fuzz/scenes/plan.hpp"
 
 #include <gmock/gmock.h>

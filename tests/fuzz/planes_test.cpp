@@ -1,4 +1,4 @@
-// The two plane tests, the judge's and the accused's, written apart: they say the same on every family.
+// The plane tests of the judge and of the accused, which were written independently, agree on every family.
 #include <gtest/gtest.h>
 
 #include "ccd/plane_culling.hpp"
@@ -33,7 +33,7 @@ TEST(Planes, AreThoseOfTheAccusedOnEveryFamily) {
   }
 }
 
-/// A vertex that goes from one height to another, above a triangle at rest in the plane z = 0.
+/// A vertex that moves from one height to another, above a triangle at rest in the plane z = 0.
 Query above(double height, double later) {
   Query query{.kind = Kind::vertex_triangle};
   query.x[2] = height;

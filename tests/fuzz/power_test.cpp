@@ -31,7 +31,7 @@ TEST(FirstFailure, IsAMissOrARefutedBound) {
   EXPECT_EQ(refuted->finding.what, Finding::What::refuted_bound);
 }
 
-/// How many cases of a family, one after the other, it takes until a subject misses a collision.
+/// The number of cases of a family, one after the other, until a subject misses a collision.
 std::uint64_t cases_one_by_one(const Subject& subject, const Family& family) {
   for (std::uint64_t index = 0;; ++index) {
     const Query query = make_query(family, 1, index);
@@ -59,7 +59,7 @@ TEST(FirstFailure, CasesAreCountedRoundByRound) {
   EXPECT_EQ(up_to(2, 29), 60);
   EXPECT_EQ(up_to(0, 10), 61);
   EXPECT_EQ(up_to(1, 25), 60 + 10 + 6);
-  plan.cases = 66;  // 11, 22 and 33: a second round has 1, 2 and 3
+  plan.cases = 66;  // 11, 22 and 33 cases, so that a second round has 1, 2 and 3
   EXPECT_EQ(up_to(0, 10), 61);
   EXPECT_EQ(up_to(2, 32), 66);
 }

@@ -66,7 +66,7 @@ TEST(Grazing, TouchesInADoubleRootOrNearlySo) {
              features->multiplicity != ContactFeatures::Multiplicity::simple;
     };
     EXPECT_GT(count_of_400("grazing", is_multiple), 90)
-        << short_name(kind);  // half of them are moved by ulps
+        << short_name(kind);  // half of the queries are moved by ulps
   }
   EXPECT_EQ(count_of_400("grazing",
                          [](const Query& query) {

@@ -1,4 +1,4 @@
-// The families at the ends of double's range keep their promises.
+// The families at the limits of double's range keep their promises.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ using testing::count_of_400;
 using ::testing::HasSubstr;
 using testing::largest_coordinate;
 
-/// The sum of the magnitudes of F's products of three differences from x0; or of products of two, in the
-/// component of the weights that leaves out an axis. An x87 long double has room for all of them.
+/// The sum of the magnitudes of F's products of three differences from x0, or of products of two in the
+/// component of the weights that leaves out an axis. It does not overflow an x87 long double.
 long double sum_of_products(const Query& query, std::size_t left_out) {
   const auto difference = [&](std::size_t vertex, std::size_t k) -> long double {
     const auto v = static_cast<int>(vertex);
@@ -38,7 +38,7 @@ long double sum_of_products(const Query& query, std::size_t left_out) {
   return sum;
 }
 
-/// Whether a sum of products of two or three, or its square, is as large as the parameter says.
+/// Whether a sum of products of two or three, or its square, has the magnitude that the parameter gives.
 bool products_are_about(const Query& query, int x) {
   const auto is_about = [](long double sum, int exponent) {
     const long double size = std::ldexp(sum, -exponent);

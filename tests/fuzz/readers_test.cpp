@@ -1,4 +1,4 @@
-// Meshes from files of all formats: what is read of good ones.
+// Meshes from files of all formats: the contents of good files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TEST_F(ReadersTest, CoordinatesAreReadToTheLastBit) {
 TEST_F(ReadersTest, FloatsOfPlyAreRoundedOnce) {
   const std::string floats = ply("ascii", "float", "uchar int", points_of_ply + "3 0 1 2\n3 0 2 3\n");
   expect_square(".ply", floats, 0.1F);
-  // Beyond the middle of two floats by less than a double can tell: the nearest double is the middle itself.
+  // The number is so little above the middle of two floats that the nearest double is the middle itself.
   expect_square(".ply", replaced(floats, "0 1 0.1", "0 1 1.000000059604644775390625001"), 1 + 0x1p-23);
 }
 

@@ -14,13 +14,13 @@ namespace {
 
 using testing::count_of_400;
 
-/// How many of the 200 queries of a kind have a property.
+/// The number of queries, among 200 of a kind, that have a property.
 template <class Property>
 int count_of_200(std::string_view family, Kind kind, const Property& has_property) {
   return count_of_400(family, [&](const Query& query) { return query.kind == kind && has_property(query); });
 }
 
-/// The primitives at rest where they are at t = 0 or t = 1.
+/// The primitives at rest in their positions at t = 0 or t = 1.
 Query at_rest(Query query, int time) {
   for (std::size_t i = 0; i < 12; ++i)
     query.x[12 * static_cast<std::size_t>(1 - time) + i] = query.x[12 * static_cast<std::size_t>(time) + i];
@@ -64,7 +64,7 @@ TEST(EndContact, OneCoordinateIsMovedByTheParameter) {
   }
 }
 
-// One in four turns back before it touches; contact is outside of the primitives in some.
+// One query in four turns back before contact. In some queries, contact is outside of the primitives.
 TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
   for (const Kind kind : kinds)
     for (const char* family : {"even-roots@-16", "even-roots@-8", "even-roots@-2"})
@@ -98,7 +98,7 @@ TEST(EvenRoots, SomeAreDouble) {
   }
 }
 
-// One in eight has an exact triple root where the numbers are exact.
+// One query in eight has an exact triple root, if its numbers are exact.
 TEST(TripleRoot, ThePrimitivesMeetInATripleRoot) {
   for (const Kind kind : kinds)
     for (const char* family : {"triple-root@-16", "triple-root@0"}) {

@@ -42,7 +42,7 @@ Held hold(const MovingMesh& mesh, int jobs) {
   return held;
 }
 
-// One thread holds the trials of four parts at a time, three threads those of all parts.
+// One thread runs the trials of four parts at a time; three threads run those of all parts.
 TEST(SceneTrial, GivesTheSameWithAnyNumberOfThreads) {
   const MovingMesh mesh = grids(12);
   const std::size_t parts = Plan(mesh, LeaveOut::all).parts();
@@ -82,7 +82,7 @@ TEST(SceneTrial, ThePictureMarksWhatCollides) {
   EXPECT_EQ(picture->step, "scene:grids");
   const auto json = nlohmann::json::parse(picture->json);
   EXPECT_EQ(json["meanings"].size(), 7);
-  EXPECT_EQ(json["primitives"], 3);  // triangle, line, and the vertex that falls
+  EXPECT_EQ(json["primitives"], 3);  // a triangle, a line, and the falling vertex
   const auto numbers = [&](const char* name) {
     std::istringstream text(json[name].get<std::string>());
     return std::vector(std::istream_iterator<int>(text), {});

@@ -1,4 +1,4 @@
-// Scenes of files: two meshes, or a folder of frames.
+// Scenes from files: two meshes, or a folder of frames.
 #include "fuzz/scenes/scene.hpp"
 
 #include <gmock/gmock.h>
@@ -98,7 +98,7 @@ TEST_F(FolderTest, TwoFramesWithOneEndingAreNeeded) {
   expect_refused(": found 1.obj and 2.off, expected meshes with one ending");
 }
 
-/// Points 0 and 2 are in one place at frame 0, and so are 1 and 4.
+/// Points 0 and 2 coincide in frame 0, and so do 1 and 4.
 Scene with_seams(const std::vector<Vector3<double>>& later) {
   const Mesh mesh{
       {{0, 0, 0}, {1, 0, 0}, {-0.0, 0, -0.0}, {0, 1, 0}, {1, 0, 0}}, {{0, 1, 3}, {2, 4, 1}}, {{2, 3}}};

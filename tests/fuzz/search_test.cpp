@@ -1,4 +1,4 @@
-// The directed search, on defects that are known to be there.
+// Tests the directed search on known defects.
 #include "fuzz/families/search.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
   EXPECT_THROW(search(miss_search(subject), 0), Error);
 }
 
-/// The largest distance of a false positive that some searches find, over what the subject claims.
+/// The largest distance of a false positive that some searches find, divided by the subject's claim.
 double farthest(const Subject& subject, std::uint64_t searches) {
   double ratio = 0;
   for (std::uint64_t i = 0; i < searches; ++i) {
@@ -79,7 +79,7 @@ double farthest(const Subject& subject, std::uint64_t searches) {
 
 TEST(FarSearch, ComesNearTheBoundAndDoesNotRefuteIt) { EXPECT_GT(farthest(*make_subject("wang"), 20), 0.9); }
 
-// Primitives must be as small as the bound.
+// For a fine scalar, the search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundOfAFineScalarToo) {
   EXPECT_GT(farthest(*make_any_subject("wang-tight:p112"), 10), 0.9);
 }

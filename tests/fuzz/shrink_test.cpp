@@ -1,4 +1,4 @@
-// Shrinking: simpler, and still failing in the same way.
+// Shrinking makes a query simpler, and the query still fails in the same way.
 #include "fuzz/trial/shrink.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using testing::falling_vertex;
 
-/// The first queries of every family that basic misses, of each kind one.
+/// The first query of every family and kind that basic misses.
 std::vector<Finding> missed_by_basic() {
   const auto basic = make_subject("basic");
   const Judge judge(*basic);
@@ -65,7 +65,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
   }
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
-            4);  // most have few numbers; all but the coplanar ones had 20 or so
+            4);  // most have few distinct numbers; all except the coplanar queries had about 20
 }
 
 TEST(Shrink, KeepsOnlyWhatMatters) {
@@ -73,7 +73,7 @@ TEST(Shrink, KeepsOnlyWhatMatters) {
   ASSERT_GT(query.x[3], 0.25);
   const Query shrunk = nearmiss::shrunk(query, [](const Query& q) { return q.x[3] > 0.25; });
   Query expected{.kind = query.kind};
-  expected.x[3] = expected.x[12 + 3] = 1;  // it rests
+  expected.x[3] = expected.x[12 + 3] = 1;  // the vertex rests along this axis
   EXPECT_EQ(shrunk, expected);
 }
 
@@ -101,7 +101,7 @@ TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
   shrunk(query, [&](const Query& q) {
     EXPECT_TRUE(is_finite(q));
     ++asked;
-    return q.x[0] > 0x1p1000 && q.x[1] != 0 && std::abs(q.x[1]) < 0x1p-1000;  // stays as hard as it is
+    return q.x[0] > 0x1p1000 && q.x[1] != 0 && std::abs(q.x[1]) < 0x1p-1000;  // keeps the query difficult
   });
   EXPECT_GT(asked, 100);
   EXPECT_LT(asked, 200000);
@@ -110,7 +110,7 @@ TEST(Shrink, AsksOnlyAboutFiniteQueriesAndNotForEver) {
 TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(Query{}), Complexity{});
   const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
-  // x and y at rest, z from 1 to -1, the triangle's two ones.
+  // The vertex moves only in z, from 1 to -1, and the triangle has two ones.
   EXPECT_EQ(falling,
             (Complexity{.numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
   Query third{};

@@ -22,14 +22,14 @@ using CgalInterval = CGAL::Interval_nt<>;
 template <unsigned bits>
 using BinaryFloat = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2>, mp::et_off>;
 
-/// An interval that surely contains a number.
+/// An interval that certainly contains a number.
 template <class T>
 CgalInterval enclosure(const T& x) {
   const auto near = static_cast<double>(x);
   return {std::nextafter(near, -1e300), std::nextafter(near, 1e300)};
 }
 
-/// The values as they are computed, divided by the powers of B.
+/// The computed values, divided by the powers of B.
 template <class T>
 Tolerances<CgalInterval> enclosed(const T& B) {
   const Tolerances<T> tol = tight_tolerances(B);
@@ -50,7 +50,7 @@ Tolerances<CgalInterval> enclosed(const T& B) {
 
 void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
-  // Any E will do: the lower end of what allows most.
+  // Any E may be chosen, so the test takes the lower end of the interval for the best one.
   const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
@@ -64,7 +64,7 @@ void expect_constraints_as_computed() {
     expect_constraints(enclosed(T(B)), CgalInterval(std::ldexp(1.0, exponent)), exponent);
 }
 
-// To the last rounding of each, in interval arithmetic.
+// Checks each constraint to the last rounding, in interval arithmetic.
 TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
   expect_constraints_as_computed<BinaryFloat<11>>();
   expect_constraints_as_computed<BinaryFloat<12>>();
@@ -93,12 +93,12 @@ struct ToleranceProblem {
 
   static constexpr unsigned variables = 9;
 
-  /// How much each is violated, in the logarithm.
+  /// The violation of each constraint, as a logarithm.
   void violations(const double* x, double* missing) const {
     const ToleranceConstants c{.mu = std::exp(x[8]),
                                .tau = std::exp(x[0]),
                                .eta = std::exp(x[1]),
-                               .R = 0,  // what S says
+                               .R = 0,  // determined by S
                                .S = std::exp(x[2]),
                                .lambda2 = std::exp(x[3]),
                                .D2 = std::exp(x[4]),
@@ -144,7 +144,7 @@ double lowest_D2(int exponent) {
 TEST(TightTolerances, AreTheSmallestThatAnotherOptimiserFinds) {
   for (const int exponent : {-10, -16, -23, -36, -52, -104}) {
     const double ratio = lowest_D2(exponent) / solve_tight(exponent).D2;
-    const double rounding = 64 * std::ldexp(1.0, exponent);  // what ours have room for
+    const double rounding = 64 * std::ldexp(1.0, exponent);  // the slack of our tolerances
     EXPECT_LT(ratio, 1 + 1e-5) << exponent;
     EXPECT_GT(ratio, 1 - 1e-5 - rounding) << exponent;
   }
@@ -163,8 +163,8 @@ TEST(ToleranceTable, HasTheseBounds) {
   }
 }
 
-// Among the constraints that the paper prints, the closed forms first violate 64 ε^¾ >= 33492 ε. Below 13 bits they
-// violate what the solver really needs of μ.
+// Among the paper's constraints, the closed forms first violate 64 ε^¾ >= 33492 ε. Below 13 bits, μ is
+// smaller than the solver actually needs.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;
@@ -172,7 +172,8 @@ TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   }
 }
 
-/// Collisions of all planted families, with coordinates that T has too, that the tight tolerances miss.
+/// The collisions of all planted families, with coordinates that T represents exactly, that the tight
+/// tolerances miss.
 template <class T>
 int misses(std::uint64_t queries) {
   int count = 0;

@@ -1,4 +1,4 @@
-// How tight tolerances are, as measured on known ones.
+// Measures the tightness of known tolerances.
 #include "fuzz/studies/tightness.hpp"
 
 #include <gmock/gmock.h>

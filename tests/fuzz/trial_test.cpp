@@ -1,4 +1,4 @@
-// Trials: subjects judged by the oracle.
+// Trials, in which the oracle judges subjects.
 #include "fuzz/trial/trial.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::falling_vertex;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Answers and claims what the test sets.
+/// A subject with the answers and claims that the test sets.
 class Told final : public Subject {
  public:
   Told(std::string name, bool hit, double bound) : name_(std::move(name)), hit_(hit), bound_(bound) {}
@@ -35,7 +35,7 @@ class Told final : public Subject {
   double bound_;
 };
 
-/// Reports an error for a vertex that ends at a certain height.
+/// A subject that reports an error for a vertex that ends at a certain height.
 class Choosy final : public Subject {
  public:
   [[nodiscard]] const std::string& name() const override { return name_; }

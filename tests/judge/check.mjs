@@ -1,4 +1,4 @@
-// Every defect of the list applies to the sources as they are, and changes them.
+// Checks that every defect of the list applies to the current sources, and changes them.
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { source } from './copy.mjs';

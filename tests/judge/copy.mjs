@@ -1,4 +1,4 @@
-// A copy of the tree whose oracle can be altered; everything else is a link to the source.
+// Makes a copy of the tree whose oracle can be altered; everything else is a link to the source.
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
@@ -69,7 +69,7 @@ export class Copy {
 
   /** Builds a target; returns the compiler's output if that fails, else nothing. */
   async make(target) {
-    // A defect is compiled once, and precompiled headers take a cache longer than the compiler takes.
+    // A defect is compiled only once, and with precompiled headers a cache takes longer than the compiler.
     const env = this.altered ? { CCACHE_DISABLE: '1' } : { CCACHE_BASEDIR: this.folder, CCACHE_NOHASHDIR: '1' };
     const { code, output } = await run('ninja', ['-j1', '-C', this.build, target], { cwd: this.folder, env });
     return code === 0 ? undefined : output;

@@ -1,8 +1,8 @@
 // Hunts for a disagreement within the oracle: usage: judge_hunter [QUERIES [SEED]].
 //
-// All families in turn, a block of queries of each, until two parts of the oracle disagree, one dies or takes
-// too long, or QUERIES are over. One line of output, "found WHAT FAMILY:SEED:INDEX QUERIES" or
-// "nothing QUERIES"; exit code 1 if something was found.
+// It takes blocks of queries from all families in turn. It stops if two parts of the oracle disagree, if a
+// part crashes or takes too long, or after QUERIES queries. It prints one line, "found WHAT FAMILY:SEED:INDEX
+// QUERIES" or "nothing QUERIES". Exit code 1 means that something was found.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -30,14 +30,14 @@ struct HuntPosition {
   std::uint64_t index = 0;
   std::uint64_t queries = 0;
 };
-HuntPosition position;  // NOLINT: a signal's handler sees nothing else
+HuntPosition position;  // NOLINT: a signal handler can read only globals
 
 std::string found(const std::string& what) {
   return fmt::format("found {} {}:{}:{} {}\n", what, position.family, position.seed, position.index,
                      position.queries);
 }
 
-/// CPU time for one query, far above what any takes; a defect can make a search endless.
+/// Limit of CPU time for one query, far above the time of any query; a defect can make a search endless.
 constexpr int seconds_per_query = 20;
 
 void restart_clock() {
@@ -56,9 +56,10 @@ extern "C" void say_where_it_ended(int signal) {
   _exit(written == size ? 1 : 3);
 }
 
-/// A crash, an endless search or one that takes all memory ends with a line about the query.
+/// Makes a crash, an endless search and exhausted memory end the program with a line about the query.
 void catch_all_ends() {
-  static std::array<char, 1 << 16> stack;  // a handler of its own: the stack may be what has overflowed
+  static std::array<char, 1 << 16> stack;  // a separate stack for the handler, because the program's stack
+                                           // may have overflowed
   const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
   sigaltstack(&other, nullptr);
   struct sigaction action {};
@@ -74,7 +75,7 @@ void catch_all_ends() {
   setrlimit(RLIMIT_CPU, &seconds);
 }
 
-/// The line of what was found in a block of a family's queries, or "".
+/// The line about a disagreement in a block of a family's queries, or "".
 std::string hunt(const Family& family, std::uint64_t first, std::uint64_t count) {
   const std::uint64_t before = position.queries;
   std::vector<Query> queries;

@@ -1,8 +1,8 @@
 // The list of defects, defects/*.txt: reads it, and applies a defect to the text of a file.
 //
 //   NAME in FILE (2 of 3): the error that the edit makes
-//   - the text to find; blanks and line ends match any others; once in the file, or the second of three places
-//   + the text instead
+//   - the text to find, once in the file, or at the second of three places; any blanks and line ends match
+//   + the text that replaces it
 //   = for a defect that nothing finds: why it changes no answer, or what would find it
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';

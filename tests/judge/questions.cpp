@@ -21,13 +21,13 @@ using Stages = std::vector<FilterStage>;
 /// The filters' answers to some queries.
 struct Filtered {
   Stages batch;     ///< in lanes alone
-  Stages cautious;  ///< the same with bounds eight times as large
+  Stages cautious;  ///< the same with all bounds multiplied by eight
   Stages scalar;    ///< one at a time
 };
 
 bool is_decided(FilterStage stage) { return stage != FilterStage::undecided; }
 
-/// Whether both decide, and not the same.
+/// Whether both decide, with different answers.
 bool contradict(FilterStage a, FilterStage b) {
   return is_decided(a) && is_decided(b) && is_collision(a) != is_collision(b);
 }
@@ -41,7 +41,7 @@ Filtered ask_filters(std::span<const Query> queries) {
   return filtered;
 }
 
-/// The filters against each other.
+/// Compares the filters with each other.
 std::optional<Contradiction> filters_disagree(std::span<const Query> queries, const Filtered& filtered) {
   Stages widest(queries.size());
   filter(queries, widest, widest_instructions());
@@ -61,7 +61,7 @@ std::optional<Contradiction> filters_disagree(std::span<const Query> queries, co
   return std::nullopt;
 }
 
-/// Exact answers are asked about one query in this many; each number divides the next one.
+/// Each exact question is asked about one query in this many. Each number divides the next one.
 struct SamplingRates {
   std::uint64_t exact, others, distance;
 };
@@ -69,7 +69,7 @@ struct SamplingRates {
 SamplingRates sampling_rates(FilterStage batch, FilterStage cautious, FilterStage scalar) {
   if (!is_decided(scalar)) return {1, 4, 32};
   if (!is_decided(batch)) return {1, 16, 128};     // hard to decide
-  if (!is_decided(cautious)) return {1, 64, 256};  // near its bounds
+  if (!is_decided(cautious)) return {1, 64, 256};  // near the filter's bounds
   switch (batch) {
     case FilterStage::planes:
       return {64, 256, 512};
@@ -91,7 +91,7 @@ bool is_wide(const Query& query) {
   return smallest < 0x1p-300 * largest || largest > 0x1p1000;
 }
 
-/// The same for all decisions of the filters.
+/// Compares all decisions of the filters with the exact answer.
 std::string filters_against(bool exact, const Query& query, std::size_t i, const Filtered& filtered) {
   const auto is_wrong = [&](FilterStage stage) { return is_decided(stage) && is_collision(stage) != exact; };
   if (is_wrong(filtered.batch[i])) return "batch against exact";
@@ -102,14 +102,14 @@ std::string filters_against(bool exact, const Query& query, std::size_t i, const
   return "";
 }
 
-/// The features of the first contact against the roots as Sturm sequences count them.
+/// Compares the features of the first contact with the roots that Sturm sequences count.
 std::string features_against(const RootCount& count, const Query& query) {
   const auto features = contact_features(query);
   if (features.has_value() != count.collision) return "features against sturm";
   if (!features) return "";
   if ((features->multiplicity == ContactFeatures::Multiplicity::planar) != count.planar)
     return "features: planar";
-  if (count.distinct != 1) return "";  // else the first contact is the only one
+  if (count.distinct != 1) return "";  // with one root, the first contact is the only one
   if ((features->multiplicity == ContactFeatures::Multiplicity::multiple) != (count.with_multiplicity > 1))
     return "features: multiplicity";
   const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&
@@ -128,11 +128,11 @@ std::string slow_answers_disagree(const Query& query, bool exact) {
   return what.empty() ? translation_disagreement(query) : what;
 }
 
-/// All about one query that exact arithmetic has a part in.
+/// Asks all questions about one query that need exact arithmetic.
 std::string query_disagreement(const Query& query, std::uint64_t index, std::size_t i,
                                const Filtered& filtered) {
   const SamplingRates share = sampling_rates(filtered.batch[i], filtered.cautious[i], filtered.scalar[i]);
-  const std::uint64_t number = index / 2;  // of its kind
+  const std::uint64_t number = index / 2;  // number of the query among those of its kind
   if (number % share.exact != 0) return "";
   const bool exact = collides_exactly(query);
   std::string what = filters_against(exact, query, i, filtered);

@@ -1,8 +1,9 @@
 // Hunts every defect of the list. Usage: run.mjs [--jobs N] [--only REGEX] [--every N] [--again] [--queries N] [--steps hunter,...]
 //
 // Results are saved after every defect, so that the same command resumes where it stopped; --again repeats the hunt for
-// defects that nothing found. build/judge/results.json and table.txt say what found each defect, and how soon. Exit code
-// 1: a defect was found although the list says why it cannot be, or was not found and the list gives no reason.
+// defects that nothing found. build/judge/results.json and table.txt say what found each defect, and how
+// soon. Exit code 1 means that a defect was found although the list gives a reason why it cannot be found, or
+// that a defect without such a reason was not found.
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';

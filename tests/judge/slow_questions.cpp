@@ -1,4 +1,4 @@
-// Times, distances and translations against exact decisions.
+// Compares times, distances and translations with exact decisions.
 #include <algorithm>
 #include <boost/multiprecision/gmp.hpp>
 #include <cmath>
@@ -17,20 +17,20 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The double above; the double below a number that is not negative, 0 below 0.
+/// The next double above x; the next double below a number that is not negative, with 0 for 0.
 double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return std::nextafter(x, 0.0); }
 
 using Rational = boost::multiprecision::mpq_rational;
 
-/// A rational as a double, if it is one.
+/// The value as a double, if a double can represent it.
 std::optional<double> as_double(const Rational& x) {
   const auto d = x.convert_to<double>();
   if (std::isfinite(d) && Rational(d) == x) return d;
   return std::nullopt;
 }
 
-/// The motion until t, if doubles can represent it.
+/// The motion up to time t, if doubles can represent it.
 std::optional<Query> until(const Query& query, double t) {
   Query cut = query;
   for (std::size_t k = 0; k < 12; ++k) {
@@ -42,7 +42,8 @@ std::optional<Query> until(const Query& query, double t) {
   return cut;
 }
 
-/// Whether the query until t collides, by Sturm sequences, if doubles can say it.
+/// Whether the motion up to time t collides, by Sturm sequences; nothing if doubles cannot represent this
+/// motion.
 std::optional<bool> collides_until(const Query& query, double t) {
   const auto cut = until(query, t);
   if (!cut) return std::nullopt;
@@ -57,7 +58,7 @@ std::string enclosure_disagreement(const Enclosure& d, bool collision) {
   return is_narrow || d.hi == infinity ? "" : "distance: wide";
 }
 
-/// The smallest distance of two vertices at t = 0 and t = 1, about.
+/// The approximate smallest distance of two vertices at t = 0 and t = 1.
 double vertex_distance(const Query& query) {
   double smallest = infinity;
   for (int i = 0; i < split(query.kind); ++i)
@@ -68,7 +69,7 @@ double vertex_distance(const Query& query) {
   return smallest;
 }
 
-/// Whether a bound is exceeded, said in two ways.
+/// Whether two ways to compare the distance with a bound agree.
 bool comparisons_agree(const Query& query, double bound) {
   return distance_exceeds(query, bound) == !comes_within(query, bound);
 }
@@ -93,7 +94,7 @@ std::string distance_disagreement(const Query& query, bool collision) {
     if (!comparisons_agree(query, bound)) return "distance: comparisons";
   if (d.hi < 0x1p-900) return "";
   if (closest_ratio(query, d.hi) < d.lo / d.hi * (1 - rounding)) return "distance: ratio";
-  // To a factor of two: a search of its own.
+  // An enclosure to a factor of two takes a separate search.
   const Enclosure wide = distance_in_units(query, d.hi, [](double hi) { return hi / 2; });
   if (wide.lo > 1 + rounding || wide.hi < d.lo / d.hi * (1 - rounding)) return "distance: enclosures apart";
   if (2 * wide.lo < wide.hi) return "distance: too wide";
@@ -111,7 +112,8 @@ std::string time_disagreement(const Query& query, bool collision) {
     if (exact < Rational(lo) || exact > Rational(hi)) return "time: rational";
     if (lo == hi && exact != Rational(lo)) return "time: rational";
   }
-  // Multiples of 2^-bits around the time: the fewer bits, the more often doubles have the motion until then.
+  // Tries multiples of 2^-bits around the time. The fewer bits, the more often doubles represent the motion
+  // up to then.
   for (const int bits : {4, 12, 30}) {
     const double at = std::ldexp(std::ceil(std::ldexp(hi, bits)), -bits);
     if (collides_until(query, at) == false) return "time: too early";

@@ -1,4 +1,4 @@
-// The results as a table.
+// Prints the results as a table.
 import { steps } from './steps.mjs';
 
 const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor((numbers.length - 1) / 2)];

@@ -1,30 +1,31 @@
-"""Asks the tests about a mutant: the quick ones first, until one fails."""
+"""Runs the tests with a mutant, quick tests first, until one fails."""
 
 import re
 from dataclasses import dataclass, field
 
 from suite import run_tests
 
-KILLED = (-9, 128 + 9, 128 + 24)  # by a limit
-BUDGET = 120  # seconds of one core that a mutant may take, by what its tests take without it
+KILLED = (-9, 128 + 9, 128 + 24)  # exit codes of processes that a limit has killed
+BUDGET = 120  # seconds of one core for the tests of a mutant, by their times without it
 
 
 @dataclass
 class Answer:
-    """What the tests said of a mutant."""
+    """The result of the tests with a mutant."""
 
     noticed_by: str = ''  # the first test that failed, or ''
     how: str = ''  # 'failed', 'crashed' or 'too slow'
     cpu: float = 0
     wall: float = 0
-    asked: int = 0  # tests
-    unasked: list = field(default_factory=list)  # tests for which no time was left
-    unsteady: list = field(default_factory=list)  # tests that failed once, and not again or always
-    spent: dict = field(default_factory=dict)  # seconds by test, as without a mutant
+    asked: int = 0  # number of tests
+    unasked: list = field(default_factory=list)  # tests left out for lack of time
+    unsteady: list = field(default_factory=list)  # tests whose failure was not confirmed
+    spent: dict = field(default_factory=dict)  # seconds of each test without a mutant
 
 
 def batches(steps, folder):
-    """Steps in the order of their time, in batches that take twice as long each; the folder's own first."""
+    """Yields steps sorted by time, in batches of doubling length. In a batch, the tests of
+    `folder` come first."""
     batch, size, limit = [], 0, 0.5
     for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
         if batch and size + step.cpu > limit:
@@ -46,7 +47,7 @@ def by_group(batch, folder):
 
 
 def affordable(steps):
-    """The quick ones that fit the budget, and the names of the others."""
+    """The quickest steps that fit the budget, and the names of the others."""
     kept, left, total = [], [], 0
     for step in sorted(steps, key=lambda each: (each.cpu, each.name)):
         total += step.cpu
@@ -58,7 +59,7 @@ def affordable(steps):
 
 
 def culprit(group, ended):
-    """Which test failed, and how."""
+    """The name of the failed test, and how it failed."""
     how = (
         'too slow'
         if ended.late or ended.code in KILLED
@@ -72,7 +73,7 @@ def culprit(group, ended):
 
 
 def run_steps(number, group):
-    """Runs steps of one executable with a mutant; the limits are what they take without it, generously."""
+    """Runs steps of one executable with a mutant, with limits far above their times without it."""
     return run_tests(
         group[0].group,
         [step.test for step in group],
@@ -83,14 +84,16 @@ def run_steps(number, group):
 
 
 def is_confirmed(number, step):
-    """Whether a test that failed fails again with the mutant, and not without: some depend on the machine's load."""
+    """Whether a failed test fails again with the mutant, and passes without it. Some tests fail on
+    a busy machine."""
     again = run_steps(number, [step])
     without = run_steps(0, [step]) if number else None
     return again.code != 0 and (without is None or without.code == 0)
 
 
 def ask(number, steps, folder):
-    """What the tests say of the mutant with a number, 0 for one that is built in."""
+    """Runs the tests with the mutant of this number, or with the mutant that is built in if it is
+    0."""
     answer = Answer()
     kept, answer.unasked = affordable(steps)
     for batch in batches(kept, folder):

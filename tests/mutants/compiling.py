@@ -1,4 +1,5 @@
-"""One build with all mutants: those that do not compile as a switch get another form, or are built by themselves."""
+"""Builds all mutants at once. A mutant that does not compile as a switch gets another form, or a
+separate build."""
 
 import json
 import re
@@ -8,7 +9,7 @@ from schemata import SWITCHES, first_form, next_form, with_switches
 from sources import ROOT, WORK, read
 
 FORMS_FILE = WORK / 'forms.json'
-# A path may be relative, as ccache makes it.
+# A path may be relative, because ccache makes paths relative.
 PLACE = re.compile(rf'(?:^|\s)(?:\S*/)?{COPY.name}/([\w./-]+\.[ch]pp):(\d+)', re.MULTILINE)
 
 
@@ -24,7 +25,7 @@ class Mutants:
             self.by_file.setdefault(each.file, []).append((number, each))
 
     def text_of(self, name):
-        """What a file of the copy is."""
+        """The text of a file in the copy."""
         switches = [
             (number, each, self.forms[each.name])
             for number, each in self.by_file.get(name, [])
@@ -33,13 +34,13 @@ class Mutants:
         return with_switches(read(ROOT / name), switches)
 
     def step_back(self, mutation, errors):
-        """The next form of one that does not compile."""
+        """Gives a mutant that does not compile its next form."""
         self.forms[mutation.name] = next_form(self.forms[mutation.name], errors)
         known = json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
         FORMS_FILE.write_text(json.dumps({**known, **self.forms}, indent=0))
 
     def at(self, places):
-        """Switched mutants on any of these lines."""
+        """The mutants in the form of a switch on any of these lines."""
         found = []
         for name in {name for name, _ in places} & set(self.by_file):
             text = read(ROOT / name)
@@ -70,8 +71,12 @@ def places(text):
 
 
 def blamed(mutants, block):
+<<<<<<< HEAD
     """The mutants that an error is about: on the line of the error, on a line that it mentions, or in a constexpr function
     of a file that it mentions."""
+=======
+    """The mutants on the line of an error, or else on the lines that the error mentions."""
+>>>>>>> english-b
     errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
     mentioned = places(block)
     return (
@@ -82,14 +87,15 @@ def blamed(mutants, block):
 
 
 def errors_about(mutation, block):
-    """The compiler's errors on the lines of a mutant, or all that it says where it blames others."""
+    """The compiler's errors on the lines of a mutant, or its whole output if the errors are on
+    other lines."""
     lines = {(mutation.file, line) for line in mutation.lines(read(ROOT / mutation.file))}
     errors = [line for line in block.splitlines() if ' error: ' in line and places(line) & lines]
     return '\n'.join(errors) or block
 
 
 def build(mutants, targets, jobs, say):
-    """Builds targets of the copy with all mutants, as many times as it takes."""
+    """Builds targets of the copy with all mutants, and repeats the build until it succeeds."""
     while True:
         make_copy(mutants.text_of)
         ended = ninja(targets, jobs, lambda step: say(f'building {step}'))
@@ -100,7 +106,9 @@ def build(mutants, targets, jobs, say):
         for block in failures(ended.output):
             found = blamed(mutants, block)
             if not found:
-                raise SystemExit(f'the copy does not compile, for no mutant:\n{block[:4000]}')
+                raise SystemExit(
+                    f'the copy does not compile, and no mutant is the cause:\n{block[:4000]}'
+                )
             culprits.update({each.name: (each, errors_about(each, block)) for each in found})
         if not culprits:
             raise SystemExit(f'the copy is not built:\n{ended.output[-4000:]}')
@@ -110,7 +118,7 @@ def build(mutants, targets, jobs, say):
 
 
 def probes(mutants, compiled):
-    """Object files that show soon whether the mutants compile."""
+    """The object files that show soonest whether the mutants compile."""
     units = {unit for name in mutants.by_file for unit in compiled.units(name)}
     objects = []
     for unit in sorted(units):
@@ -120,6 +128,6 @@ def probes(mutants, compiled):
 
 
 def build_all(mutants, compiled, jobs, say):
-    """First what shows whether the mutants compile, then everything."""
+    """Builds the files that show whether the mutants compile first, then everything."""
     build(mutants, probes(mutants, compiled), jobs, say)
     build(mutants, ['all'], jobs, say)

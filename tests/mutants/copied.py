@@ -1,4 +1,5 @@
-"""The copy of the tree that contains the mutants: the folders' C++ files are its own, all else are links."""
+"""The copy of the tree that contains the mutants. The copy has its own C++ files; all other files
+are links."""
 
 import os
 from pathlib import Path
@@ -16,7 +17,7 @@ def has_code(folder):
 
 
 def write(path, text):
-    """Writes a file where it is not so already: what did not change is not compiled again."""
+    """Writes a file if its text has changed, so that unchanged files are not compiled again."""
     data = text.encode('latin-1')
     if path.is_symlink() or not path.exists() or path.read_bytes() != data:
         path.unlink(missing_ok=True)
@@ -31,7 +32,8 @@ def link(target, path):
 
 
 def mirror(source, target, text_of):
-    """A folder with C++ files: these from `text_of`, links to all else, nothing more."""
+    """Copies a folder. `text_of` gives the text of its C++ files; all other files become links.
+    Removes everything else from the copy."""
     target.mkdir(parents=True, exist_ok=True)
     names = {entry.name for entry in source.iterdir()}
     for entry in target.iterdir():
@@ -47,7 +49,7 @@ def mirror(source, target, text_of):
 
 
 def remove(path):
-    """Removes what the tree no longer has."""
+    """Removes a file or folder that the tree no longer has."""
     if path.is_symlink() or path.is_file():
         path.unlink()
         return
@@ -57,7 +59,7 @@ def remove(path):
 
 
 def text_of_copy(name):
-    """As the copy has it already, if it does."""
+    """The text of a file in the copy, or in the tree if the copy does not have the file."""
     return read(COPY / name) if (COPY / name).exists() else read(ROOT / name)
 
 
@@ -72,7 +74,8 @@ def make_copy(text_of):
 
 
 def configure():
-    """The build of the copy: the product's semantics, less optimised. Sees files that are new or gone."""
+    """Configures the build of the copy, with the product's semantics and less optimisation. Finds
+    new and removed files."""
     options = {
         'CMAKE_BUILD_TYPE': 'Release',
         'CMAKE_CXX_COMPILER': 'g++',
@@ -87,6 +90,7 @@ def configure():
 
 
 def ninja(targets, jobs, say=None):
-    """Builds targets as far as possible. A precompiled header takes a cache longer than the compiler."""
+    """Builds targets as far as possible, without a cache: with precompiled headers it is slower
+    than the compiler."""
     words = ['ninja', '-C', BUILD, f'-j{jobs}', '-k', '0', *targets]
     return run(words, cwd=COPY, env={'CCACHE_DISABLE': '1'}, seconds=24 * 3600, say=say)

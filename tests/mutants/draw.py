@@ -1,6 +1,7 @@
-"""Which mutants are asked about: a draw by a seed, evenly over folders and over operators.
+"""Draws mutants by a seed, evenly over folders and over operators.
 
-The order depends on each mutant's own text alone, so that an edit elsewhere leaves a draw as it was."""
+The order depends only on each mutant's own text, so that a change elsewhere does not change a
+draw."""
 
 import hashlib
 import inspect
@@ -22,12 +23,12 @@ def sha(*parts):
 
 
 def kept_tree(name):
-    """Where the syntax tree of a file is kept until the file changes."""
+    """The path at which the syntax tree of a file is kept until the file changes."""
     return CACHE / sha(name, read(ROOT / name), inspect.getsource(syntax.Node))
 
 
 def sites_of(task):
-    """The mutants of files, by a unit that includes them all."""
+    """The mutants of files, parsed in a unit that includes all of them."""
     unit, arguments, names = task
     missing = [name for name in names if not kept_tree(name).exists()]
     if missing:
@@ -42,13 +43,13 @@ def sites_of(task):
 
 
 def end_on_signals():
-    """Processes of the pool end when they are told to, by the first process alone."""
+    """Ignores SIGINT, because only the first process ends the processes of the pool."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def all_sites(compiled, copy, folders, jobs):
-    """The mutants of all files of folders that are compiled."""
+    """The mutants of all compiled files in folders."""
     names = {}
     for name in cpp_files(folders):
         for unit in compiled.units(name)[:1]:
@@ -64,12 +65,12 @@ def all_sites(compiled, copy, folders, jobs):
 
 
 def in_turn(lists):
-    """One of each list, then the next of each."""
+    """Interleaves lists: the first of each list, then the second of each, and so on."""
     return [each for row in zip_longest(*lists) for each in row if each is not None]
 
 
 class Lines:
-    """Lines that have a mutant: one mutant a line is enough."""
+    """The lines that have a mutant already; a line gets at most one."""
 
     def __init__(self):
         self.taken = set()

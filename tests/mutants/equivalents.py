@@ -2,7 +2,7 @@
 
     oracle/root.cpp
     - the text of its lines
-    + what the mutant makes of them
+    + the text that the mutant makes of them
     = why that changes nothing
 """
 
@@ -15,7 +15,7 @@ LIST = Path(__file__).resolve().parent / 'equivalent.txt'
 
 
 def entries(text):
-    """(file, before, after) with the reason of each, and where the list begins to be wrong, if it does."""
+    """Maps (file, before, after) to its reason. Raises ValueError at the first wrong entry."""
     found = {}
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith('#')]
     for first in range(0, len(lines), 4):
@@ -31,7 +31,8 @@ def entries(text):
 
 
 def complaints(found, root=ROOT):
-    """What is wrong with entries: text that does not occur, or does not change."""
+    """Yields complaints about entries whose text does not occur in the file, or does not
+    change."""
     for file, before, after in found:
         if not (root / file).is_file():
             yield f'{file}: no such file'
@@ -42,7 +43,7 @@ def complaints(found, root=ROOT):
 
 
 def reason_of(found, mutation):
-    """Why a mutant is equivalent, if the list says so."""
+    """The reason why a mutant is equivalent, if it is in the list."""
     return found.get((mutation.file, mutation.before, mutation.after))
 
 

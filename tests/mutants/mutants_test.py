@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The operators make the edits that they should, a seed gives the same draw, and the list of equivalent mutants is held to the sources."""
+"""Tests that the operators make the right edits, that a seed always gives the same draw, and that
+the list of equivalent mutants is checked against the sources."""
 
 import unittest
 from dataclasses import replace
@@ -22,7 +23,7 @@ SITES = mutants_of(FILE, TEXT, TREE)
 
 
 def made(operator, before):
-    """What an operator makes of a line."""
+    """The lines that an operator makes from a line."""
     return {
         each.after
         for each in SITES
@@ -31,7 +32,7 @@ def made(operator, before):
 
 
 def only(operator, before):
-    """The one mutant of an operator in a line."""
+    """The only mutant of an operator in a line."""
     (found,) = [e for e in SITES if e.operator == operator and e.before.startswith(before)]
     return found
 

@@ -1,4 +1,5 @@
-"""A mutant: one small change of a file's text, and the context that says how it can be switched on."""
+"""A mutant: one small change of a file's text, with the context that decides how it can be
+switched on."""
 
 import hashlib
 from dataclasses import asdict, dataclass
@@ -8,7 +9,7 @@ from sources import shown
 
 @dataclass(frozen=True)
 class Edit:
-    """Text that takes the place of text[start:end]."""
+    """An edit that replaces text[start:end]."""
 
     start: int
     end: int
@@ -19,15 +20,15 @@ class Edit:
 class Mutation:
     file: str
     operator: str
-    edits: tuple  # of one mutant, in order
+    edits: tuple  # the edits of one mutant, in order
     form: str  # what the edits change: 'expression', 'condition' or 'statement'
-    at_compile_time: bool  # in a constexpr function
-    constants: tuple = ()  # edits without which a constexpr variable is known before the program runs
+    at_compile_time: bool  # whether the change is in a constexpr function
+    constants: tuple = ()  # edits that make constexpr variables depend on the switch
     line: int = 0
     last_line: int = 0
-    before: str = ''  # the lines, and what becomes of them
+    before: str = ''  # the changed lines, before and after
     after: str = ''
-    nth: int = 0  # of equal changes of equal lines
+    nth: int = 0  # number among equal changes of equal lines
 
     @property
     def identity(self):
@@ -38,7 +39,7 @@ class Mutation:
         return hashlib.sha256(self.identity.encode()).hexdigest()[:12]
 
     def lines(self, text):
-        """Lines of which a compiler may speak that has trouble with this mutant."""
+        """The lines that a compiler may name in an error about this mutant."""
         own = set(range(self.line, self.last_line + 1))
         return own | {line_of(text, edit.start) for edit in self.constants}
 
@@ -61,7 +62,7 @@ def line_of(text, offset):
 
 
 def applied(text, edits):
-    """The text after edits that do not overlap."""
+    """Applies edits that do not overlap to a text."""
     for edit in sorted(edits, key=lambda each: each.start, reverse=True):
         text = text[: edit.start] + edit.text + text[edit.end :]
     return text

@@ -1,7 +1,7 @@
-"""The operators: for a node of the syntax tree, the edits that each makes there.
+"""The operators. Each yields edits for a node of the syntax tree.
 
-An operator is a function of (text, node) that yields (form, edits); forms are those of Mutation. One more operator is one more
-function with the decorator."""
+An operator is a function of (text, node) that yields (form, edits), with the forms of Mutation. To
+add an operator, write a function with the decorator."""
 
 import re
 
@@ -26,12 +26,12 @@ EXTREMES = {
     'lower_bound': 'upper_bound',
     'upper_bound': 'lower_bound',
 }
-# The order of the arguments makes no difference to these.
+# Functions for which the order of the arguments makes no difference.
 SYMMETRIC = re.compile(r'\b(min|max|swap|hypot|tie|midpoint|gcd|dot)\s*(<[^()]*>)?$')
 OPERATOR_KINDS = {'BINARY_OPERATOR', 'CALL_EXPR', 'COMPOUND_ASSIGNMENT_OPERATOR', 'UNEXPOSED_EXPR'}
 STATEMENTS = OPERATOR_KINDS | {'UNARY_OPERATOR', 'CONTINUE_STMT', 'BREAK_STMT'}
 BODIES = {'IF_STMT', 'FOR_STMT', 'WHILE_STMT', 'CXX_FOR_RANGE_STMT'}
-# What is known before the program runs, whatever is done about constexpr.
+# Nodes whose values are known at compile time even without constexpr.
 NEVER = {'STATIC_ASSERT', 'ENUM_CONSTANT_DECL', 'ENUM_DECL', 'CONCEPT_DECL'}
 LITERALS = {'INTEGER_LITERAL', 'FLOATING_LITERAL'}
 
@@ -58,7 +58,7 @@ def of(node, text):
 
 
 def exchanged(text, node, table):
-    """The node with its binary operator exchanged."""
+    """The edits that exchange the binary operator of a node."""
     found = binary(text, node)
     if found is None or found[0] not in table:
         return None
@@ -117,7 +117,7 @@ def is_value(text, node):
 
 @operator
 def index(text, node):
-    """Another index: x[i + 1] for x[i]; a whole number that is off by one."""
+    """Another index, x[i + 1] for x[i]; or a whole number that is off by one."""
     if (
         node.kind in ('ARRAY_SUBSCRIPT_EXPR', 'CALL_EXPR', 'UNEXPOSED_EXPR')
         and len(node.children) > 1
@@ -138,7 +138,7 @@ def index(text, node):
 
 @operator
 def constant(text, node):
-    """A constant that is twice, ten times or half as large."""
+    """A constant multiplied by two or ten, or halved."""
     if node.kind not in LITERALS or not is_value(text, node):
         return
     literal = of(node, text)
@@ -151,7 +151,7 @@ def constant(text, node):
 
 
 def arguments(text, node):
-    """The arguments of a call or the elements of a list, where commas or brackets separate them."""
+    """The arguments of a call, or the elements of a list, if commas or brackets separate them."""
     found = []
     for child in node.children:
         before = text[node.start : child.start].rstrip()[-1:]
@@ -174,7 +174,7 @@ def is_alike(one, other):
 
 @operator
 def swapped_arguments(text, node):
-    """Two neighbouring arguments in each other's place."""
+    """Two neighbouring arguments exchanged."""
     if node.kind not in ('CALL_EXPR', 'INIT_LIST_EXPR', 'UNEXPOSED_EXPR'):
         return
     given = arguments(text, node)
@@ -213,7 +213,7 @@ def statement_left_out(text, node):
 
 
 def condition_of(node):
-    """The condition of an if, a while or a ?:, where it is an expression."""
+    """The condition of an if, a while or a ?:, if it is an expression."""
     if node.kind not in ('IF_STMT', 'WHILE_STMT', 'CONDITIONAL_OPERATOR'):
         return None
     return next((child for child in node.children if child.is_expression), None)
@@ -221,7 +221,7 @@ def condition_of(node):
 
 @operator
 def negated_condition(text, node):
-    """The condition of an if, a while or a ?: negated; == for !=; a negation left out."""
+    """The negated condition of an if, a while or a ?:; == for !=; a negation left out."""
     if edits := exchanged(text, node, EQUALITY):
         yield 'expression', edits
     is_condition = node.parent is not None and condition_of(node.parent) is node

@@ -1,4 +1,4 @@
-"""Commands that stop when they are told to."""
+"""Runs commands that the user can stop."""
 
 import os
 import re
@@ -13,14 +13,14 @@ stopping = threading.Event()
 
 
 class Stopped(Exception):
-    """The user wants to stop."""
+    """Raised when the user wants to stop."""
 
 
 @dataclass
 class Ended:
-    """How a command ended, and what it used with all of its children."""
+    """The end of a command, and the time that it used with all of its children."""
 
-    code: int  # negative: the signal
+    code: int  # exit code, or minus the number of the signal that ended it
     output: str
     cpu: float
     wall: float
@@ -28,7 +28,7 @@ class Ended:
 
 
 def stop_on_signals():
-    """SIGINT and SIGTERM end the commands that run, within a fraction of a second."""
+    """Makes SIGINT and SIGTERM end the running commands within a fraction of a second."""
     for each in (signal.SIGINT, signal.SIGTERM):
         signal.signal(each, lambda *_: stopping.set())
 
@@ -41,14 +41,15 @@ def kill(process):
 
 
 def latest_step(output):
-    """The last progress that a build has written to its output, such as [12/250]."""
+    """The latest progress in the output of a build, such as [12/250]."""
     size = os.fstat(output.fileno()).st_size
     end = os.pread(output.fileno(), 4096, max(0, size - 4096)).decode('utf-8', 'replace')
     return (re.findall(r'^\[\d+/\d+\]', end, re.MULTILINE) or [''])[-1]
 
 
 def wait(process, seconds, progress=lambda: None):
-    """Waits for the end; whether it was too late, its status and usage."""
+    """Waits for a process to end. Returns whether it exceeded the time, its exit code, and its
+    usage."""
     begin = shown = time.monotonic()
     late, pause = False, 0.002
     while True:
@@ -69,7 +70,7 @@ def wait(process, seconds, progress=lambda: None):
 
 
 def limits(cpu=None, memory=None):
-    """Words before a command that limit each of its processes, in seconds and bytes."""
+    """The words to put before a command to limit its processes, each in seconds and bytes."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if cpu is not None:
         words.append(f'--cpu={int(cpu)}:{int(cpu) + 1}')
@@ -79,8 +80,10 @@ def limits(cpu=None, memory=None):
 
 
 def seal():
-    """Words before a command that may do anything: it sees and kills no other processes, and leaves none. The first process of
-    theirs is a shell, since a first process ignores signals; a command that a signal ends has 128 more than its number.
+    """The words to put before a command to isolate its processes. They cannot see or kill other
+    processes, and none of them survives the command. The first process in the isolation is a
+    shell, because a first process ignores signals. If a signal ends the command, the exit code is
+    128 plus the number of the signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     return [
@@ -98,7 +101,7 @@ def seal():
 
 
 def run(command, cwd, env=None, seconds=3600, before=(), say=None):
-    """Runs a command in a group of its own, after words such as `limits` and `seal`."""
+    """Runs a command in its own process group. `before` are the words from `seal` and `limits`."""
     if stopping.is_set():
         raise Stopped
     begin = time.monotonic()

@@ -1,4 +1,4 @@
-"""What has been found out about mutants, written after every one."""
+"""The results for mutants, saved after each of them."""
 
 import json
 import os
@@ -12,7 +12,8 @@ TEST_DATA = {'.py', '.txt', '.case'}
 
 
 class Results:
-    """By mutant. A result counts for one state of the product; that no test notices a mutant, for one state of the tests too."""
+    """The results by mutant. A result is valid for one state of the product. The result that no
+    test notices a mutant is valid only for one state of the tests too."""
 
     def __init__(self, file=FILE):
         self.file = file
@@ -22,7 +23,7 @@ class Results:
         self.lock = threading.Lock()
 
     def get(self, mutation):
-        """The result, if there is one that counts."""
+        """The result of a mutant, if there is a valid one."""
         result = self.kept.get(mutation.name)
         if result is None or result['product'] != self.product:
             return None

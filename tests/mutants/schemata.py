@@ -1,11 +1,12 @@
-"""The text of a file that contains several mutants, each switched on by its number."""
+"""Writes the text of a file that contains several mutants, each switched on by its number."""
 
 import re
 
 from mutation import Edit, applied
 
-# How a mutant is made a switch: one that is asked when the program runs; one between values, where types differ; one for constexpr
-# functions. Or it is built by itself, or is no C++.
+# The forms of a switch: 'now' is evaluated at run time, 'chosen' selects between values of
+# different types, and 'constexpr' works in constexpr functions. The other forms are 'alone', a
+# separate build, and 'invalid', code that does not compile.
 SWITCHES = {'now', 'chosen', 'constexpr'}
 NOT_CONSTANT = re.compile(
     r'constexpr|constant.expression|is not (a )?constant|not usable in a const'
@@ -17,20 +18,20 @@ def first_form(mutation):
 
 
 def next_form(form, errors):
-    """The form after one that does not compile."""
+    """The form to try after `form`, which does not compile."""
     if NOT_CONSTANT.search(errors):
         return 'alone' if form == 'constexpr' else 'constexpr'
     return 'chosen' if form == 'now' and '?:' in errors else 'invalid'
 
 
 def one_line(text):
-    """Code without comments and line ends, so that the lines that follow keep their numbers."""
+    """Removes comments and line ends from code, so that the following lines keep their numbers."""
     text = re.sub(r'("(?:\\.|[^"\\\n])*")|//[^\n]*', lambda found: found[1] or '', text)
     return ' '.join(text.split())
 
 
 def switched(original, edit, number, form, what):
-    """What takes the place of an edit's text."""
+    """The code that replaces the text of an edit."""
     on = f'mutants::{"mutant" if form == "constexpr" else "now"}({number})'
     changed = one_line(edit.text)
     if what == 'statement':
@@ -48,7 +49,7 @@ def switched(original, edit, number, form, what):
 
 
 def with_switches(text, mutants):
-    """The text of a file with all of its mutants: (number, mutation, form) each."""
+    """The text of a file with all of its mutants, each given as (number, mutation, form)."""
     edits = set()
     for number, mutation, form in mutants:
         for edit in mutation.edits:

@@ -1,4 +1,4 @@
-"""All mutants of a file."""
+"""Finds all mutants of a file."""
 
 import re
 from collections import Counter
@@ -32,7 +32,7 @@ def is_constexpr(text, node):
 
 
 def made_variable(text, node):
-    """The edit that makes a constexpr variable one whose value is found when the program runs, if it is one."""
+    """The edit that gives a constexpr variable its value at run time; None for other nodes."""
     found = re.match(r'[\w\s\[\]:]*?\b(constexpr)\b', text[node.start : node.end])
     if node.kind not in VARIABLES or not found:
         return None
@@ -44,7 +44,8 @@ def made_variable(text, node):
 
 
 def context(text, node):
-    """Whether a node is in a constexpr function, and the edits that its constexpr variables need; or None."""
+    """Whether a node is in a constexpr function, with the edits that its constexpr variables need.
+    None if it cannot be mutated."""
     at_compile_time, constants = False, []
     for each in [node, *node.ancestors()]:
         if each.kind in NEVER or (each is not node and each.kind == 'CXX_THROW_EXPR'):
@@ -56,7 +57,7 @@ def context(text, node):
 
 
 def changes(text, nodes):
-    """What each operator makes of each node: (node, operator, form, edits)."""
+    """Yields the edits of each operator for each node, as (node, operator, form, edits)."""
     for root in nodes:
         for node in (each for each in root.walk() if each.end > each.start):
             for operator, edits_of in OPERATORS.items():
@@ -65,7 +66,7 @@ def changes(text, nodes):
 
 
 def mutants_of(file, text, nodes):
-    """Each once, in the order of the tree."""
+    """The mutants of a file, each once, in the order of the syntax tree."""
     found, known, count = [], set(), Counter()
     for node, operator, form, edits in changes(text, nodes):
         where = context(text, node) if edits not in known else None

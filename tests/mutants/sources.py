@@ -1,4 +1,5 @@
-"""The product's C++ files, as text in which an offset counts bytes, as it does for the compiler."""
+"""Reads the product's C++ files as text in which offsets count bytes, as they do for the
+compiler."""
 
 import hashlib
 import json
@@ -11,17 +12,17 @@ WORK = ROOT / 'build' / 'mutants'
 
 
 def read(path):
-    """A file's text, a character a byte."""
+    """The text of a file, with one character for each byte."""
     return Path(path).read_bytes().decode('latin-1')
 
 
 def shown(text):
-    """The same as a person reads it, without line ends."""
+    """The text as a person reads it, without line ends."""
     return ' '.join(text.encode('latin-1').decode('utf-8', 'replace').split())
 
 
 def cpp_files(folders, root=ROOT):
-    """Names of the C++ files of folders, relative to the root."""
+    """The names of the C++ files in folders, relative to the root."""
     found = []
     for folder in folders:
         for path in sorted((root / folder).rglob('*.[ch]pp')):
@@ -31,7 +32,7 @@ def cpp_files(folders, root=ROOT):
 
 
 def fingerprint(folders, suffixes, root=ROOT):
-    """A number for the files of folders with these suffixes, but for this tool: equal while none of them changes."""
+    """A hash of the files with these suffixes in folders, except those of this tool."""
     digest = hashlib.sha256()
     for folder in folders:
         for path in sorted((root / folder).rglob('*')):
@@ -42,7 +43,7 @@ def fingerprint(folders, suffixes, root=ROOT):
 
 
 def included_by(name, root=ROOT, seen=None):
-    """All files of the tree that a file includes, itself with them."""
+    """All files of the tree that a file includes, and the file itself."""
     seen = seen if seen is not None else set()
     if name in seen or not (root / name).is_file():
         return seen
@@ -53,7 +54,7 @@ def included_by(name, root=ROOT, seen=None):
 
 
 class Compiled:
-    """How each file is compiled, by the compile commands of the copy."""
+    """The compile commands of the copy, by file."""
 
     def __init__(self, build, copy, root=ROOT):
         self.commands = {}
@@ -67,7 +68,8 @@ class Compiled:
                 self.users.setdefault(included, []).append(name)
 
     def units(self, name):
-        """Files to compile that show whether a file compiles: itself, or one or two that include it."""
+        """The files to compile to find out whether a file compiles: the file itself, or one or two
+        files that include it."""
         if name in self.commands:
             return [name]
         users = self.users.get(name, [])
@@ -78,7 +80,7 @@ class Compiled:
         return (product[:1] + tests[:1]) or users[:1]
 
     def arguments(self, unit, copy, root=ROOT):
-        """Arguments for a parser of a unit as it is in the tree."""
+        """The compiler arguments for parsing a unit of the tree."""
         entry = self.commands[unit]
         words = entry['command'].replace('\\"', '"').split()
         kept = []

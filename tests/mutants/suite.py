@@ -1,4 +1,4 @@
-"""The tests that are asked, each a step: how long it takes without a mutant, and which mutants it reaches."""
+"""The tests as steps, each with its time without a mutant and the mutants that it reaches."""
 
 import hashlib
 import json
@@ -14,14 +14,14 @@ from sources import WORK
 
 BASELINE = WORK / 'baseline.json'
 EXECUTABLES = ['ccd', 'corpus', 'reports', 'oracle', 'fuzz', 'tools', 'proofs']
-MOST_SECONDS = 150  # a test that takes longer without a mutant is not asked
+MOST_SECONDS = 150  # tests that take longer without a mutant are left out
 MEMORY = 6 << 30  # bytes of address space for each process
-MARKS = 4096  # bytes, as in switch.hpp
+MARKS = 4096  # size of the file in bytes, as in switch.hpp
 
 
 @dataclass
 class Step:
-    """One test: of an executable that GoogleTest runs, or a command."""
+    """One test: a GoogleTest, or a command."""
 
     group: str
     test: str
@@ -36,13 +36,13 @@ class Step:
 
 
 def executable(group):
-    """The file that a group's tests are in."""
+    """The executable of a group of GoogleTests."""
     folder = BUILD / 'tests' / 'proofs' if group == 'proofs' else BUILD / 'tests'
     return folder / f'{group}_tests'
 
 
 def commands():
-    """Tests that are no GoogleTests."""
+    """The commands of the tests that are not GoogleTests."""
     recount = COPY / 'tests/recount/recount_test.py'
     return {
         'judge_hunter': [BUILD / 'tests/judge/judge_hunter', '10000'],
@@ -51,7 +51,8 @@ def commands():
 
 
 def run_tests(group, tests, env, seconds, cpu=None):
-    """Runs tests of a group until one fails; what they do concerns no other process, and their files are removed."""
+    """Runs tests of a group until one fails. The tests cannot affect other processes, and their
+    files are removed."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         words = commands().get(group)
         if words is None:
@@ -63,7 +64,7 @@ def run_tests(group, tests, env, seconds, cpu=None):
 
 
 def tests_of(group):
-    """The names of an executable's tests, without those that are disabled."""
+    """The names of the tests of an executable, except disabled ones."""
     listed = run([executable(group), '--gtest_list_tests'], cwd=BUILD).output
     suite, names = '', []
     for line in listed.splitlines():
@@ -81,7 +82,7 @@ def all_steps():
 
 
 def measured(step):
-    """The step as it is without a mutant."""
+    """Measures a step without a mutant."""
     with tempfile.NamedTemporaryFile(dir=WORK) as marks:
         marks.write(bytes(MARKS))
         marks.flush()
@@ -95,7 +96,7 @@ def measured(step):
 
 
 def state():
-    """A number for what has been built: equal while no executable changes."""
+    """A hash of all executables that the tests use."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker', BUILD / 'tests/judge/judge_hunter']
@@ -105,7 +106,7 @@ def state():
 
 
 def baseline(jobs, say):
-    """All steps, measured once for each build; resumes where it was stopped."""
+    """Measures all steps once for each build, and resumes if it was stopped."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

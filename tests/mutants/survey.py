@@ -14,7 +14,7 @@ from schemata import by_itself
 from sources import ROOT, Compiled, read
 from suite import baseline
 
-SPARE = 1.3  # mutants drawn for each that is asked for: some are found only at compile time
+SPARE = 1.3  # mutants drawn for each requested one, because some need a separate build
 
 
 def say(text):
@@ -26,7 +26,7 @@ def folder_of(mutation):
 
 
 class Survey:
-    """The mutants of a draw, and what is known of them."""
+    """The mutants of a draw, and their results."""
 
     def __init__(self, folders, seed, count, alone, jobs):
         self.folders, self.alone, self.jobs = folders, alone, jobs
@@ -43,13 +43,13 @@ class Survey:
         self.done = 0
 
     def prepare(self):
-        """Builds, and measures the tests without a mutant."""
+        """Builds the copy, and measures the tests without a mutant."""
         say(f'{len(self.drawn)} mutants are compiled')
         compiling.build_all(self.mutants, self.compiled, self.jobs, say)
         self.steps = baseline(self.jobs, say)
         for step in self.steps:
             if not step.fine:
-                say(f'not asked, since it fails or takes too long without a mutant: {step.name}')
+                say(f'left out, because it fails or takes too long without a mutant: {step.name}')
 
     def reaching(self, number):
         return [step for step in self.steps if step.fine and number in step.reached]
@@ -60,7 +60,8 @@ class Survey:
         return form == 'alone' or (form == 'constexpr' and not self.reaching(number))
 
     def chosen(self):
-        """Numbers: as many of each folder as were asked for, and those that have to be built by themselves."""
+        """The numbers of the requested mutants of each folder, and the numbers of mutants that
+        need a separate build."""
         switched, alone = [], []
         left = {folder: self.quota for folder in self.folders}
         for number, mutation in enumerate(self.drawn, 1):
@@ -75,7 +76,7 @@ class Survey:
         return switched, alone[: self.alone]
 
     def known(self, mutation):
-        """The result that is known, if the list of equivalent mutants agrees with it."""
+        """The stored result of a mutant, if the list of equivalent mutants agrees with it."""
         result = self.results.get(mutation)
         is_listed = equivalents.reason_of(self.equivalent, mutation) is not None
         if result is None or is_listed == (result['verdict'] == 'equivalent'):
@@ -83,7 +84,7 @@ class Survey:
         return None
 
     def find(self, mutation, switch, steps):
-        """What the tests say of a mutant: switched on by a number, or built in with 0."""
+        """Runs the tests with a mutant. `switch` is its number, or 0 if it is built in."""
         if equivalents.reason_of(self.equivalent, mutation):
             return {'verdict': 'equivalent', 'noticed_by': ''}
         if not steps:
@@ -92,7 +93,8 @@ class Survey:
         return {'verdict': 'noticed' if answer.noticed_by else 'survived', **asdict(answer)}
 
     def ask_switched(self, number):
-        """The result of a mutant that is a switch, looked for if it is not known."""
+        """The result of a mutant in the form of a switch. Runs the tests if the result is not
+        known."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             result = self.find(mutation, number, self.reaching(number))
@@ -101,7 +103,8 @@ class Survey:
         return mutation, result
 
     def ask_alone(self, number):
-        """The result of one that is built into the copy by itself; the next build takes it back."""
+        """The result of a mutant that needs a separate build. The next build removes it from the
+        copy."""
         mutation = self.drawn[number - 1]
         if (result := self.known(mutation)) is None:
             copied.make_copy(self.mutants.text_of)
@@ -117,7 +120,7 @@ class Survey:
         return mutation, result
 
     def show(self, mutation, result):
-        """A line of progress."""
+        """Prints a line of progress."""
         with self.printing:
             self.done += 1
             by = (
@@ -129,9 +132,9 @@ class Survey:
             say(f'[{self.done}] {place} {mutation.operator}: {result["verdict"]}{by}')
 
     def take(self):
-        """All results, pairs of a mutant and what is known of it."""
+        """All results, as pairs of a mutant and its result."""
         switched, alone = self.chosen()
-        say(f'{len(switched)} mutants are asked about, {len(alone)} are built by themselves')
+        say(f'{len(switched)} mutants are tested by switch, {len(alone)} in separate builds')
         with ThreadPoolExecutor(self.jobs) as pool:
             found = list(pool.map(self.ask_switched, switched))
         return found + [self.ask_alone(number) for number in alone]

@@ -1,5 +1,6 @@
-// Included first by every C++ file of the copy that contains the mutants, and by nothing else. One mutant at a time is switched on, by
-// the environment variable NEARMISS_MUTANT; NEARMISS_MUTANTS_REACHED names a file, one byte a mutant, where those that are evaluated are marked.
+// Every C++ file of the copy that contains the mutants includes this file first; no other file does. The
+// environment variable NEARMISS_MUTANT switches on one mutant. NEARMISS_MUTANTS_REACHED names a file with one
+// byte for each mutant, which marks the mutants that the program evaluates.
 #pragma once
 #include <fcntl.h>
 #include <stdlib.h>
@@ -18,7 +19,8 @@ inline int chosen() {
   return text != nullptr ? atoi(text) : 0;
 }
 
-/// The marks, shared by all processes of a run, so that they survive however a process ends; or null.
+/// The marks, or null. All processes of a run share them in memory, so that they survive however a process
+/// ends.
 inline unsigned char* marks() {
   const char* file = getenv("NEARMISS_MUTANTS_REACHED");
   if (file == nullptr) return nullptr;
@@ -32,16 +34,17 @@ inline unsigned char* marks() {
 inline const int on = chosen();
 inline unsigned char* const reached = marks();
 
-/// Whether mutant k is switched on. Not for constants: what needs it at compile time does not compile.
+/// Whether mutant k is switched on. The function cannot be used in code that must be evaluated at compile
+/// time.
 inline bool now(int k) {
   if (reached != nullptr && reached[k] == 0) reached[k] = 1;
   return k == on;
 }
 
-/// The same in constexpr functions: no mutant is on while these are evaluated at compile time.
+/// The same as `now` for constexpr functions. While these are evaluated at compile time, no mutant is on.
 constexpr bool mutant(int k) { return !std::is_constant_evaluated() && now(k); }
 
-/// The value of an expression; that of an expression template of Eigen, evaluated.
+/// The value of an expression; expression templates of Eigen are evaluated.
 template <class T>
 constexpr auto value(T&& x) {
   if constexpr (requires { typename std::remove_cvref_t<T>::PlainObject; })
@@ -50,7 +53,7 @@ constexpr auto value(T&& x) {
     return std::remove_cvref_t<T>(std::forward<T>(x));
 }
 
-/// What one of two functions gives, which differ in type as expression templates do.
+/// The result of one of two functions whose return types may differ, as those of expression templates do.
 template <class Mutant, class Original>
 constexpr auto choose(bool mutant, Mutant&& changed, Original&& original) -> decltype(original()) {
   if (mutant) return changed();

@@ -1,13 +1,13 @@
-"""The syntax tree of a C++ file: what libclang knows of it, reduced to kinds and extents."""
+"""The syntax tree of a C++ file from libclang, reduced to kinds and extents."""
 
 from clang import cindex
 
-# The kinds of cursors whose children's types matter.
+# Kinds of cursors for which the children's types matter.
 TYPED = {'CALL_EXPR', 'INIT_LIST_EXPR'}
 
 
 class Node:
-    """One node: its kind, by libclang's name, and where it begins and ends."""
+    """One node, with libclang's name of its kind, its begin and its end."""
 
     __slots__ = ('kind', 'start', 'end', 'type', 'is_expression', 'parent', 'children')
 
@@ -35,7 +35,8 @@ class Node:
 
 
 def parse(path, arguments, wanted):
-    """What a file that is compiled, or one that it includes, declares: the nodes of each file that is wanted."""
+    """Parses a compiled file with all files that it includes. Returns the nodes of the wanted
+    files."""
     unit = cindex.Index.create().parse(str(path), args=arguments)
     found = {str(each): [] for each in wanted}
     for cursor in unit.cursor.get_children():

@@ -1,4 +1,4 @@
-"""What has been found out, for a person."""
+"""Prints the results as text."""
 
 from collections import Counter, defaultdict
 from statistics import median
@@ -21,7 +21,7 @@ def percent(part, all_of_them):
 
 
 def scores(results):
-    """A line for each folder, one for each operator, and one for all."""
+    """A table with a line for each folder, a line for each operator, and a line for all."""
     rows = [
         [
             '',
@@ -51,7 +51,7 @@ def scores(results):
 
 
 def one(mutation, result):
-    """A mutant that nothing noticed."""
+    """Describes a mutant that no test noticed."""
     lines = [
         f'{mutation.file}:{mutation.line}  ({mutation.operator})',
         f'- {mutation.before}',
@@ -62,16 +62,17 @@ def one(mutation, result):
     elif 'asked' in result:
         left = result['unasked']
         rest = (
-            f'; too long to be asked: {", ".join(left[:3])}{" ..." if len(left) > 3 else ""}'
+            f'; left out for lack of time: {", ".join(left[:3])}{" ..." if len(left) > 3 else ""}'
             if left
             else ''
         )
-        lines.append(f'  {result["asked"]} tests say nothing in {result["cpu"]:.0f} s{rest}')
+        lines.append(f'  {result["asked"]} tests pass in {result["cpu"]:.0f} s{rest}')
     return '\n'.join(lines)
 
 
 def costs(results):
-    """How soon mutants are noticed, by which tests, and which take longest for nothing."""
+    """How soon and by which tests mutants are noticed, and which tests take longest without
+    noticing any."""
     noticed = [result for _, result in results if result['verdict'] == 'noticed']
     asked = [result for _, result in results if 'spent' in result]
     lines = []
@@ -97,7 +98,7 @@ def costs(results):
 
 
 def table(results):
-    """All of it: pairs of mutants and their results."""
+    """The whole table, from pairs of mutants and their results."""
     left = [one(*each) for each in results if each[1]['verdict'] in ('survived', 'unreached')]
     parts = [scores(results), costs(results), 'Not noticed:', *left]
     return '\n\n'.join(parts) + '\n'

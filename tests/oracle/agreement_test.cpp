@@ -1,4 +1,4 @@
-// The comparison of exact methods: what it lets pass, what it catches, and that one more method is an entry.
+// The comparison of exact methods: what it allows, what it catches, and how a method is added.
 #include "oracle/agreement.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 const Query hit = falling_vertex(0.25, 0.25, 1, -1);
 const Query miss = falling_vertex(0.25, 0.25, 2, 1);
 
-/// A method that says always this.
+/// A method that always gives this answer.
 Method saying(std::string_view name, Claim claim, const Answer& answer) {
   return {name, "", claim, [answer](const Query&) { return answer; }};
 }
@@ -30,7 +30,7 @@ std::string disagreement(const std::vector<Method>& methods, std::optional<bool>
   return ask_all(hit, methods).disagreement(by_filter);
 }
 
-/// Three that agree on one root inside.
+/// Three methods that agree on one root inside.
 std::vector<Method> three() {
   return {saying("first", Claim::complete, {.collision = true}),
           saying("second", Claim::complete, {.collision = true, .on_boundary = false, .odd = true}),
@@ -78,6 +78,7 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_FALSE(missed(false, std::nullopt));
 }
 
+<<<<<<< HEAD
 // One more method is one more entry, and one wrong answer of it is caught and named.
 TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
   const Query lied_about = testing::falling_edge(1, -1);
@@ -85,6 +86,13 @@ TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
   std::string others;
   for (const Method& method : more) others += (others.empty() ? "" : ", ") + std::string(method.name);
   more.push_back({"one more", "as exact, but for one query", Claim::complete, [&](const Query& query) {
+=======
+// An added method is one more entry. A single wrong answer of it is caught and named.
+TEST(Agreement, AFourthMethodThatLiesOnceIsCaught) {
+  const Query lied_about = testing::falling_edge(1, -1);
+  std::vector<Method> four(methods().begin(), methods().end());
+  four.push_back({"fourth", "as exact, except for one query", Claim::complete, [&](const Query& query) {
+>>>>>>> english-b
                     return Answer{.collision = collides_exactly(query) != (query == lied_about)};
                   }});
   for (const Query& query : {hit, miss, testing::falling_edge(2, 1), testing::falling_edge(0, 1)})

@@ -1,4 +1,4 @@
-// The oracle answers the same whatever the caller's arithmetic is, and leaves that as it was.
+// The oracle gives the same answers in any arithmetic of the caller, and restores this arithmetic.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -16,7 +16,7 @@ using testing::falling_edge;
 using testing::falling_vertex;
 using testing::HostileArithmetic;
 
-/// Contacts and misses by the last bit, of primitives down to the smallest.
+/// Queries that the last bit decides, with primitives down to the smallest ones.
 std::vector<Query> close_calls() {
   std::vector<Query> queries;
   for (const double scale : {1.0, 0x1p-1000, 0x1p-1021, 0x1p-1050, 0x1p-1070})
@@ -62,7 +62,7 @@ TEST_P(Hostile, ArithmeticChangesNoAnswerAndStaysAsItWas) {
     const std::string before = odd_arithmetic();
     const auto found = answers(queries);
     EXPECT_EQ(odd_arithmetic(), before);
-    make_arithmetic_plain();  // also to compare
+    make_arithmetic_plain();  // also for the comparison
     EXPECT_EQ(found, expected) << before;
   }
 }

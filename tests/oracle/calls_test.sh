@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the oracle calls of ours and does not define itself is the Subject interface and nothing else. $1: its library.
+# Checks that the only symbols of ours that the oracle calls and does not define are those of the Subject
+# interface. $1: the oracle's library.
 set -euo pipefail
 names() { nm -C "$1" | awk -v kinds="$2" 'match($0, " " kinds " ") { print substr($0, RSTART + 3) }' | sort -u; }
 calls=$(comm -23 <(names "$1" '[U]' | grep 'nearmiss::') <(names "$1" '[TWVBDRu]'))

@@ -1,5 +1,5 @@
-// Certified distances where they are hardest: subnormal units, ratios and distances that overflow, the narrowest
-// enclosures, and minima that no guess leads to.
+// The hardest cases for certified distances: subnormal units, ratios and distances that overflow, the
+// narrowest enclosures, and minima that no guess leads to.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,14 +40,14 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // No search shows lo = hi; the exact comparisons do, as near as doubles can be.
+  // No search shows lo = hi, but the exact comparisons enclose the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
   EXPECT_LE(ratio.hi, 0x1.2p0 / 0x1.1p0 * (1 + 0x1p-48));
 }
 
-// The distance is 1, and the largest double below 1/3 is the nearest one: an upper end must be above it.
+// The distance is 1. The double nearest to 1/3 is below it, so an upper end must be larger.
 TEST(DistanceInUnits, IsRoundedOutward) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Enclosure third = distance_in_units(query, 3, [](double hi) { return hi * (1 - 0x1p-40); });
@@ -60,7 +60,7 @@ TEST(DistanceInUnits, IsRoundedOutward) {
 }
 
 TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
-  // The distance is the unit, but for rounding.
+  // The distance equals the unit up to rounding.
   const Query query{.kind = Kind::edge_edge,
                     .x = {0x1.50d02ca487f8ep-1,     -0x1.1c97712306c4bp-1,    -0x1.bac235c6917c2p+1023,
                           0x1.fffffffffffffp+1023,  0x1.0355da996823ap+1021,  -0x1.fffffffffffffp+1023,
@@ -75,7 +75,7 @@ TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
   EXPECT_LE(ratio, 1 + 1e-9);
 }
 
-/// Coordinates of so few bits that exact comparisons are quick.
+/// A query whose coordinates have so few bits that exact comparisons are quick.
 Query turning_edges() {
   return {.kind = Kind::edge_edge,
           .x = {0, -4, 6, 3, 4, 0, 0, 1, -7, -3, 5, -7, -3, 4, -7, -3, -5, -2, -1, -3, -7, 4, 1, -4}};
@@ -93,12 +93,12 @@ TEST(MinimumDistance, IsAboveTheLargestDoubleWhereItOverflows) {
   EXPECT_LE(d.hi, 0x1p1023 * (1 + 1e-3));
   Query query = falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.8p1023);
   for (std::size_t z = 5; z < 24; z += 3)
-    if (z != 14) query.x[z] = -0x1.8p1023;  // of the triangle
+    if (z != 14) query.x[z] = -0x1.8p1023;  // vertices of the triangle
   EXPECT_EQ(minimum_distance(query).lo, largest);
   EXPECT_EQ(minimum_distance(query).hi, infinity);
 }
 
-/// Edges whose vertices are powers of two apart; they come as near as 2^-33 just before t = 1.
+/// Edges whose vertices are powers of two apart. Their distance falls to 2^-33 just before t = 1.
 Query passing_edges() {
   return {.kind = Kind::edge_edge,
           .x = {0x0p+0,   0x0p+0,   0x1p-22,  0x0p+0,  0x1p-83, -0x1p-3,  0x1p-9,   0x0p+0,
@@ -117,7 +117,7 @@ TEST(ClosestTime, IsWhereTheyAreAboutAsNearAsTheyCome) {
 TEST(ClosestApproach, FindsANarrowMinimumFarFromBothEnds) {
   using namespace certified;
   const auto needed = [](double upper) { return 0.999 * upper; };
-  // At 2^-31 of the largest difference.
+  // The distance is 2^-31 of the largest difference.
   EXPECT_TRUE(closest_approach(VertexDifferences(passing_edges()), needed).enough);
 }
 

@@ -1,4 +1,4 @@
-// Certified distances against distances known by hand, and against samples.
+// Compares certified distances with distances computed by hand, and with samples.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ void expect_encloses(const Query& query, double distance) {
   EXPECT_LE(d.lo, distance);
   EXPECT_GE(d.hi, distance);
   EXPECT_LE(d.hi - d.lo, 1e-3 * d.hi);
-  EXPECT_FALSE(distance_exceeds(query, distance));  // as exact as the numbers in these tests
+  EXPECT_FALSE(distance_exceeds(query, distance));  // an exact comparison, because the numbers in these tests
+                                                    // are exact
   EXPECT_TRUE(distance_exceeds(query, std::nextafter(distance, 0)));
 }
 
@@ -63,13 +64,13 @@ TEST(Distance, NothingExceedsAnInfiniteBound) {
 }
 
 TEST(Distance, IsKnownFarBelowWhatDoublesResolve) {
-  // A vertex 2^-200 above a triangle of size 1; and one that passes an edge so near.
+  // A vertex 2^-200 above a triangle of size 1, and a vertex that passes an edge at this distance.
   expect_encloses(falling_vertex(0.25, 0.25, 1, 0x1p-200), 0x1p-200);
   expect_encloses(falling_vertex(-0x1p-200, 0.5, 1, -1), 0x1p-200);
   const Enclosure least = minimum_distance(falling_vertex(0.25, 0.25, 1, 0x1p-1074));
   EXPECT_LE(least.lo, 0x1p-1074);
   EXPECT_GE(least.hi, 0x1p-1074);
-  EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // doubles are no nearer to each other
+  EXPECT_LE(least.hi - least.lo, 0x1p-1074);  // the smallest distance between doubles
 }
 
 TEST(Distance, FromTheOriginDoesNotMatterWhereDifferencesAreExact) {
@@ -98,7 +99,7 @@ TEST(ComesWithin, AgreesWithEnclosures) {
     const Query query =
         i < 200 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
     SCOPED_TRACE(testing::repeat(i, query));
-    // Coordinates of few bits come as near as this only if they meet.
+    // Primitives with coordinates of few bits come this near only if they meet.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
     if (collides(query)) continue;
@@ -110,7 +111,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-/// Distance of segment points or of vertex and triangle points over a grid of time and place: an upper bound.
+/// The smallest distance over a grid of times and of points of the primitives. This distance is an upper
+/// bound.
 double sampled_distance(const Query& query) {
   double smallest = std::numeric_limits<double>::infinity();
   constexpr int n = 16;
@@ -144,7 +146,7 @@ TEST(Distance, IsBelowEverySampleAndNotFarBelow) {
     const double sample = sampled_distance(query);
     const Enclosure d = minimum_distance(query);
     ASSERT_LE(d.lo, sample * (1 + 1e-12));
-    // No point moves farther than 2 in a 32nd of the time, or lies farther than 2/16 from a sampled one.
+    // No point moves farther than 2 in 1/32 of the time, or is farther than 2/16 from a sampled point.
     ASSERT_GE(d.hi, sample - 0.3);
     ASSERT_LE(d.hi - d.lo, 1e-3 * d.hi);
   }

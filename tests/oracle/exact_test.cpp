@@ -1,4 +1,4 @@
-// The exact decision on queries whose truth follows by hand.
+// The exact decision on queries whose truth is computed by hand.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -50,8 +50,8 @@ TEST(Exact, EdgesTouchInEndPoints) {
                                   {{0, 0, -1}, {1, 0, -1}, {1, 0, 0}, {1, 1, 0}})));
 }
 
-/// An edge along the x axis at rest, and one that crosses x = 0 from y = -(1 + t) to y = 2 - t at heights g +
-/// 4 - 8t and g + 8t - 4, so that it passes the first at height (16 t² - 16 t + 4 + 3 g) / 3.
+/// An edge at rest along the x axis, and a second edge that crosses x = 0, from y = -(1 + t) to y = 2 - t, at
+/// heights g + 4 - 8t and g + 8t - 4. It passes the first edge at height (16 t² - 16 t + 4 + 3 g) / 3.
 Query swinging_edge(double g) {
   return make_query(Kind::edge_edge, {{-1, 0, 0}, {1, 0, 0}, {0, -1, 4 + g}, {0, 2, -4 + g}},
                     {{-1, 0, 0}, {1, 0, 0}, {0, -2, -4 + g}, {0, 1, 4 + g}});
@@ -106,7 +106,7 @@ TEST(Exact, ScalesFromSubnormalToHuge) {
 TEST(Exact, MixedExponents) {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double huge = std::numeric_limits<double>::max();
-  // The vertex passes one subnormal step inside or outside of a huge triangle's edge x = 0.
+  // The vertex passes the edge x = 0 of a huge triangle, one subnormal step inside or outside.
   const auto passing_at = [&](double x) {
     return make_query(Kind::vertex_triangle, {{x, huge / 4, huge}, o, {huge, 0, 0}, {0, huge, 0}},
                       {{x, huge / 4, -huge}, o, {huge, 0, 0}, {0, huge, 0}});
@@ -126,7 +126,7 @@ TEST(EarliestTime, IsExactWhereItIsADouble) {
 }
 
 TEST(EarliestTime, EnclosesARationalTimeThatIsNoDoubleAndNamesIt) {
-  // The vertex sinks by 3 while it starts 1 above: t = 1/3, no double.
+  // The vertex starts at height 1 and falls by 3, so t = 1/3, which is not a double.
   const auto third = earliest_time(falling_vertex(0.25, 0.25, 1, -2));
   ASSERT_TRUE(third);
   EXPECT_EQ(third->rational, "1/3");
@@ -135,7 +135,7 @@ TEST(EarliestTime, EnclosesARationalTimeThatIsNoDoubleAndNamesIt) {
 }
 
 TEST(EarliestTime, EnclosesAnIrrationalTime) {
-  // The vertex is at height 1 - t and the triangle's corner x3, below it, at 2 t² - ... : a square root.
+  // The vertex falls and the triangle's corner x3 rises, so that the time of contact contains a square root.
   Query query = falling_vertex(0, 0.5, 1, 0);
   query.set_start(3, {0, 1, 0});
   query.set_end(3, {0, 2, 1});
@@ -153,7 +153,7 @@ TEST(EarliestTime, EnclosesAnIrrationalTime) {
 }
 
 TEST(EarliestTime, IsTheFirstOfSeveral) {
-  // Planar motion along y = 1/4: the vertex is inside from x = 0, t = 1/4, on.
+  // Planar motion along y = 1/4: the vertex is inside from t = 1/4 on, when x = 0.
   const auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
   ASSERT_TRUE(time);
   EXPECT_EQ(time->enclosure.lo, 0.25);
@@ -162,13 +162,13 @@ TEST(EarliestTime, IsTheFirstOfSeveral) {
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }
 
-/// Case i of a seed: coordinates in -3 .. 3 make many primitives degenerate.
+/// Case i of a seed. Coordinates in -3 .. 3 make many primitives degenerate.
 Query small_integers(std::uint64_t seed, std::size_t i) {
   Random random(seed, 0, i);
   return testing::integer_query(random, testing::kind_of_case(i), 3);
 }
 
-/// The motion until t: exact for small integers and a t of few bits.
+/// The motion up to time t, which is exact for small integers and a t of few bits.
 Query until(const Query& query, double t) {
   Query result = query;
   for (std::size_t k = 0; k < 12; ++k) result.x[12 + k] = query.x[k] + t * (query.x[12 + k] - query.x[k]);
@@ -199,7 +199,7 @@ TEST(EarliestTime, IsThatBeforeWhichNothingCollides) {
   EXPECT_GT(later, 100);
 }
 
-/// The same query with its vertices in another order, and times exchanged if asked.
+/// The same query with its vertices in another order, and with reversed time if `reverse` is true.
 Query permuted(const Query& query, const std::array<int, 4>& order, bool reverse = false) {
   Query result{.kind = query.kind};
   for (int i = 0; i < 4; ++i) {
@@ -234,7 +234,8 @@ TEST(Exact, DoesNotDependOnOrderDirectionScaleOrPlace) {
   EXPECT_LT(collisions, 2700);
 }
 
-// Independent of the algebra: a certified positive distance is no collision, and vice versa.
+// An argument independent of algebra: a query with a certified positive distance is not a collision, and vice
+// versa.
 TEST(Exact, AgreesWithTheCertifiedDistance) {
   int apart = 0;
   for (std::size_t i = 0; i < 2000; ++i) {

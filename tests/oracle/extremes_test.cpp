@@ -1,4 +1,4 @@
-// Coordinates of all magnitudes, and roots of all sorts: the filter and all exact methods say the same.
+// The filter and all exact methods agree on coordinates of all magnitudes, and on roots of all sorts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using testing::make_query;
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-/// The slowest decision, for information.
+/// Keeps the time of the slowest decision, for information.
 class Slowest {
  public:
   [[nodiscard]] double milliseconds() const { return milliseconds_; }
@@ -42,7 +42,7 @@ class Slowest {
   double milliseconds_ = 0;
 };
 
-/// Everything that the oracle says of a query fits together.
+/// Checks that all answers of the oracle about a query are consistent.
 void expect_consistent(const Query& query, Slowest& slowest) {
   const bool collision = slowest.decide(query);
   const Answers answers = ask_all(query);
@@ -66,7 +66,7 @@ void expect_collision(const Query& query, bool collision) {
   expect_consistent(query, slowest);
 }
 
-/// Queries whose coordinates are what `coordinate` makes.
+/// Checks queries whose coordinates `coordinate` makes.
 void expect_consistency(std::size_t count, const std::function<double(Random&)>& coordinate) {
   Slowest slowest;
   std::size_t collisions = 0;
@@ -119,7 +119,7 @@ TEST(Extremes, ContactNextToTheEndsOfTheStep) {
     expect_collision(falling_vertex(0.25, 0.25, 1, gap), false);
     expect_collision(falling_edge(gap, -1), true);
     expect_collision(falling_edge(1, gap), false);
-    expect_collision(falling_vertex(-gap, 0.5, 1, -1), false);  // beside an edge
+    expect_collision(falling_vertex(-gap, 0.5, 1, -1), false);  // next to an edge
     expect_collision(falling_vertex(gap, 0.5, 1, -1), true);
   }
 }
@@ -139,7 +139,7 @@ TEST(Extremes, DifferencesThatOverflow) {
 }
 
 TEST(Extremes, SumsOfProductsThatOverflow) {
-  // No product of three differences does.
+  // No product of three differences overflows, but sums of products do.
   const Query crossing =
       testing::scaled(make_query(Kind::edge_edge, {{2, 0, 0}, {0, 2, 0}, {1.5, 0, -1}, {0, 0, 0}},
                                  {{-1.5, -1.5, 0}, {0, 0, 0}, {0, 1.5, 1.5}, {2, 0, 0}}),
@@ -148,7 +148,7 @@ TEST(Extremes, SumsOfProductsThatOverflow) {
   const auto time = earliest_time(crossing);
   ASSERT_TRUE(time.has_value());
   EXPECT_NEAR(time->enclosure.lo, 0.3219, 1e-4);
-  // Two points of about 1, two of about 2^511.
+  // Two points have coordinates of about 1, and two of about 2^511.
   constexpr double huge = 0x1p511;
   const Query mixed =
       make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 2}, {0, -huge / 2, 0}, {-1.5 * huge, 0, 0}},
@@ -170,19 +170,19 @@ TEST(Extremes, AllCoordinatesEqual) {
 }
 
 TEST(Extremes, RootsOfEveryMultiplicity) {
-  // The vertex and the triangle's plane through (0, 0, 0): F is a multiple of the vertex's height over the
-  // plane. All three of a, b, c vanish at t = 1/2: F = k (t - 1/2)³.
+  // The vertex rests at the origin, and each corner of the triangle passes the origin along an axis at t =
+  // 1/2. Therefore F = k (t - 1/2)³.
   const Query triple = make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
                                   {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   expect_collision(triple, true);
   EXPECT_EQ(count_roots(triple).with_multiplicity, 3);
   EXPECT_EQ(earliest_time(triple)->rational, "1/2");
-  // The same a little later than the vertex is gone.
+  // The same triangle with a vertex that moves away from the origin.
   Query missed = triple;
   for (int k = 0; k < 3; ++k) missed.x[static_cast<std::size_t>(12 + k)] = 1;
   Slowest slowest;
   expect_consistent(missed, slowest);
-  // At t = 0 and at t = 1.
+  // Triple roots at t = 0 and at t = 1.
   const Query at_start = make_query(Kind::vertex_triangle, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
                                     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   expect_collision(at_start, true);

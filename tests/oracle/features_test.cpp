@@ -1,4 +1,4 @@
-// Features of the first contact, by hand and against Sturm sequences.
+// Compares features of the first contact with features found by hand, and with Sturm sequences.
 #include "oracle/features.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ std::string features_of(const Query& query) {
   return features ? to_text(query.kind, *features) : "none";
 }
 
-/// The edge (0, 0, z) (1, 0, z) that falls from z = 1 to z = -1 onto an edge at rest in the plane z = 0.
+/// The features of an edge (0, 0, z) (1, 0, z) that falls from z = 1 to z = -1 onto an edge at rest in the
+/// plane z = 0.
 std::string falling_on(const Vector3<double>& c, const Vector3<double>& d) {
   return features_of(
       make_query(Kind::edge_edge, {{0, 0, 1}, {1, 0, 1}, c, d}, {{0, 0, -1}, {1, 0, -1}, c, d}));
@@ -52,12 +53,13 @@ TEST(Features, TellWhen) {
 }
 
 TEST(Features, KnowADoubleRoot) {
-  // Over the plane through (0,0,0), (1,0,0) and (0,1,4t) the vertex is at z - 4ty: F = -(2t - 1)².
+  // The height of the vertex over the plane through (0,0,0), (1,0,0) and (0,1,4t) is z - 4ty, so F = -(2t -
+  // 1)².
   const Vector3<double> o(0, 0, 0), a(1, 0, 0);
   const Query touching =
       make_query(Kind::vertex_triangle, {{0.25, 0, -1}, o, a, {0, 1, 0}}, {{0.25, 1, 3}, o, a, {0, 1, 4}});
   EXPECT_EQ(features_of(touching), "multiple-root inside in-face");
-  Query through = touching;  // a little higher: two simple roots
+  Query through = touching;  // slightly higher, so that F has two simple roots
   through.x[2] += 0x1p-20;
   EXPECT_EQ(features_of(through), "simple-root inside in-face");
 }
@@ -105,7 +107,7 @@ TEST(Features, FitTheSecondAnswer) {
     EXPECT_EQ(features->multiplicity == Multiplicity::planar, count.planar);
     EXPECT_EQ(features->time == ContactFeatures::Time::start, earliest_time(query)->rational == "0");
     EXPECT_EQ(features->time == ContactFeatures::Time::end, earliest_time(query)->rational == "1");
-    if (count.distinct != 1) continue;  // else the first contact is the only one
+    if (count.distinct != 1) continue;  // with one root, the first contact is the only one
     EXPECT_EQ(features->multiplicity == Multiplicity::multiple, count.with_multiplicity > 1);
     const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&
                         features->time == ContactFeatures::Time::inside;

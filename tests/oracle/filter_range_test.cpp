@@ -1,5 +1,5 @@
-// The filter where products of coordinates, or their sums, overflow or underflow: by the filter of one query
-// and by that of many, with every instruction set of this machine.
+// The filter if products of coordinates, or their sums, overflow or underflow. Tests the filter of one query,
+// and the filter of many with every instruction set of this machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,39 +65,40 @@ void expect_decided(const Named& named) {
     EXPECT_NE(said.stage, FilterStage::undecided) << named.name << " by " << said.by;
 }
 
-/// Coordinates along x and y, and along z, times powers of two.
+/// Multiplies the coordinates along x and y, and those along z, by powers of two.
 Query stretched(Query query, int xy, int z) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], i % 3 == 2 ? z : xy);
   return query;
 }
 
-/// Collisions inside the step that F's change of sign shows, in small numbers.
+/// Collisions inside the step that F's change of sign shows, with small numbers.
 std::vector<Named> plain_collisions() {
   return {{"falling vertex", falling_vertex(0.25, 0.25, 1, -1)}, {"falling edge", falling_edge(1, -1)}};
 }
 
-/// The edges meet at t = 0.3219, at an end of one. Times 2^340 no product of three differences overflows, but F's second
-/// coefficient, a sum of them, does; its first and its last one are positive.
+/// The edges meet at t = 0.3219, at an end of one of them. Multiplied by 2^340, no product of three
+/// differences overflows, but F's second coefficient, a sum of such products, overflows. F's first and last
+/// coefficients are positive.
 Query crossing_edges() {
   return make_query(Kind::edge_edge, {{2, 0, 0}, {0, 2, 0}, {1.5, 0, -1}, {0, 0, 0}},
                     {{-1.5, -1.5, 0}, {0, 0, 0}, {0, 1.5, 1.5}, {2, 0, 0}});
 }
 
-/// Contact at t = 1/3. With a huge `size` of 2^511 F's middle coefficients overflow likewise.
+/// Contact at t = 1/3. If `size` is 2^511, F's middle coefficients overflow.
 Query two_far_points(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 0}, {-1, 0, 2}, {0, -size / 2, 0}, {-1.5 * size, 0, 0}},
                     {{0, 0, 0}, {0, -1, 2}, {size, size, 0}, {size, 0, 0}});
 }
 
-/// Contact in the plane x = 0, in which all stays. If `size` is 2^510, the middle coefficients of the weights
-/// overflow, and F's become 0 times infinity.
+/// Contact in the plane x = 0, in which all vertices stay. If `size` is 2^510, the middle coefficients of the
+/// weights overflow, and F's become 0 times infinity.
 Query planar_edges(double size) {
   return make_query(Kind::edge_edge, {{0, 0, size}, {0, size, 0}, {0, size, -3 * size}, {0, 3 * size, 0}},
                     {{0, 3 * size, size}, {0, size, 0}, {0, size, 3 * size}, {0, 0, 0}});
 }
 
-/// Contact. Where `size` is 2^511 the weights' middle coefficients overflow along an axis, and F, of products
-/// with the coordinates along that axis, does not.
+/// A contact. If `size` is 2^511, the weights' middle coefficients overflow along an axis. F, which is a sum
+/// of products with the coordinates along this axis, does not overflow.
 Query flat_vertex(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 1}, {0, 0, size}, {0, 1, 0}, {1, -2 * size, 0}},
                     {{0, 2.5, 1}, {0, 0, -1.5 * size}, {0, 1, 0}, {1, size, 0}});
@@ -107,7 +108,7 @@ Query flat_edges(double size) {
                     {{-0.75 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, -2 * size, 0}, {0, 0, 0x1p-4}},
                     {{1.5 * size, 0, 0x1p-4}, {0x1p-4, 0, 0}, {0, 1.5 * size, 0}, {0, 0.25 * size, 0x1p-4}});
 }
-/// The same without contact.
+/// The same query without contact.
 Query flat_vertex_apart(double size) {
   return make_query(
       Kind::vertex_triangle,
@@ -115,8 +116,9 @@ Query flat_vertex_apart(double size) {
       {{0, 1.25 * size, 0}, {0.5, 0, 0}, {0.5, 0.6875 * size, 0}, {0, 1.75 * size, 0.6875 * size}});
 }
 
-/// Contact. Where `size` is 2^511 F's products of three are far from overflow, as coordinates along y are small,
-/// but a sum of products of two that is multiplied by one of these overflows.
+/// A contact. If `size` is 2^511, F's products of three differences are far from overflow, because
+/// coordinates along y are small. But F multiplies such a coordinate by a sum of products of two, which
+/// overflows.
 Query thin_edges(double size) {
   return make_query(Kind::edge_edge,
                     {{0, 0.5, 1.5 * size}, {0, 0x1.8p-6, 0}, {0, 0, -0.09375 * size}, {1.5 * size, 0, 0}},
@@ -138,7 +140,7 @@ TEST(FilterRange, IsRightWhereSumsOfProductsOverflow) {
   for (const Named& named : overflowing()) expect_right(named);
 }
 
-// In such a collision nothing but F's change of sign could be found, and F is unknown.
+// Only F's change of sign could show these collisions, and F is unknown.
 TEST(FilterRange, LeavesACollisionUndecidedWhereFOverflows) {
   expect_undecided({"crossing edges", scaled(crossing_edges(), 0x1p340)});
   expect_undecided({"two far points", two_far_points(0x1p511)});
@@ -174,7 +176,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearUnderflow) {
       expect_decided({name + " times 2^" + std::to_string(exponent), stretched(query, exponent, exponent)});
 }
 
-/// The same with a few coordinates moved.
+/// The same query with a few coordinates moved.
 Query neighbour(Random& random, Query query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -185,7 +187,7 @@ Query neighbour(Random& random, Query query) {
   return query;
 }
 
-// At every exponent at which a product of two or three, or their sum, may leave the range of double.
+// Tests every exponent at which a product of two or three, or a sum of them, may leave the range of double.
 TEST(FilterRange, IsRightAtEveryExponentNearTheEndsOfTheRange) {
   const auto expect_neighbours_right = [&](const std::string& name, const Query& query, int xy, int z) {
     for (std::size_t i = 0; i < 60; ++i) {

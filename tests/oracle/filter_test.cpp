@@ -1,4 +1,4 @@
-// The certified filter: its bounds hold against exact arithmetic, and it never answers wrongly.
+// Exact arithmetic confirms the bounds of the certified filter, and the filter never gives a wrong answer.
 #include "oracle/filter/filter.hpp"
 
 #include <CGAL/Mpzf.h>
@@ -27,13 +27,13 @@ using Rational = boost::multiprecision::mpq_rational;
 
 Rational exactly(const DoubleWord& x) { return Rational(x.hi) + Rational(x.lo); }
 
-/// Numbers and queries that are hard on rounding: magnitudes far apart, cancellation, few bits and all bits. A pure
-/// function of the seed and the number of the case.
+/// Makes numbers and queries that are difficult for rounding: magnitudes far apart, cancellation, few bits
+/// and all bits. They are a pure function of the seed and the number of the case.
 class Hard : public Random {
  public:
   Hard(std::uint64_t seed, std::size_t index) : Random(seed, 0, index) {}
 
-  /// Within ±2^exponent, its exponent between these.
+  /// A number in ±2^exponent, with an exponent from `lowest` to `highest`.
   double small(int lowest, int highest) {
     const double mantissa = uniform(-1, 1);
     return std::ldexp(mantissa, integer(lowest, highest));
@@ -106,13 +106,13 @@ Mpzf dyadic(const DoubleWord& x) { return Mpzf(x.hi) + Mpzf(x.lo); }
 
 /// |x| / y in double, for a positive y.
 double ratio(const Mpzf& x, double y) {
-  const int exponent = std::ilogb(y);  // in two factors: a double need not reach its inverse
+  const int exponent = std::ilogb(y);  // in two factors, because the inverse may overflow
   const Mpzf scaled =
       x * Mpzf(std::ldexp(1.0, -exponent / 2)) * Mpzf(std::ldexp(1.0, -exponent - -exponent / 2));
   return std::abs(CGAL::to_double(scaled)) / std::ldexp(y, -exponent);
 }
 
-/// x_i - x_j at a time.
+/// The exact x_i - x_j at a time.
 MpzfVector exact_difference(const Query& query, int i, int j, double time) {
   const Mpzf t(time);
   MpzfVector v;
@@ -130,7 +130,7 @@ MpzfVector cross(const MpzfVector& v, const MpzfVector& w) {
 
 Mpzf dot(const MpzfVector& v, const MpzfVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 
-/// The value of the polar form at `times_hi` times hi, and lo otherwise.
+/// The value of the polar form whose arguments are hi, `times_hi` times, and otherwise lo.
 template <std::size_t n>
 Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t times_hi) {
   for (std::size_t level = 0; level < n - 1; ++level) {
@@ -140,8 +140,8 @@ Mpzf exact_blossom(std::array<Mpzf, n> row, double lo, double hi, std::size_t ti
   return row[0];
 }
 
-/// The largest error / bound of the coefficients, of those on [lo, hi], and of the value at lo, given `factor` times the
-/// exact coefficients.
+/// The largest error / bound of the coefficients, of the coefficients on [lo, hi], and of the value at lo,
+/// for `factor` times the exact coefficients.
 template <class Real, std::size_t n>
 double error_over_bound(const Bernstein<Real, n>& computed, const std::array<Mpzf, n>& exact, int factor,
                         double lo, double hi) {
@@ -158,7 +158,7 @@ double error_over_bound(const Bernstein<Real, n>& computed, const std::array<Mpz
   return worst;
 }
 
-/// Whether a sign that is claimed on [t - h, t + h] is that of the exact values at t and at both ends.
+/// Whether a sign that is claimed on [t - h, t + h] is the sign of the exact values at t and at both ends.
 template <class Real, std::size_t n>
 bool is_sign_right(const Bernstein<Real, n>& computed, const std::array<Mpzf, n>& exact, double t, double h) {
   const int sign = computed.sign_near(t, h);
@@ -168,7 +168,7 @@ bool is_sign_right(const Bernstein<Real, n>& computed, const std::array<Mpzf, n>
   return true;
 }
 
-/// The same at random times; infinite if a sign is wrong.
+/// The largest error / bound at random times; infinite if a sign is wrong.
 template <class Real, std::size_t n>
 double worst_of_polynomial(Hard& hard, const Bernstein<Real, n>& computed, const std::array<Mpzf, n>& exact,
                            int factor) {
@@ -178,7 +178,7 @@ double worst_of_polynomial(Hard& hard, const Bernstein<Real, n>& computed, const
   return is_sign_right(computed, exact, lo, std::abs(hard.small(-60, -1))) ? worst : HUGE_VAL;
 }
 
-/// Three times F's exact coefficients on a part of the step.
+/// F's exact coefficients on a part of the step, multiplied by three.
 std::array<Mpzf, 4> three_times_F(const Query& query, double begin, double end) {
   const auto at_ends = [&](int i) {
     return std::array{exact_difference(query, i, 0, begin), exact_difference(query, i, 0, end)};
@@ -253,7 +253,7 @@ TEST(StepPart, ErrorsOfPartsInDoubleWordsAreWithinTheirBounds) {
   expect_errors_within_bounds<DoubleWord>("double words, part of the step", true, 20000);
 }
 
-// The inputs with the largest error that tests/proofs/ knows: 5.7 U M. x0 is 0, so that differences are exact.
+// The inputs with the largest error of F in tests/proofs/, 5.7 U M. x0 is 0, so that differences are exact.
 TEST(StepPart, TheLargestKnownErrorOfFIsAQuarterOfItsBound) {
   const Query query{.kind = Kind::vertex_triangle,
                     .x = {0,
@@ -290,7 +290,7 @@ TEST(StepPart, TheLargestKnownErrorOfFIsAQuarterOfItsBound) {
 
 // --- decisions --------------------------------------------------------------------------------------------
 
-/// Whether a stage says what exact arithmetic says, or nothing.
+/// Whether a stage agrees with exact arithmetic, or is undecided.
 ::testing::AssertionResult is_right(FilterStage stage, std::size_t index, const Query& query) {
   if (stage == FilterStage::undecided || is_collision(stage) == collides_exactly(query))
     return ::testing::AssertionSuccess();
@@ -388,7 +388,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, without its number i too
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before its number i is added
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

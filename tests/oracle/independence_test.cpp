@@ -1,4 +1,4 @@
-// The judge owes nothing to the accused: what each folder includes, read from the sources.
+// The judge uses nothing of the accused. The test reads the includes of each folder from the sources.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::set<std::string> includes(const fs::path& file) {
   return found;
 }
 
-/// All files below a folder but for npm's packages.
+/// All files below a folder except npm's packages.
 std::vector<fs::path> code(const std::string& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(source / folder))
@@ -52,7 +52,7 @@ TEST(Independence, TheOracleUsesOfTheAccusedTheirInterfaceAlone) {
               ::testing::UnorderedElementsAre("ccd/query.hpp", "ccd/arithmetic.hpp", "ccd/subject.hpp"));
 }
 
-/// The sub-folder of oracle/ that a header is in; "" for oracle/ itself and for other folders.
+/// The sub-folder of oracle/ that contains a header; "" for oracle/ itself and for other folders.
 std::string part_of(const std::string& header) {
   const fs::path path(header);
   return *path.begin() == "oracle" && path.parent_path() != "oracle" ? path.parent_path().filename() : "";

@@ -1,4 +1,4 @@
-// The third answer, and all three together.
+// The third exact method, and all three together.
 #include "oracle/parity/parity.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(RootParity, TheBoundaryIsACollision) {
   EXPECT_TRUE(root_parity(Query{}).on_boundary);
 }
 
-// Through the triangle and back: F has two roots, both inside.
+// The vertex goes through the triangle and back, so F has two roots, both inside.
 TEST(RootParity, EvenIsMissed) {
   const Query query =
       testing::make_query(Kind::vertex_triangle, {{-0.375, -0.3125, 0.25}, {0, 0, 0}, {1, -1, 0}, {1, 0, 1}},
@@ -37,7 +37,8 @@ TEST(RootParity, EvenIsMissed) {
   EXPECT_FALSE(root_parity(query).collision());
 }
 
-/// The first answer is the second's; parity is that of the roots wherever the origin is not on the boundary.
+/// Checks that the first method and the second agree, and that parity is the parity of the roots unless the
+/// origin is on the boundary.
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
   const RootCount count = count_roots(query);
@@ -50,7 +51,7 @@ void expect_agreement(std::size_t index, const Query& query) {
 }
 
 TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
-  // All four vertices stay on a line, and touch at t = 1/2 alone.
+  // All four vertices stay on a line, and touch only at t = 1/2.
   Query query{.x = {0, 0, 0, -1, 0, 0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}};
   for (const Kind kind : kinds) {
     query.kind = kind;
@@ -68,7 +69,8 @@ TEST_P(ThreeAnswers, AgreeOnIntegers) {
   }
 }
 
-// There every patch of the boundary is flat, and many touch the origin between t = 0 and t = 1 alone.
+// For these queries every patch of the boundary is flat, and many patches touch the origin only between t = 0
+// and t = 1.
 TEST_P(ThreeAnswers, AgreeOnIntegersOfAPlaneAndOfALine) {
   for (std::size_t i = 0; i < 2000 && !HasFatalFailure(); ++i) {
     Random random(8, 0, i);

@@ -1,4 +1,4 @@
-// Roots of polynomials and signs at them, beside CGAL's algebraic kernel.
+// Compares roots of polynomials, and signs at them, with CGAL's algebraic kernel.
 #include "oracle/exact/root.hpp"
 
 #include <CGAL/Algebraic_kernel_d_1.h>
@@ -83,7 +83,7 @@ TEST(Root, PartsCloseRoots) {
     EXPECT_TRUE(roots[0].is_below(roots[1]));
     EXPECT_FALSE(roots[1].is_below(roots[0]));
     EXPECT_FALSE(roots[1].is_below(roots[1]));
-    // Beside 0 and beside 1.
+    // A root next to 0, and a root next to 1.
     ASSERT_EQ(roots_in_step(Polynomial({-Number(gap), Number(3)}) * polynomial({1, -1})).size(), 2);
     ASSERT_EQ(roots_in_step(Polynomial({Number(gap) - Number(1), Number(1)}) * polynomial({-1, 1})).size(),
               2);
@@ -153,7 +153,7 @@ TEST(Root, ComparisonNarrowsOnlyTheWiderInterval) {
 using AlgebraicKernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 using Reference = AlgebraicKernel::Polynomial_1;
 
-/// A polynomial with coefficients that are integers.
+/// A polynomial with integer coefficients, in our type and in CGAL's.
 struct Both {
   Polynomial here;
   Reference there;
@@ -163,8 +163,8 @@ class Integers {
  public:
   explicit Integers(std::uint64_t index) : random_(1, 0, index) {}
 
-  /// A product of factors with small coefficients, some of them more than once, or a factor and a small
-  /// change.
+  /// A product of factors with small coefficients, some of them repeated. One product in four is scaled and
+  /// increased by 1, a small change.
   Both polynomial(int degree) {
     Both p{Polynomial({Number(1)}), Reference(1)};
     while (p.here.degree() < degree) {
@@ -223,7 +223,7 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
         ASSERT_TRUE(roots[k - 1].is_below(roots[k]));
       }
     }
-    // Roots of another polynomial, in order among these.
+    // The roots of another polynomial, to be ordered among the roots of the first.
     std::vector<AlgebraicKernel::Algebraic_real_1> others;
     kernel.solve_1_object()(both.there, false, std::back_inserter(others));
     std::erase_if(others, [](const auto& t) {

@@ -1,4 +1,4 @@
-// The search for contact in a part of the step, given an F with a known error.
+// The search for contact in a part of the step, for an F with a known error.
 #include "oracle/filter/search.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ Query sliding() {
   return testing::make_query(Kind::vertex_triangle, {{-0.22, 0.25, 0}, o, a, b}, {{0.18, 0.25, 0}, o, a, b});
 }
 
-/// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4, known to 1. It rises through -1 .. 1 around
-/// u = 0; at u = -0.122 and u = -0.328 it has two more roots, at which the vertex is outside.
+/// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4 and an error of 1. It rises from -1 to 1
+/// around u = 0. It has two more roots, at u = -0.122 and u = -0.328, at which the vertex is outside.
 Bernstein<double, 4> three_roots() {
   constexpr double r = 0.75;
   constexpr std::array c{-40 * r + 450 * r * r - 1000 * r * r * r, 40 - 900 * r + 3000 * r * r,
@@ -29,12 +29,13 @@ FilterStage search(const Bernstein<double, 4>& F) {
   return ContactSearch<double>(query.kind, whole, whole, F, 0).run();
 }
 
-// Beside the guessed root F is negative, but within its error: the exact F may have no root where the weights agree.
+// Next to the guessed root, F is negative, but within its error. The exact F may have no root where the
+// weights agree.
 TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }
 
-// The same F, known well.
+// The same F with a small error.
 TEST(ContactSearch, FindsAChangeOfSignWhereTheWeightsAgree) {
   Bernstein<double, 4> F = three_roots();
   F.error = 0x1p-30;

@@ -1,4 +1,4 @@
-// The certified bounds of distances: their errors against rational arithmetic.
+// Compares the errors of the certified distance bounds with rational arithmetic.
 #include "oracle/distance/separation.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@
 
 namespace nearmiss::certified {
 
-/// How often the products that a number is a sum of are rounded, at most. A vertex difference is the sum of two
-/// doubles here, which counts as the rounding that it has in double.
+/// A number as a sum of products, with the largest number of roundings of these. A vertex difference is a sum
+/// of two doubles here, which counts as the one rounding that it has in double.
 struct RoundingCount {
   int count = 0;
 
@@ -47,7 +47,7 @@ namespace {
 using Rational = boost::multiprecision::mpq_rational;
 using ExactVector = std::array<Rational, 3>;
 
-/// The vertices of a query at a time, exactly, in the unit of its differences.
+/// The exact vertices of a query at a time, in the unit of its differences.
 class ExactVertices {
  public:
   ExactVertices(const Query& query, const VertexDifferences& differences, const Rational& t)
@@ -90,8 +90,8 @@ ExactVector cross(const ExactVector& v, const ExactVector& w) {
 Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 ExactVector exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-/// Coordinates of one size, of sizes of their own, and so large or small that differences overflow or products
-/// underflow.
+/// Queries with coordinates of one magnitude, of various magnitudes, and so large or small that differences
+/// overflow or products underflow.
 std::vector<Query> all_sorts(std::size_t each) {
   std::vector<Query> queries;
   for (const auto& [smallest, largest] :
@@ -106,7 +106,8 @@ std::vector<Query> all_sorts(std::size_t each) {
   return queries;
 }
 
-/// Every coefficient is within its error of the exact one; the largest share of an error that is used.
+/// Expects every coefficient to be within its error of the exact one. Returns the largest quotient of a
+/// difference and its error bound.
 double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -123,7 +124,7 @@ struct SeparationErrors : ::testing::Test {};
 using Reals = ::testing::Types<double, DoubleWord, Wide>;
 TYPED_TEST_SUITE(SeparationErrors, Reals);
 
-/// Random bits of a precision, at any exponent that differences have.
+/// A number with random bits, at any exponent that differences have.
 Wide random_wide(Random& random) {
   Wide x = 1;
   for (int i = 0; i < 6; ++i) x = ldexp(x, 64) + Wide(random.bits());
@@ -167,7 +168,7 @@ TYPED_TEST(SeparationErrors, NormalsProductsAreWithinTheirErrors) {
                                 Rational(dot(cross(v, w), u))};
       if ((F[0] < 0) != (separation.products[0].coefficients[0] < 0) &&
           abs(F[0]) > Rational(separation.products[0].errors[0]))
-        for (Rational& c : F) c = -c;  // the sign that the distance has
+        for (Rational& c : F) c = -c;  // the sign of the distance
       if (abs(F[0]) > Rational(separation.products[0].errors[0])) expect_within(separation.products[0], F);
       EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]),
                 dot(cross(q, r), cross(q, r)));
@@ -231,9 +232,10 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Each error is at least the number of roundings times what the products' magnitudes add up to at most.
+/// Expects each error to be at least the number of roundings times an upper bound of the sum of the products'
+/// magnitudes.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
-  constexpr double second_orders = 1.02;  // and the roundings of the error itself
+  constexpr double second_orders = 1.02;  // also for the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_GE(product.errors[i], second_orders * product.coefficients[i] * sizes[i]) << i;
 }
@@ -265,7 +267,8 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   }
 }
 
-// The tests above compare lengths of vectors with exact ones; this one checks the numbers of roundings alone.
+// The tests above compare lengths of vectors with exact lengths. This test checks only the numbers of
+// roundings.
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);

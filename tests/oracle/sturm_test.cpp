@@ -1,4 +1,4 @@
-// The second answer: roots counted, and the same truth as the first.
+// The second exact method counts roots, and gives the same truth as the first.
 #include "oracle/sturm/sturm.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rest and translation, against exact arithmetic.
+// Compares the decisions for rest and translation with exact arithmetic.
 #include "oracle/translation.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 namespace nearmiss {
 namespace {
 
-/// Small integers, so that primitives often touch, are degenerate, or lie in one plane; each primitive has one
-/// velocity.
+/// A query of small integers, so that primitives often touch, are degenerate, or lie in one plane. Each
+/// primitive has one velocity.
 Query translating_query(Random& random, Kind kind, bool rest) {
   Query query{.kind = kind};
   std::array<Vector3<double>, 2> velocities;
@@ -29,7 +29,7 @@ Query translating_query(Random& random, Kind kind, bool rest) {
   return query;
 }
 
-// The triangle rises by 1 - 2^-60, which is no double; the vertex just touches it at t = 1.
+// The triangle rises by 1 - 2^-60, which is not a double. The vertex just touches it at t = 1.
 TEST(Translation, AVelocityThatIsNoDoubleIsNotRounded) {
   Query query{.kind = Kind::vertex_triangle};
   const std::array<Vector3<double>, 4> points{
@@ -71,7 +71,7 @@ TEST(Translation, VelocitiesAreComparedExactly) {
   query.set_start(0, Vector3<double>(0, 0, 1));
   query.set_end(0, Vector3<double>(0, 0, -1));
   EXPECT_EQ(relative_motion(query), RelativeMotion::translation);
-  // 1e-30 is lost where 1 is subtracted from 1 + its rounding, but it is there.
+  // 1e-30 is lost in the rounded subtraction, but the exact difference contains it.
   query.set_end(2, Vector3<double>(2, 4, std::nextafter(0.1, 1)));
   EXPECT_EQ(relative_motion(query), RelativeMotion::other);
   query.set_end(2, Vector3<double>(2, 4, 0.1));
@@ -81,7 +81,7 @@ TEST(Translation, VelocitiesAreComparedExactly) {
 }
 
 TEST(Translation, ARoundedDifferenceIsNotTheVelocity) {
-  // The rounded differences are 1 for both, the exact ones differ by 1e-20.
+  // The rounded differences are both 1; the exact ones differ by 1e-20.
   Query query{.kind = Kind::edge_edge};
   query.set_start(0, Vector3<double>(1e-20, 0, 0));
   query.set_end(0, Vector3<double>(1, 0, 0));
@@ -113,7 +113,7 @@ TEST(Translation, WhatOverflowsOrIsNoDoubleIsLeftToOthers) {
     inexact.set_end(i, corners[static_cast<std::size_t>(i - 1)] + Vector3<double>(0, 0, 1));
   }
   EXPECT_EQ(relative_motion(inexact), RelativeMotion::translation);
-  EXPECT_FALSE(meets_by_translation(inexact).has_value());  // 1e-20 - 1 is no double
+  EXPECT_FALSE(meets_by_translation(inexact).has_value());  // 1e-20 - 1 is not a double
 }
 
 }  // namespace

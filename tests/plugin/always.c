@@ -1,5 +1,4 @@
-/* A complete plug-in: answers every query with the return value, and claims the distance bound, with which it was
- * compiled. */
+/* A complete plug-in. The return value of its answers and its claimed distance bound are set when it is compiled. */
 #include <stddef.h>
 
 #include "ccd/nearmiss_subject.h"

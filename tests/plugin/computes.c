@@ -1,4 +1,4 @@
-/* A subject that computes for an eighth of a second of its process's own time, and reports every query. */
+/* A subject that uses an eighth of a second of CPU time for each query, and reports every query. */
 #define _POSIX_C_SOURCE 200809L
 #include <stddef.h>
 #include <time.h>

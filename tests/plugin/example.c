@@ -1,5 +1,5 @@
 /* A complete example of a plug-in: a conservative test on axis-aligned boxes. It reports every pair whose swept boxes meet,
- * so that it never misses a collision, and claims no bound on the distance of its false positives.
+ * so it never misses a collision. It claims no bound on the distance of its false positives.
  *
  *   cc -shared -fPIC -I. tests/plugin/example.c -o example.so
  *   build/release/nearmiss fuzz --subject ./example.so --cases 100000
@@ -20,7 +20,7 @@ static void range(const double* x, int k, int first, int last, double* lo, doubl
   }
 }
 
-/* One primitive is vertices 0 .. split - 1, the other split .. 3. */
+/* One primitive has the vertices 0 .. split - 1, the other split .. 3. */
 static int boxes_meet(const double* x, int split) {
   for (int k = 0; k < 3; ++k) {
     double lo_a, hi_a, lo_b, hi_b;

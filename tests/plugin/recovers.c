@@ -1,5 +1,5 @@
-/* A subject that asks for more memory than it may have, does without, and reports the query; its process crashes at
- * the next one. */
+/* A subject that asks for more memory than allowed, goes on without it, and reports the query. Its process crashes at
+ * the next query. */
 #include <signal.h>
 #include <stddef.h>
 #include <stdlib.h>

@@ -24,9 +24,9 @@ constexpr std::string_view exact = "Gappa, of exact vectors";
 constexpr std::string_view of_coefficients = "Gappa, of exact coefficients";
 constexpr std::string_view sum = "Gappa, sum of three (proven.hpp)";
 
-// With ε = 1 the printed errors are their factors.
+// For ε = 1 the printed errors equal their factors.
 const auto printed = printed_errors(1.0);
-// The largest ε, for which `full_errors` has the largest factors, and S = B.
+// The largest ε, for which the factors of `full_errors` are largest; S = B.
 constexpr double largest_eps = 0x1p-10;
 constexpr auto full = full_errors(largest_eps, 1.0, 0.0);
 constexpr double factor(double error) { return error / largest_eps; }
@@ -107,7 +107,7 @@ std::vector<CcdClaim> full_claims() {
   };
 }
 
-/// Bounds that stand beside constants of the paper in the audit alone.
+/// Bounds that only the audit compares with constants of the paper.
 std::vector<CcdClaim> audited_claims() {
   const auto only = [](std::string_view name, std::string_view constant, double bound, std::string_view unit,
                        std::string_view how, const std::function<Problem()>& problem) {

@@ -23,8 +23,8 @@ struct TracedPoints {
   std::array<Traced, 24> x;
 };
 
-/// The samples of a vertex that falls through a triangle, and of an edge that falls through another one: a
-/// simple root of F with a long way to go on both sides, which `excludes_collision` looks at to its end.
+/// Samples of a vertex that falls through a triangle, and of an edge that falls through another edge. F has a
+/// simple root far from both ends of the step, so that `excludes_collision` runs to its end.
 constexpr std::array<double, 24> falling_vertex{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
                                                 0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 constexpr std::array<double, 24> falling_edge{-1, 0, 1,  1, 0, 1,  0, -1, 0, 0, 1, 0,
@@ -41,7 +41,7 @@ TracedPoints points(Trace& trace, Kind kind) {
   return all;
 }
 
-/// A problem with a time, which is nothing more yet.
+/// A problem that has only a time.
 Problem begun() {
   Problem problem;
   problem.trace = std::make_shared<Trace>();
@@ -56,7 +56,7 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
-/// A moving vector that is an input.
+/// A moving vector whose components are inputs.
 Moving<Traced> exact_vector(Trace& trace, char name) {
   Moving<Traced> vector;
   for (int i = 0; i < 6; ++i)
@@ -64,7 +64,7 @@ Moving<Traced> exact_vector(Trace& trace, char name) {
   return vector;
 }
 
-/// A pair from coordinates.
+/// A pair whose coordinates are inputs.
 template <Kind kind>
 Pair<kind, Traced> pair_of(Problem& problem, Reach reach) {
   Pair<kind, Traced> pair;
@@ -98,13 +98,13 @@ Problem configuration(Reach reach, ConfigurationPart part) {
     std::ignore = configuration.inside(log);
     problem.degree = 4;
   }
-  // Of the weights of a triangle the third is the sum of the others, and the last.
+  // The last comparison is of the third weight, which for a triangle is computed from the others.
   std::tie(problem.left, problem.right) = kept.back();
   return problem;
 }
 
-/// A determinant of order 3 with elements within 1 is within 4: it is linear in each, so that it is largest
-/// where all are 1 or -1; there it is a multiple of 4, and at most 3√3 by Hadamard's inequality.
+/// A determinant of order 3 with elements in [-1, 1] is at most 4. It is linear in each element, so it is
+/// largest if all are 1 or -1. Then it is a multiple of 4, and at most 3√3 by Hadamard's inequality.
 constexpr double determinant = 4;
 
 void know_coefficients(Problem& problem, const Cubic<Traced>& F, double p) {
@@ -131,8 +131,8 @@ Problem cubic(CubicPart part) {
   return problem;
 }
 
-/// Coefficients that are inputs, with B³ as the unit in place of B. Computed ones are at most as large as they are here: they differ from exact
-/// ones by far less than the half that is left.
+/// Coefficients that are inputs, in units of B³. Their bounds also hold for computed coefficients: each bound
+/// exceeds that of the exact coefficient by a half, and the rounding error is far less.
 Cubic<Traced> exact_coefficients(Problem& problem) {
   Cubic<Traced> F;
   for (const auto& [coefficient, name, most] :
@@ -144,8 +144,8 @@ Cubic<Traced> exact_coefficients(Problem& problem) {
   return F;
 }
 
-/// The vectors of a pair in any order of end points: of two edges, some pair of which is within B*, any two
-/// end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp). B* = E + W = 1.
+/// The vectors of a pair with end points in any order. If some end points of two edges are within B* of each
+/// other, any two end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp). B* = E + W = 1.
 template <Kind kind>
 Pair<kind, Traced> pair_with_bound(Problem& problem) {
   auto pair = pair_of<kind>(problem, Reach::near);
@@ -159,8 +159,8 @@ Pair<kind, Traced> pair_with_bound(Problem& problem) {
   return pair;
 }
 
-/// The slack of `excludes_collision` and its last comparison, w > N·N + slack, with the interval h around the
-/// root as a given number in [0, 1]; it is what both the slack and the brackets are computed with.
+/// The slack of `excludes_collision`, and its last comparison, w > N·N + slack. The interval h around the
+/// root, from which both the slack and the brackets are computed, is an input in [0, 1].
 struct Culling {
   Problem problem;
   Traced slack;
@@ -178,13 +178,13 @@ Culling culling() {
   const Configuration configuration(pair, problem.time);
   Tolerances<Traced> tol{};
   if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), configuration, problem.time, tol))
-    throw std::runtime_error("the sample of a collision is taken for none");
-  // Decisions end with h > 1, then w < -slack and N·N + slack < w for each weight.
+    throw std::runtime_error("the sample is a collision, but it is excluded");
+  // The last comparisons are h > 1, and then w < -slack and N·N + slack < w for each weight.
   const auto& branches = problem.trace->branches();
   const auto last = branches.size() - 1;
   const Branch& h_above_1 = branches.at(last - 2 * configuration.weights.size());
   if (h_above_1.left->operation != Operation::constant || h_above_1.left->value != 1)
-    throw std::runtime_error("the last comparison but those of weights is not with 1");
+    throw std::runtime_error("the last comparison before those of weights is not with 1");
   problem.inputs.push_back({Traced(h_above_1.right), 0, 1, 0});
   problem.left = Traced(branches[last].right);
   problem.right = Traced(branches[last].left);
@@ -212,7 +212,7 @@ Problem near_edge(Reach reach, bool F) {
   return problem;
 }
 
-/// The squared distance of two vertices, at a time that is given in place of the computed one.
+/// The squared distance of two vertices, at a time that is an input instead of the computed one.
 Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
   TracedPairs kept;
   problem.time = *vertex_vertex(ji, Tolerances<Traced>{}, KeptComparisons(kept));
@@ -286,7 +286,8 @@ Problem vertex_edge(Reach reach, EdgePart part) {
       break;
     case EdgePart::inside:
       break;
-    // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ): each part with a last rounding, which adding 0 stands for.
+    // F = (‖x_0i × x_ji‖₁ - S ‖x_ji‖∞)(1 + δ). Each part has a last rounding, which the addition of 0 stands
+    // for.
     case EdgePart::F_without_S:
       problem.left = Traced(difference.left) + 0;
       problem.right = 0;
@@ -302,7 +303,7 @@ Problem vertex_edge(Reach reach, EdgePart part) {
 Problem exact_vertices(Reach reach, VertexPart part) {
   Problem problem = begun();
   const auto ji = exact_vector(*problem.trace, 'x');
-  // Vectors that stand for exact ones within these bounds are a little longer, by at most 5u <= 2^-8.
+  // These vectors stand for exact vectors within the bounds, and are longer by at most 5u <= 2^-8.
   constexpr double longer = 1 + 0x1p-8;
   const double most = (reach == Reach::far ? 2 : 1) * longer;
   problem.motions = {{ji, most, most, longer}};

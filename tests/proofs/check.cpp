@@ -14,10 +14,11 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// Results are of a degree of at most 4 in B <= 2^100 (claims.hpp): with this for B = 1 they are finite.
+/// The largest result that is allowed for B = 1. Results have degree at most 4 in B <= 2^100 (claims.hpp), so
+/// they are then finite.
 constexpr double largest_allowed = 0x1p20;
 
-/// The arithmetics that a claim is proven for.
+/// The arithmetics for which a claim is proven.
 std::vector<Arithmetic> arithmetics(const CcdClaim& claim) {
   std::vector<Arithmetic> all;
   for (const int bits : precisions) all.push_back({bits, {}, claim.vectors_alone});

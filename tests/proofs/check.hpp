@@ -1,4 +1,4 @@
-// Whether a claim holds.
+// Checks claims.
 #pragma once
 
 #include <string>
@@ -10,25 +10,26 @@
 
 namespace nearmiss::proofs {
 
-/// The faults of a claim, in words; none if all of this holds: Gappa proves the proven error in every
-/// precision, and in double with underflow; no result overflows; seen <= proven <= claimed; the witness has exactly
-/// the error that is recorded with it.
+/// Describes the faults of a claim. There are none if Gappa proves the bound `proven` in every precision, and
+/// in double with underflow; no result overflows; seen <= proven <= claimed; and the witness has exactly the
+/// recorded error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
-/// The same for all claims with the witnesses of a file, by two threads.
+/// The faults of all claims with the witnesses of a file. Uses two threads.
 std::vector<std::string> faults(const std::vector<CcdClaim>& claims,
                                 const std::map<std::string, Witness>& witnesses);
 
-/// The faults of a claim about oracle/ likewise: seen <= proven <= claimed, and what the witness shows.
+/// The faults of a claim about oracle/. The function checks seen <= proven <= claimed, and the error of the
+/// witness.
 std::vector<std::string> faults(const OracleClaim& claim, const Witness& witness);
 
-/// A row of the table: what is claimed, proven and seen of a constant, in its unit.
+/// A row of the table: the claimed, the proven and the seen value of a constant, in its unit.
 struct TableRow {
   std::string claim, constant, proof, unit;
   double claimed, proven, seen;
 };
 
-/// The rows of claims about ccd/, and of those about oracle/.
+/// The rows of claims about ccd/, or about oracle/.
 std::vector<TableRow> rows_of(const std::vector<CcdClaim>& claims,
                               const std::map<std::string, Witness>& witnesses);
 std::vector<TableRow> rows_of(const std::vector<OracleClaim>& claims,

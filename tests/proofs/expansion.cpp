@@ -110,20 +110,20 @@ class Expander {
     const bool is_plain = inside.operation == Operation::subtract &&
                           at(inside.left).operation == Operation::input &&
                           at(inside.right).operation == Operation::input;
-    if (!is_plain) throw std::logic_error("found a magnitude of what is not a difference of inputs");
+    if (!is_plain) throw std::logic_error("found a magnitude of something other than a difference of inputs");
     return {{1, {{steepest, 1}}, 1, 0}};
   }
-  /// The largest of these is one of them.
+  /// A maximum of magnitudes, which is one of them.
   Expansion largest_magnitude(const Instruction& one) {
     const Expansion a = of(one.left);
     const Expansion b = of(one.right);
     if (a.size() != 1 || b.size() != 1 || a[0].monomial != b[0].monomial)
-      throw std::logic_error("found a maximum of what are not magnitudes of differences");
+      throw std::logic_error("found a maximum of something other than magnitudes of differences");
     return a[0].roundings >= b[0].roundings ? a : b;
   }
 
   Expansion quotient_of(const Instruction& one) {
-    if (!is_constant(one.right)) throw std::logic_error("found a quotient by what is not constant");
+    if (!is_constant(one.right)) throw std::logic_error("found a quotient by something that is not constant");
     Expansion terms = of(one.left);
     for (Term& term : terms) term.coefficient /= Rational(at(one.right).constant);
     return with_underflow(rounded(std::move(terms), arithmetic_.quotient));
@@ -135,7 +135,7 @@ class Expander {
 
 // --- bounds over times ------------------------------------------------------------------------------------
 
-/// Powers of t and 1 - t for each time, and coefficients.
+/// Maps the powers of t and 1 - t for each time to their coefficient.
 using InTimes = std::map<std::vector<int>, Rational>;
 
 int degree_in(const InTimes& polynomial, std::size_t time) {
@@ -145,7 +145,7 @@ int degree_in(const InTimes& polynomial, std::size_t time) {
   return degree;
 }
 
-/// Times (t + (1 - t)) until every term has the degree.
+/// Multiplies terms by (t + (1 - t)) until every term has the degree.
 InTimes elevated(const InTimes& polynomial, std::size_t time, int degree) {
   InTimes all;
   for (const auto& [powers, c] : polynomial) {

@@ -1,4 +1,4 @@
-// An expression multiplied out: products of inputs, and how often each was rounded.
+// Multiplies out an expression to products of inputs, and counts the roundings of each product.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,9 @@ namespace nearmiss::proofs {
 /// Inputs by name, with their powers.
 using Monomial = std::map<std::string, int>;
 
-/// coefficient · monomial · (1 + δ_1) ... (1 + δ_k), where each |δ_i| is at most the relative error of one
-/// rounding; with `underflows` also · η_1 ..., where each |η_i| is at most H, what underflow adds to a product.
+/// The term coefficient · monomial · (1 + δ_1) ... (1 + δ_k). Each |δ_i| is at most the relative error of one
+/// rounding. With `underflows`, the term has further factors η_1 ...; each |η_i| is at most H, the largest
+/// error of a product by underflow.
 struct Term {
   Rational coefficient;
   Monomial monomial;
@@ -23,46 +24,49 @@ struct Term {
   int underflows = 0;
 };
 
-/// A sum of terms. The value in exact arithmetic is that without roundings and underflows.
+/// A sum of terms. Without roundings and underflows it is the value in exact arithmetic.
 using Expansion = std::vector<Term>;
 
-/// How the operations err, in roundings.
+/// The errors of operations, as numbers of roundings.
 struct Roundings {
   int quotient = 1;
 };
 inline constexpr Roundings in_double{};
-/// A quotient by 3 is a product with a number that is 2^-108 away from 1/3: 1 + 3/32, taken as 2.
+/// A quotient by 3 is a product with a number whose distance from 1/3 is 2^-108. This costs 1 + 3/32
+/// roundings, which are counted as 2.
 inline constexpr Roundings in_double_words{.quotient = 2};
 
-/// The name that 1 - t has in monomials, where t is an input in [0, 1].
+/// The name of 1 - t in monomials, for an input t in [0, 1].
 std::string complement(const std::string& t);
 
 /// The name of the largest |x - y| of several pairs of inputs.
 inline const std::string steepest = "steepest";
 
-/// The expansion of an expression made of sums, differences, products, and quotients by constants; throws
-/// std::logic_error for any other operation.
+/// The expansion of an expression that contains only sums, differences, products, and quotients by constants.
+/// Throws std::logic_error for any other operation.
 ///
-/// Every operation adds a rounding, but for adding 0 and for products with powers of two. Products and quotients add
-/// a term for underflow, but for products with 1 and powers of two above it. Sums do not underflow: they are exact if
-/// their result is below 2^-1022. The same δ may be in several terms, and in one more than once.
+/// Every operation adds a rounding, except additions of 0 and products with powers of two. Products and
+/// quotients add a term for underflow, except products with 1 or a larger power of two. Sums do not
+/// underflow, because they are exact if their result is below 2^-1022. The same δ may occur in several terms,
+/// and several times in one term.
 Expansion expand(const Traced& expression, const Roundings& arithmetic = in_double);
-/// The same of one result of a program.
+/// The expansion of one result of a program.
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
-/// A bound of |terms| of one sort: coefficient · monomial, with the most roundings that one of them has.
+/// A bound of the magnitudes of terms with the same monomial: coefficient · monomial, with the largest number
+/// of roundings among these terms.
 struct BoundTerm {
   Rational coefficient;
   int roundings = 0;
 };
 using BoundTerms = std::map<Monomial, BoundTerm>;
 
-/// The name of what bounds the magnitude of an input.
+/// Maps the name of an input to the name of a bound of its magnitude.
 using MagnitudeOf = std::function<std::string(const std::string&)>;
 
-/// Σ |coefficient| Π |input| of terms, sorted by monomials of magnitudes, for all times in [0, 1]: with respect to
-/// each t of `times`, what belongs to a monomial is a polynomial in t and 1 - t with coefficients that are not
-/// negative, and the largest of its Bernstein coefficients bounds it.
+/// Bounds Σ |coefficient| Π |input| over all times in [0, 1], for each monomial of magnitudes. As a function
+/// of each time t in `times`, the terms of a monomial are a polynomial in t and 1 - t without negative
+/// coefficients. The largest of its Bernstein coefficients bounds it.
 BoundTerms bound(const Expansion& terms, const MagnitudeOf& magnitude_of,
                  const std::vector<std::string>& times);
 

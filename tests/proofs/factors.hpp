@@ -14,10 +14,10 @@ inline std::string script_text(const Rational& x) {
 }
 inline std::string script_text(double x) { return fmt::format("{:a}", x); }
 
-/// The factors of one script, each with a variable δ of its own.
+/// The factors of one script, each with its own variable δ.
 class Factors {
  public:
-  /// (1 + δ) ... with this many variables, each at most `size` in magnitude.
+  /// The product (1 + δ) ... with this many variables, each at most `size` in magnitude.
   std::string product(int count, double size) {
     std::string text = "1";
     for (int i = 0; i < count; ++i) {
@@ -28,7 +28,7 @@ class Factors {
     return fmt::format("({})", text);
   }
 
-  /// The script that asks for a goal.
+  /// The script with a goal.
   [[nodiscard]] std::string script(const std::string& goal) const {
     return fmt::format("{{ {}{}{} }}\n", ranges_, ranges_.empty() ? "" : " -> ", goal);
   }

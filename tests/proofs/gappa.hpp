@@ -13,29 +13,31 @@
 
 namespace nearmiss::proofs {
 
-/// The arithmetic that a proof is about: every operation is rounded to nearest with `bits` bits, so that its
-/// relative error is at most u = 2^-bits.
+/// The arithmetic of a proof. Every operation is rounded to nearest with `bits` bits, so its relative error
+/// is at most u = 2^-bits.
 struct Arithmetic {
   int bits = 53;
-  /// If it is set, each product and quotient also errs by up to 2^underflow, for B = 1.
+  /// If set, each product and quotient has an additional error of up to 2^underflow, for B = 1.
   std::optional<int> underflow{};
-  /// Only vectors are rounded, where they are formed; all that is computed with them is exact.
+  /// If true, only the vectors are rounded when they are formed, and all computations with them are exact.
   bool vectors_alone = false;
 };
 
-/// Runs Gappa, and keeps its answers, since problems share lemmas. May be used by several threads at once.
+/// Runs Gappa, and keeps its answers, because problems share lemmas. Several threads may use a Prover at
+/// once.
 ///
-/// A problem is proven in steps. Lemmas bound, by Gappa too, the error of expressions that occur often, so that the
-/// next script has a new variable in their place: a velocity, a position at the time, an expression of maxima, minima
-/// and magnitudes (whose error is at most the largest of its operands', since each of these functions changes by at
-/// most as much as one of its arguments). The last script has all other operations.
+/// A problem is proven in steps. Lemmas, which Gappa proves too, bound the errors of frequent expressions: a
+/// velocity, a position at the time, or an expression of maxima, minima and magnitudes. The error of the
+/// latter is at most the largest error of its operands, because each of these functions changes by at most as
+/// much as one of its arguments. The next script has a new variable for each such expression. The last script
+/// has all other operations.
 class Prover {
  public:
-  /// An upper bound of the problem's error for B = 1. Throws std::runtime_error if Gappa proves none, does not run or
-  /// does not understand the script.
+  /// An upper bound of the problem's error for B = 1. Throws std::runtime_error if Gappa proves no bound,
+  /// does not run, or does not understand the script.
   double error(const Problem& problem, const Arithmetic& arithmetic);
 
-  /// An upper bound of the magnitudes of all results of operations on the way, for B = 1, likewise.
+  /// An upper bound of the magnitudes of all intermediate results, for B = 1. Throws like `error`.
   double largest_result(const Problem& problem, const Arithmetic& arithmetic);
 
   /// Whether Gappa proves that the error is at most `bound` for B = 1.

@@ -19,12 +19,12 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// A file with a text, gone at the end.
+/// A file with a text, which the destructor removes.
 class ScriptFile {
  public:
   explicit ScriptFile(const std::string& text) {
     const int file = mkstemp(path_.data());
-    if (file < 0) throw std::runtime_error("no temporary file for gappa");
+    if (file < 0) throw std::runtime_error("cannot make a temporary file for gappa");
     const bool all = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
     close(file);
     if (!all) throw std::runtime_error("a temporary file for gappa cannot be written");
@@ -49,8 +49,8 @@ std::pair<std::string, int> output_of(const std::string& command) {
   return {output, pclose(pipe)};
 }
 
-/// Whether Gappa warns of something else than a hint that it does not need, or a search that it gave up: it may
-/// have taken a hint on trust.
+/// Whether Gappa warns of anything other than an unneeded hint or an abandoned search. In that case, Gappa
+/// may have taken a hint on trust.
 bool has_grave_warning(const std::string& output) {
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);)

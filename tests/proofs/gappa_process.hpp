@@ -1,4 +1,4 @@
-// Gappa as a process: scripts in, proofs out.
+// Runs Gappa as a process.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ struct GappaAnswer {
   bool proven;
 };
 
-/// Throws std::runtime_error if Gappa does not run, does not understand the script, or warns: of a hint that it
-/// takes on trust, for instance.
+/// Runs a script. Throws std::runtime_error if Gappa does not run, does not understand the script, or gives a
+/// warning, for instance of a hint that it takes on trust.
 GappaAnswer run_gappa(const std::string& script, const std::string& options = "");
 
-/// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward. Its own
-/// interval bounds are finer than the errors of double words.
+/// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward.
+/// Gappa's interval bounds are finer than the errors of double words.
 double proven_upper_end(const std::string& script);
 
-/// Whether it proves all goals, likewise.
+/// Whether Gappa proves all goals. Throws like run_gappa.
 bool is_proven(const std::string& script);
 
 }  // namespace nearmiss::proofs

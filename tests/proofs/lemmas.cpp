@@ -13,7 +13,8 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// A number as Gappa prints it, not below it: an integer of at most 60 bits, and maybe a power of two.
+/// Parses a number that Gappa prints, rounded upward: an integer of at most 60 bits, with or without a power
+/// of two.
 double at_least(const std::string& text) {
   char* end = nullptr;
   const auto mantissa = static_cast<long double>(std::strtoll(text.c_str(), &end, 10));
@@ -33,9 +34,10 @@ bool is_extreme(Operation operation) {
          operation == Operation::smallest;
 }
 
-/// Lemmas on a position X = D + t V between D and E. It is a convex combination of its ends, and within
-/// `reach` as they are. So is k, the error that it has from the errors of its ends. Interval arithmetic sees
-/// that of reach - X and reach + X, which are sums of products of numbers that are not negative.
+/// Lemmas about a position X = D + t V between D and E. It is a convex combination of its ends, and therefore
+/// within `reach` like these. The same holds for k, the error of X that comes from the errors of its ends.
+/// Interval arithmetic derives this from reach - X and reach + X, which are sums of products of numbers that
+/// are not negative.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"
@@ -43,7 +45,7 @@ std::string convex_hints(const char* combination, const char* start, const char*
       combination, start, end, dyadic(reach));
 }
 
-/// The script on a motion.
+/// The script about a motion.
 class MotionScript {
  public:
   MotionScript(const BoundedMotion& motion, const Arithmetic& arithmetic)
@@ -57,7 +59,7 @@ class MotionScript {
     ranges_ += " /\\ w - m in " + interval(-most, most);
   }
 
-  /// Of exact x = D and v = V.
+  /// The script for exact x = D and v = V.
   [[nodiscard]] std::string exact() const {
     return fmt::format(
         "X = D + t * V;\nE = D + V;\n{}{{ {} ->\nX in ? /\\ x - X in ? }}\n{}"
@@ -65,7 +67,7 @@ class MotionScript {
         moved("D", "V"), ranges_, convex_hints("X", "D", "E", reach_));
   }
 
-  /// Of rounded ends d and e, and their difference v.
+  /// The script for rounded ends d and e, and their difference v.
   [[nodiscard]] std::string rounded() const {
     const double u = std::ldexp(1, -arithmetic_.bits);
     return fmt::format(
@@ -131,7 +133,7 @@ void Lemmas::know_motion(const BoundedMotion& motion, const Traced& time) {
     const Instruction& change = program_[sum.right];
     if (sum.operation != Operation::add || sum.left != x || change.operation != Operation::multiply ||
         change.left != t || change.right != v)
-      throw std::runtime_error("a position at a time is not x + t v any more");
+      throw std::runtime_error("a position at a time is no longer x + t v");
     const bool rounded = program_[x].operation == Operation::subtract;
     const MotionScript script(motion, arithmetic_);
     const auto found = bounds_in(prover_.run(rounded ? script.rounded() : script.exact()).text);
@@ -156,7 +158,7 @@ std::set<int> Lemmas::needed() {
   return all;
 }
 
-// An extreme is a leaf where something else than an extreme uses it. Operands come first in a program.
+// An extreme is a leaf if an operation other than an extreme uses it. Operands come first in a program.
 void Lemmas::know_extremes() {
   const std::set<int> all = needed();
   std::set<int> used{left_, right_};

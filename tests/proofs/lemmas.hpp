@@ -1,4 +1,4 @@
-// The lemmas that a proof by Gappa begins with.
+// The lemmas with which a proof by Gappa begins.
 #pragma once
 
 #include <map>
@@ -19,14 +19,14 @@ struct ProvenRange {
 /// The enclosures that Gappa printed, by expression.
 std::map<std::string, ProvenRange> bounds_in(const std::string& output);
 
-/// The lemmas of one problem, proven as they are made.
+/// The lemmas of one problem. Each lemma is proven when it is made.
 class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
 
-  /// The script with all that is not in a lemma; its goal is the error, named d.
+  /// The script with all operations that are not in a lemma. Its goal is about the error, named d.
   std::string last_script(const std::string& goal);
-  /// Its goals are the ranges of all results.
+  /// The script whose goals are the ranges of all results.
   std::string range_script();
 
  private:

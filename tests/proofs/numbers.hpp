@@ -1,4 +1,5 @@
-// Numbers in which programs are evaluated, beside double: rational ones, and the oracle's double words.
+// Numbers in which programs are evaluated, in addition to double: rational numbers, and the oracle's double
+// words.
 #pragma once
 
 #include <boost/multiprecision/gmp.hpp>
@@ -13,7 +14,7 @@ namespace nearmiss::proofs {
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
-/// A double word; its quotients are by 3 alone, as in `third`.
+/// A double word. Double words can be divided only by 3, as in `third`.
 struct WordNumber {
   certified::DoubleWord x;
 
@@ -26,7 +27,7 @@ struct WordNumber {
   friend WordNumber operator-(const WordNumber& a, const WordNumber& b) { return WordNumber(a.x - b.x); }
   friend WordNumber operator*(const WordNumber& a, const WordNumber& b) { return WordNumber(a.x * b.x); }
   friend WordNumber operator/(const WordNumber& a, const WordNumber& b) {
-    if (b.x.hi != 3) throw std::logic_error("found a quotient by another number than 3");
+    if (b.x.hi != 3) throw std::logic_error("found a quotient by a number other than 3");
     return WordNumber(certified::third(a.x));
   }
   friend bool operator<(const WordNumber& a, const WordNumber& b) { return a.x.hi < b.x.hi; }

@@ -12,14 +12,15 @@ namespace nearmiss::proofs {
 
 /// One row of the table of bounds. Numbers are in units of `unit`.
 struct OracleClaim {
-  std::string name;  ///< the constant's, in `file`; after a comma, the quantity, if there are several
+  std::string name;  ///< name of the constant in `file`, followed by a comma and the quantity if there are
+                     ///< several
   std::string file;
   std::string unit;
   double claimed;
-  std::string method;  ///< "Gappa", or the argument that stands in for it
-  /// The least that is proven to be enough, at most `claimed`.
+  std::string method;  ///< "Gappa", or the argument that replaces it
+  /// The least value that is proven to be enough, at most `claimed`.
   std::function<double()> proven;
-  /// The error that inputs show, exactly, rounded to double; at most what is proven.
+  /// The exact error at given inputs, rounded to double. This error is at most the proven value.
   std::function<double(const Inputs&)> seen;
   /// Inputs with which a search for a witness begins.
   std::function<Inputs(Random&)> draw;

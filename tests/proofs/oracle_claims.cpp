@@ -1,4 +1,4 @@
-// The rounding constants of oracle/, a row each.
+// The rounding constants of oracle/, with a row for each.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,7 @@ Inputs draw_words(Random& random, double size) {
   }
   return in;
 }
-/// Double words of opposite signs whose sum loses some bits.
+/// Draws double words of opposite signs whose sum loses some bits.
 Inputs draw_sum(Random& random) {
   Inputs in = draw_words(random, 1);
   in["b"] = -std::ldexp(in["b"], random.integer(-3, 0));
@@ -48,14 +48,14 @@ Inputs draw_sum(Random& random) {
   return in;
 }
 
-/// Whether components are so small that nothing but underflow counts.
+/// Whether components are so small that only underflow matters.
 bool is_tiny(const Inputs& inputs) {
   return std::all_of(inputs.begin(), inputs.end(), [](const auto& input) {
     return !is_component(input.first) || std::abs(input.second) <= 0x1p-537;
   });
 }
 
-/// Such components.
+/// Draws components for which only underflow matters.
 Inputs draw_tiny(Random& random) {
   Inputs in = draw_vectors(random, "bc");
   for (auto& [name, value] : in)
@@ -70,7 +70,7 @@ Inputs draw_signs(Random& random, const std::string& vectors) {
   return in;
 }
 
-/// Every input drawn from an interval.
+/// Draws each input from its interval.
 std::function<Inputs(Random&)> draw_from(const std::map<std::string, std::pair<double, double>>& ranges) {
   return [ranges](Random& random) {
     Inputs in;

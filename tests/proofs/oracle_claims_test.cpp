@@ -1,4 +1,4 @@
-// The table of bounds: each constant is at least what is proven, and no more has been seen than is proven.
+// The table of bounds: each constant is at least the proven bound, which is at least the largest error seen.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Errors of the filter's arithmetic at given inputs, exactly.
+// The exact errors of the filter's arithmetic at given inputs.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace nearmiss::proofs {
 
-/// The results of templates at inputs: computed in Number, and exactly.
+/// Results of templates at given inputs, computed in Number and exactly.
 ///
-/// Inputs are components of vectors ("b0y"), with the lower halves of double words behind them ("b0y.lo"; 0 where it is
-/// not given), and times t and s.
+/// The inputs are components of vectors ("b0y"), lower halves of double words ("b0y.lo", 0 if not given), and
+/// times t and s.
 template <class Number>
 class ResultsAt {
  public:
@@ -21,7 +21,8 @@ class ResultsAt {
 
   /// The largest |computed - exact| of all results, in units of `unit`.
   [[nodiscard]] double error(const Inputs& inputs, const Rational& unit) const;
-  /// The largest magnitude of anything that has a component of every vector as a factor, likewise.
+  /// The largest magnitude of all results that have a component of every vector as a factor, in units of
+  /// `unit`.
   [[nodiscard]] double reach(const Inputs& inputs, const Rational& unit) const;
 
  private:
@@ -32,13 +33,13 @@ class ResultsAt {
   std::vector<int> results_;
 };
 
-/// The magnitude of component x of a; w of component x of b × c; M.
+/// The magnitude of component x of a; the w of component x of b × c; and M.
 Rational A_of(const Inputs& inputs);
 Rational w_of(const Inputs& inputs);
 Rational M_of(const Inputs& inputs);
 
-/// Components of some vectors in [-1, 1] and two times, of which t is the earlier one. They are of few bits, or of
-/// one size, or of any, and the lower halves of `words` are within half an ulp.
+/// Draws components of some vectors in [-1, 1] and two times, of which t is the earlier one. The components
+/// have few bits, or one magnitude, or any magnitude. Lower halves of `words` are within half an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs

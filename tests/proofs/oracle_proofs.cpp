@@ -16,7 +16,7 @@ namespace {
 
 constexpr double u = 0x1p-53;
 
-/// The largest upper end of some goals; each distinct script is asked once.
+/// The largest upper end of the goals of some scripts.
 double largest_end(const std::set<std::string>& scripts) {
   double largest = 0;
   for (const std::string& script : scripts) largest = std::max(largest, proven_upper_end(script));
@@ -25,7 +25,8 @@ double largest_end(const std::set<std::string>& scripts) {
 
 std::string quotient(const std::string& a, const std::string& b) { return fmt::format("({}) / ({})", a, b); }
 
-/// The most roundings that a share of the bounds has, so that a bound is too small by at most their product.
+/// The largest number of roundings of a share of the bounds. A bound is too small by at most a factor with
+/// this many roundings.
 int most_roundings(const std::vector<Bounded>& results) {
   int most = 0;
   for (const Bounded& each : results)
@@ -43,13 +44,14 @@ int most_roundings(Results results) {
   return most;
 }
 
-/// The factor that makes up for this many roundings of a bound.
+/// The factor that compensates for this many roundings of a bound.
 double proven_growth(int roundings) {
   Factors factors;
   return proven_upper_end(factors.script(quotient("1", factors.product(roundings, u)) + " in ?"));
 }
 
-/// How often H must be added: underflow of what is computed and of the bound, and `more` of the latter.
+/// The number of times that H must be added for underflow in the value and in the bound. The bound has `more`
+/// further products.
 template <class Real>
 double proven_underflow(Results results, Leaves leaves, int more) {
   const ValuePrecision precision = precision_of<Real>();
@@ -75,7 +77,7 @@ double proven_underflow(Results results, Leaves leaves, int more) {
   return largest_end(scripts);
 }
 
-/// A polynomial with plain coefficients, an error and a time of inputs: its `error_near` h.
+/// The `error_near` of a polynomial at h. Its coefficients, its error and h are inputs.
 Traced traced_error_near(Trace& trace) {
   Bernstein<Traced, 3> polynomial;
   for (std::size_t i = 0; i < 3; ++i)
@@ -84,7 +86,7 @@ Traced traced_error_near(Trace& trace) {
   return polynomial.error_near(trace.input("h", 0.5));
 }
 
-/// Roundings of `error_near`; a double word's has two more, those of `upper_halves`.
+/// The number of roundings of `error_near`. Double words have two more, those of `upper_halves`.
 int roundings_near() {
   Trace trace;
   int most = 0;
@@ -127,7 +129,7 @@ double proven_leaf_growth() { return proven_growth(most_roundings(cubic_results<
 double proven_underflow_products() {
   double largest = 0;
   for (const Leaves leaves : {Leaves::rounded_once, Leaves::given_errors}) {
-    // `error_near` has two products more, and the rest of it counts for no more than its error.
+    // `error_near` has two more products. Its other underflow is at most that of its error.
     largest = std::max(largest, proven_underflow<Traced>(weight_results<Traced>, leaves, 2));
     largest = std::max(largest, proven_underflow<Traced>(cubic_results<Traced>, leaves, 0));
     largest = std::max(largest, proven_underflow<Traced>(part_results<Traced>, leaves, 0));

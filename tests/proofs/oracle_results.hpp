@@ -1,4 +1,4 @@
-// Everything that the filter computes from F's and the weights' templates, traced.
+// Traces of everything that the filter computes with the templates of F and of the weights.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace nearmiss::proofs {
 
-/// The coefficients, those on [t, s], and the value at t of a polynomial, each with its bound.
+/// The coefficients of a polynomial, its coefficients on [t, s], and its value at t, each with its bound.
 template <class Real, std::size_t n>
 std::vector<Bounded> results_of(Trace& trace, const certified::Bernstein<Real, n>& polynomial,
                                 Leaves leaves) {

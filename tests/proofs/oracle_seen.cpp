@@ -16,7 +16,7 @@ constexpr double u = 0x1p-53;
 
 }  // namespace
 
-/// The relative error of a product of leaves that are 1, each the rounded value of what an input says, in units of u.
+/// The relative error of a product of rounded leaves 1 - value, one for each input, in units of u.
 double seen_leaves(const Inputs& inputs) {
   Rational exact = 1;
   Rational rounded = 1;
@@ -27,7 +27,8 @@ double seen_leaves(const Inputs& inputs) {
   return ratio(abs(exact - rounded), rounded * Rational(u));
 }
 
-/// The errors' contribution to a product of leaves, over the term that `cross_bound` has for it.
+/// The contribution of the leaves' errors to their product, divided by the term that `cross_bound` has for
+/// it.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));
@@ -36,14 +37,14 @@ double seen_growth(const Inputs& in) {
   return ratio(abs((p + ep) * (q + eq) - p * q), abs(p * eq) + abs(q * ep) + abs(ep * eq));
 }
 
-/// The rounding of t - h, over 2^-54.
+/// The rounding error of t - h, in units of 2^-54.
 double seen_end(const Inputs& in) {
   const Rational exact = Rational(in.at("t")) - Rational(in.at("h"));
   return exact < 0 || exact > 1 ? 0
                                 : ratio(abs(Rational(in.at("t") - in.at("h")) - exact), Rational(0x1p-54));
 }
 
-/// The same of the beginning of a part of a part, over 2^-52.
+/// The rounding error of the beginning of a part of a part, in units of 2^-52.
 double seen_zoom(const Inputs& in) {
   const double b = in.at("b");
   const double e = in.at("e");
@@ -54,7 +55,7 @@ double seen_zoom(const Inputs& in) {
   return !is_in_step ? 0 : ratio(abs(Rational(end) + Rational(zoom_rounding) - exact), Rational(0x1p-52));
 }
 
-/// How far P is from its value at t on [t, t + h], by what `error_near` has for it, where b is exact.
+/// The change of P on [t, t + h] from its value at t, divided by the bound in `error_near`, for exact b.
 double seen_spread(const Inputs& in) {
   const std::array<Rational, 3> b{Rational(in.at("b0")), Rational(in.at("b1")), Rational(in.at("b2"))};
   const Rational h(in.at("h"));
@@ -63,7 +64,7 @@ double seen_spread(const Inputs& in) {
   return h < 0 || h > 1 ? 0 : ratio(abs(moved), 2 * h * slope);
 }
 
-/// By how much a slope of exact coefficients may exceed that of computed ones, over the error.
+/// The amount by which a slope of exact coefficients exceeds that of computed ones, divided by the error.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
@@ -95,7 +96,7 @@ double seen_word_sum(const Inputs& in) {
   const Rational computed = exact_word(word(in, "a") + word(in, "b"));
   return exact == 0 ? 0 : ratio(abs((computed - exact) / exact), Rational(0x1p-103));
 }
-/// Beyond the relative error, in units of the smallest double.
+/// The error beyond the relative error, in units of the smallest double.
 double seen_word_underflow(const Inputs& in) {
   const Rational exact = exact_word(word(in, "a")) * exact_word(word(in, "b"));
   const Rational computed = exact_word(word(in, "a") * word(in, "b"));

@@ -16,7 +16,7 @@ int degree(const Monomial& monomial) {
   return sum;
 }
 
-/// The terms that come of putting leaf + error in the place of each leaf, but those without an error.
+/// Adds the terms that contain an error after each leaf is replaced by leaf + error.
 void add_leaf_errors(const Term& term, const std::vector<std::string>& leaves, Expansion& all) {
   for (std::size_t chosen = 1; chosen < (std::size_t{1} << leaves.size()); ++chosen) {
     Term missed{term.coefficient, term.monomial, 0, 0};
@@ -32,7 +32,9 @@ void add_leaf_errors(const Term& term, const std::vector<std::string>& leaves, E
 std::vector<std::string> leaves_of(const Term& term) {
   std::vector<std::string> leaves;
   for (const auto& [name, power] : term.monomial)
-    if (is_component(name)) leaves.push_back(name);  // of different vectors: each once
+    if (is_component(name))
+      leaves.push_back(name);  // each occurs once, because they belong to different
+                               // vectors
   return leaves;
 }
 
@@ -79,7 +81,7 @@ std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision
     const auto times = [&](const BoundTerm& s, double size) {
       return fmt::format("{} * {}", script_text(s.coefficient), factors.product(s.roundings, size));
     };
-    // Written as products: half of the smallest double is none.
+    // Written as products, because half of the smallest double is not a double.
     const auto underflow = [&](const BoundTerm& s, double size, double of_smallest) {
       return fmt::format("{} * {:a} * {:a}", times(s, size), of_smallest, certified::smallest);
     };
@@ -88,7 +90,7 @@ std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision
     const std::string roundings = fmt::format("{} * ({} - {})", script_text(value.coefficient),
                                               factors.product(value.roundings, precision.roundoff),
                                               factors.product(leaves, precision.roundoff));
-    // What is computed in double words is within (1 + u) of its upper half, which magnitudes are of.
+    // A double word is at most (1 + u) times its upper half, and magnitudes are those of upper halves.
     const std::string halves = factors.product(precision.is_double_word ? degree(monomial) : 0, u);
     const std::string others = fmt::format(
         "{} + {} + {}", times(share(needs.leaves, monomial), 0),

@@ -1,4 +1,4 @@
-// The theorem that a bound of the oracle's filter dominates the errors of the value that it bounds.
+// The theorem that a bound of the oracle's filter is at least the error of its value.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace nearmiss::proofs {
 /// The arithmetic of values; bounds are computed in double.
 struct ValuePrecision {
   double roundoff;   ///< U
-  double underflow;  ///< H, what a product that underflows may miss by, of the smallest double
+  double underflow;  ///< H, the largest error of a product by underflow, in units of the smallest double
   Roundings roundings;
-  bool is_double_word;  ///< magnitudes are those of upper halves
+  bool is_double_word;  ///< if true, magnitudes are those of upper halves
 };
 
 template <class Real>
@@ -33,18 +33,18 @@ struct Bounded {
 
 /// The parts of the error of a value, by monomials in magnitudes and errors of its leaves.
 struct Needs {
-  BoundTerms values;            ///< |terms| in exact arithmetic: roundings multiply them
-  BoundTerms leaves;            ///< what given errors of leaves add, in exact arithmetic
-  BoundTerms underflows;        ///< times H
-  BoundTerms bound;             ///< what the bound offers, but for its own roundings
-  BoundTerms bound_underflows;  ///< what the bound may be too small by, times that of doubles
+  BoundTerms values;            ///< magnitudes of terms in exact arithmetic, which roundings multiply
+  BoundTerms leaves;            ///< contribution of given errors of leaves, in exact arithmetic
+  BoundTerms underflows;        ///< contribution of underflow, in units of H
+  BoundTerms bound;             ///< the bound, without its own roundings
+  BoundTerms bound_underflows;  ///< error of the bound by underflow, in units of H of double
 };
 Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
-/// For each monomial the script whose goal says that the bound's share covers the error's. All of them
-/// together say that |value - exact value| <= error for all leaves and times. A share of the error is
+/// The scripts, one for each monomial. Its goal is that the bound's share is at least the error's share.
+/// Together they prove |value - exact value| <= error for all leaves and times. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + leaves + underflow,
-/// Π (1 + δ) over the roundings of a term, Π (1 + λ) over its leaves where these are rounded once.
+/// with Π (1 + δ) over the roundings of a term, and Π (1 + λ) over its leaves if these are rounded once.
 std::vector<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
 
 }  // namespace nearmiss::proofs

@@ -1,4 +1,4 @@
-// The error bounds of the oracle's filter dominate the errors: for all leaves, sizes and times.
+// The error bounds of the oracle's filter are at least the errors, for all leaves, sizes and times.
 #include <gtest/gtest.h>
 
 #include "tests/proofs/gappa_process.hpp"
@@ -45,7 +45,7 @@ TEST(ProofsOfTheFilter, PartsOfTheStep) {
   expect_proven<TracedWord>(part_results<TracedWord>(trace, Leaves::given_errors));
 }
 
-/// Whether all scripts of all results are proven with each bound multiplied by this.
+/// Whether all scripts of all results are proven if each bound is multiplied by `factor`.
 bool is_proven_with(const std::vector<Bounded>& all, double factor) {
   for (Bounded each : all) {
     each.error = each.error * factor;

@@ -1,4 +1,4 @@
-// The oracle's templates over Traced: what F, the weights and their bounds compute.
+// The oracle's templates over Traced, which record the computation of F, the weights and their bounds.
 #pragma once
 
 #include <cctype>
@@ -9,7 +9,7 @@
 
 namespace nearmiss::proofs {
 
-/// A double word of a traced expression: the same operations, with other errors.
+/// A double word as a traced expression. It has the same operations, with other errors.
 struct TracedWord {
   Traced x;
 
@@ -51,15 +51,15 @@ struct BoundOf<proofs::TracedWord> {
 
 namespace nearmiss::proofs {
 
-/// How the components of a vector differ from exact ones.
+/// The difference between the components of a vector and the exact ones.
 enum class Leaves {
-  exact,         ///< not at all
-  rounded_once,  ///< by a factor of 1 ± U
-  given_errors,  ///< by at most `error`
+  exact,         ///< no difference
+  rounded_once,  ///< a factor of 1 ± U
+  given_errors,  ///< at most `error`
 };
 
-/// A moving vector of inputs: a component is called by the vector, the end of the step and the axis, "a0x"; its
-/// magnitude "Ax", its error "eax".
+/// A moving vector of inputs. A component is named after the vector, the end of the step and the axis: "a0x".
+/// Its magnitude is "Ax", and its error is "eax".
 template <class Real>
 certified::Motion<Real> traced_motion(Trace& trace, char name, Leaves leaves) {
   certified::Motion<Real> motion;

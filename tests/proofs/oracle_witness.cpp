@@ -8,7 +8,7 @@ namespace nearmiss::proofs {
 
 namespace {
 
-/// One input changed.
+/// The inputs with one of them changed.
 Inputs changed(Inputs inputs, const OracleClaim& claim, Random& random) {
   const auto name = std::next(inputs.begin(), random.integer(0, static_cast<int>(inputs.size()) - 1));
   double& value = name->second;

@@ -1,4 +1,4 @@
-// A bound to be proved about an expression.
+// An expression whose rounding error is to be bounded.
 #pragma once
 
 #include <memory>
@@ -9,34 +9,35 @@
 
 namespace nearmiss::proofs {
 
-/// A vector x(t) = x + t v and bounds of what it stands for, in units of B, for every component.
+/// A vector x(t) = x + t v, with bounds of the exact components in units of B.
 struct BoundedMotion {
   Moving<Traced> vector;
-  double start = 1, end = 1;  ///< of |x(0)|, |x(1)|, and so of all |x(t)| the larger one
-  double velocity = 1;        ///< of |v|
+  double start = 1, end = 1;  ///< bounds of |x(0)| and |x(1)|; the larger one bounds all |x(t)|
+  double velocity = 1;        ///< bound of |v|
 };
 
-/// An exact value within [lowest, highest] B^degree.
+/// An expression whose exact value is in [lowest, highest] B^degree.
 struct BoundedExpression {
   Traced expression;
   double lowest, highest;
   int degree;
 };
 
-/// How far the computed value of an expression, or the computed difference of the two sides of a comparison,
-/// is from the exact one, for all inputs within bounds.
+/// The error of an expression, or of the difference of the two sides of a comparison, for all inputs within
+/// bounds.
 ///
-/// Everything in it is homogeneous, so that one proof for B = 1 is a proof for every B: a power of two
-/// changes no rounding, and relative errors do not depend on the place within a binade.
+/// Everything is homogeneous, so a proof for B = 1 is a proof for every B: a power of two changes no
+/// rounding, and the bound of relative errors is the same everywhere in a binade.
 struct Problem {
-  std::shared_ptr<Trace> trace;  ///< of the inputs
+  std::shared_ptr<Trace> trace;  ///< trace of the inputs
   Traced time;
-  std::vector<BoundedMotion> motions;     ///< of coordinates that are inputs, or with x and v as inputs
+  std::vector<BoundedMotion> motions;     ///< motions whose coordinates are inputs, or whose x and v are
+                                          ///< inputs
   std::vector<BoundedExpression> inputs;  ///< exact numbers
-  /// Facts about expressions of these that interval arithmetic does not see.
+  /// Facts about expressions of the inputs that interval arithmetic cannot derive.
   std::vector<BoundedExpression> facts;
-  Traced left, right;  ///< the error of left - right, where the subtraction itself is not rounded
-  int degree = 0;      ///< in units of B^degree
+  Traced left, right;  ///< the problem is the error of left - right; the subtraction itself is not rounded
+  int degree = 0;      ///< the error is in units of B^degree
 };
 
 }  // namespace nearmiss::proofs

@@ -1,4 +1,4 @@
-// Expressions as a list of instructions without duplicates.
+// Converts expressions to a list of instructions without duplicates.
 #pragma once
 
 #include <algorithm>
@@ -19,16 +19,16 @@ namespace nearmiss::proofs {
 /// One operation on results of earlier instructions.
 struct Instruction {
   Operation operation;
-  int left = -1, right = -1;  ///< indices of its operands; -1 if there is none
+  int left = -1, right = -1;  ///< indices of the operands; -1 without an operand
   double constant = 0;        ///< value of a constant
-  std::string name{};         ///< of an input
+  std::string name{};         ///< name of an input
 };
 
-/// Instructions for any number of expressions, operands first. The same operation on the same operands has
-/// the same result, and is one instruction, whether the template wrote it once or twice.
+/// Instructions for any number of expressions, operands first. The same operation on the same operands is one
+/// instruction, even if the template computes it several times.
 class Program {
  public:
-  /// The index of an expression's result; its instructions are added where they are not there yet.
+  /// The index of an expression's result. Adds the instructions that the program does not have yet.
   int add(const Traced& expression) { return add(*expression.node()); }
   int add(const Node& node);
 
@@ -56,7 +56,7 @@ inline int Program::add(const Node& node) {
   return place->second;
 }
 
-/// The result of one instruction, from those before it and its input.
+/// The result of one instruction, computed from earlier results and its input.
 template <class Number>
 Number result_of(const Instruction& one, const std::vector<Number>& results,
                  const std::map<std::string, Number>& inputs, const Number& epsilon) {
@@ -95,8 +95,8 @@ Number result_of(const Instruction& one, const std::vector<Number>& results,
   throw std::domain_error("no exact square root");
 }
 
-/// The results of all instructions with `Number`'s arithmetic: rounded for a floating-point number, exact for
-/// a rational one. Those of `given` instructions are given.
+/// The results of all instructions in the arithmetic of `Number`: rounded for floating-point numbers, exact
+/// for rational ones. `given` has the results of some instructions.
 template <class Number>
 std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
                              const Number& epsilon, const std::map<int, Number>& given = {}) {

@@ -1,4 +1,4 @@
-// proofs_table: the table of claims about rounding errors; looks for witnesses anew.
+// proofs_table: prints the table of claims about rounding errors, and searches for new witnesses.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,8 @@ using namespace nearmiss::proofs;
 
 namespace {
 
-/// The largest error of a claim among known witnesses, its own and those of others with the same inputs.
+/// The known witness with the largest error of a claim, among its own and those of other claims with the same
+/// inputs.
 std::optional<Witness> best_known(const CcdClaim& claim, const std::map<std::string, Witness>& witnesses) {
   const Measure measure(claim);
   std::optional<Witness> best;
@@ -25,7 +26,7 @@ std::optional<Witness> best_known(const CcdClaim& claim, const std::map<std::str
   return best;
 }
 
-/// Looks for a larger error of each claim, from the witnesses that are known.
+/// Searches for a larger error of each claim, starting at the known witnesses.
 void search_all(const std::vector<CcdClaim>& claims, std::map<std::string, Witness>& witnesses,
                 double seconds, std::uint64_t seed) {
   for (const CcdClaim& claim : claims) {
@@ -35,7 +36,7 @@ void search_all(const std::vector<CcdClaim>& claims, std::map<std::string, Witne
   }
 }
 
-/// The same for oracle/, in steps.
+/// The same search for oracle/, with a number of steps instead of a time.
 void search_all(const std::vector<OracleClaim>& claims, std::map<std::string, Witness>& witnesses, int steps,
                 std::uint64_t seed) {
   std::uint64_t stream = 0;
@@ -49,7 +50,7 @@ void search_all(const std::vector<OracleClaim>& claims, std::map<std::string, Wi
   }
 }
 
-/// A line a row: whether it holds, its name, its constant, what is wrong; separated by tabs.
+/// Prints one line for each row, separated by tabs: whether it holds, its name, its constant, and its faults.
 void check_all(const std::map<std::string, Witness>& witnesses,
                const std::map<std::string, Witness>& oracle_witnesses) {
   const auto show = [](std::string_view name, std::string_view constant,
@@ -63,7 +64,7 @@ void check_all(const std::map<std::string, Witness>& witnesses,
     show(claim.name, claim.constant, faults(claim, witnesses.at(std::string(claim.name)), prover));
 }
 
-/// Those of a file; none where it is not there yet.
+/// The witnesses in a file; none if the file does not exist yet.
 std::map<std::string, Witness> known_witnesses(const std::string& file) {
   if (!std::filesystem::exists(file)) return {};
   return read_witnesses(file);
@@ -119,7 +120,8 @@ void run(const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The table of claims about rounding errors: what is claimed, proven, and seen");
+  CLI::App app(
+      "Print the table of claims about rounding errors: the claimed, the proven and the seen values");
   Request request;
   add_options(app, request);
   CLI11_PARSE(app, argc, argv);

@@ -1,4 +1,4 @@
-// Every claim of the table is proven, and what proves them can fail.
+// Every claim of the table is proven, and the proofs can fail.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(ProofsClaims, HaveNamesOfTheirOwnAndAWitnessEach) {
   EXPECT_EQ(names, seen);
 }
 
-// Gappa would prove less if its script meant less than the formula.
+// If a script left out a part of its formula, Gappa could prove a smaller bound.
 TEST(ProofsClaims, HaveNoProofOfLessThanAnErrorThatIsThere) {
   Prover prover;
   for (const CcdClaim& claim : ccd_claims()) {

@@ -68,7 +68,7 @@ void Script::write_leaf(int index, const Leaf& leaf) {
   suppose(fmt::format("{} {} {}", computed(index), compared, exact(index)), -leaf.error, leaf.error);
 }
 
-// A constant with more bits than the arithmetic has is rounded once.
+// A constant that has more bits than the arithmetic is rounded once.
 void Script::write_constant(int index, double value) {
   define(exact(index), dyadic(value));
   int exponent = 0;
@@ -79,7 +79,7 @@ void Script::write_constant(int index, double value) {
           std::ldexp(1, -arithmetic_.bits));
 }
 
-// The result of an operation: rounded, and off by what underflow may add.
+// Writes the result of an operation with its rounding error, and with its error by underflow.
 void Script::rounded(int index, const std::string& operation, const std::string& result) {
   inexact_.insert(index);
   const bool may_underflow = operation != "add" && operation != "sub" && arithmetic_.underflow;
@@ -94,7 +94,7 @@ void Script::rounded(int index, const std::string& operation, const std::string&
   }
 }
 
-// The result of an operation that is exact.
+// Writes the result of an exact operation.
 void Script::unrounded(int index, const std::string& result) {
   const auto is_exact = [&](int operand) { return operand < 0 || !inexact_.contains(operand); };
   if (is_exact(program_[index].left) && is_exact(program_[index].right)) return;
@@ -142,7 +142,7 @@ void Script::write_operation(int index) {
     default:
       throw std::runtime_error("this expression needs a lemma");
   }
-  // Gappa has no quotient with a relative error: a new number stands for it.
+  // Gappa has no quotient with a relative error, so a new number stands for the quotient.
   define(exact(index), fmt::format("{} / {}", e, e2));
   const std::string quotient = fmt::format("{} / {}", c, c2);
   if (arithmetic_.vectors_alone) return unrounded(index, quotient);

@@ -10,29 +10,29 @@
 
 namespace nearmiss::proofs {
 
-/// A number as Gappa reads it, exactly: 3 is "3b0".
+/// A number in Gappa's exact notation: 3 is "3b0".
 std::string dyadic(double number);
 /// "[lowest, highest]".
 std::string interval(double lowest, double highest);
 
-/// A script's hypotheses about a number that it does not compute.
+/// Hypotheses about a number that a script does not compute.
 struct Leaf {
-  double lowest, highest;  ///< of the exact value
+  double lowest, highest;  ///< range of the exact value
   enum class ErrorKind : std::uint8_t { none, relative, absolute } kind = ErrorKind::none;
-  double error = 0;  ///< at most this
+  double error = 0;  ///< bound of the error
 };
 
-/// The instructions of a program as Gappa sees them: the exact value of instruction 7 is e7, the computed one
-/// c7 (or e7 where it is exact).
+/// The instructions of a program in a Gappa script. The exact value of instruction 7 is e7, and the computed
+/// one c7 (or e7 if the instruction is exact).
 class Script {
  public:
   Script(const Program& program, const Arithmetic& arithmetic, std::map<int, Leaf> leaves,
          std::map<int, Leaf> facts)
       : program_(program), arithmetic_(arithmetic), leaves_(std::move(leaves)), facts_(std::move(facts)) {}
 
-  /// Writes an instruction and all that it needs, down to the leaves.
+  /// Writes an instruction and all instructions that it depends on, down to the leaves.
   void write(int index);
-  /// Calls d the error of the difference of two instructions that are written; the subtraction is exact.
+  /// Defines d as the error of the difference of two written instructions. The subtraction is exact.
   void difference(int left, int right);
 
   [[nodiscard]] std::string computed(int index) const;
@@ -40,7 +40,7 @@ class Script {
   [[nodiscard]] std::vector<std::string> results() const;
   static std::string exact(int index);
 
-  /// The whole, with its goals.
+  /// The whole script with its goals.
   [[nodiscard]] std::string text(const std::vector<std::string>& goals) const;
 
  private:

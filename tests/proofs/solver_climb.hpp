@@ -1,4 +1,4 @@
-// Random search and hill climb for what comes nearest to a bound, with numbers of few bits.
+// Random search and hill climb for the problem that comes nearest to a bound, with numbers of few bits.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,15 @@
 
 namespace nearmiss::proofs {
 
-/// How much is searched; a pure function of the seed.
+/// The effort of a search. The search is a pure function of the seed.
 struct ClimbEffort {
   int rounds;
-  int steps;  ///< of each round, after a quarter of them at random
+  int steps;  ///< steps of each round, of which the first quarter is random
   std::uint64_t seed = 1;
 };
 
-/// The largest value(problem) found. `draw(random)` makes a problem, `change(random, problem)` another one near it.
+/// The largest value(problem) found. `draw(random)` makes a problem, and `change(random, problem)` makes
+/// another problem near it.
 template <class Draw, class Change, class Value>
 double highest(const ClimbEffort& climb, const Draw& draw, const Change& change, const Value& value) {
   double highest = 0;
@@ -36,13 +37,13 @@ double highest(const ClimbEffort& climb, const Draw& draw, const Change& change,
   return highest;
 }
 
-/// The nearest number of the thread's precision.
+/// The nearest number in the thread's precision.
 inline double snapped(double x) { return static_cast<double>(MpfrFloat(x)); }
 
-/// u of a number of bits.
+/// The roundoff u for a number of bits.
 inline double roundoff(int bits) { return std::ldexp(1.0, -bits); }
 
-/// A number within ±size: any, a small one, 0, or an end.
+/// A number in [-size, size]: any number, a small number, 0, or an end.
 inline double draw_number(Random& random, double size) {
   switch (random.integer(0, 9)) {
     case 0:
@@ -56,7 +57,7 @@ inline double draw_number(Random& random, double size) {
   }
 }
 
-/// A number near another, or a new one.
+/// A number near x, or a new one.
 inline double changed_number(Random& random, double x, double size, int bits) {
   switch (random.integer(0, 5)) {
     case 0:

@@ -1,5 +1,5 @@
-// The steps of the proof of solve_cubic, tried where a search comes near them. The coefficients are taken as
-// exact, so that what is left is the solver: the nodes' m and Horner's h.
+// Searches for problems that come near the bounds in the proof of solve_cubic. The coefficients are taken as
+// exact, so only the errors of the solver remain: m of the nodes, and h of Horner's rule.
 #include "ccd/cubic.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// a, b, c and d, numbers that the thread's precision has, within 6, 18, 18 and 6.
+/// The coefficients a, b, c and d: numbers in the thread's precision, of magnitudes at most 6, 18, 18 and 6.
 using Coefficients = std::array<double, 4>;
 constexpr Coefficients sizes{6, 18, 18, 6};
 
@@ -32,8 +32,8 @@ std::vector<double> nodes_of(const Coefficients& k) {
   return nodes;
 }
 
-/// What must be looked at of the interval between two nodes: its ends and the exact critical points in it. (Double is
-/// far finer than the numbers of few bits that are on trial.)
+/// The places to check in the interval between two nodes: its ends, and the exact critical points in it.
+/// (Double is far finer than the tested numbers of few bits.)
 std::vector<double> places_between(const Coefficients& k, double left, double right) {
   CandidateTimes<double, 2> critical;
   solve_quadratic(critical, 3 * k[0], 2 * k[1], k[2]);
@@ -45,7 +45,7 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// How far F leaves the range of its values at two places on the outside of them, at most.
+/// The largest distance of F, at a place between two places, from the range of its values at these two.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -59,7 +59,7 @@ double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   return most;
 }
 
-/// m that is seen, over the bound for these coefficients.
+/// The seen value of m, divided by its bound for these coefficients.
 double nodes_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
@@ -74,7 +74,7 @@ Coefficients drawn(Random& random) {
   Coefficients k{};
   for (std::size_t i = 0; i < 4; ++i) k[i] = snapped(draw_number(random, sizes[i]));
   if (random.one_in(2)) return k;
-  // Two critical points, near each other or not.
+  // Makes two critical points, near each other or not.
   const double t = random.uniform();
   const double other =
       random.one_in(2) ? t + random.uniform(-1, 1) * random.log_uniform(1e-6, 1) : random.uniform();
@@ -111,7 +111,7 @@ TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
 }
 
 TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
-  // u = 2^-4 is too large for the formula of second order, which has no meaning there; the first one is enough.
+  // For u = 2^-4, the full formula has no meaning, because u is too large. The leading terms are enough.
   constexpr int bits = 4;
   const MpfrFloat::PrecisionScope precision(bits);
   std::vector<double> all{0};
@@ -120,7 +120,7 @@ TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
       for (const int sign : {1, -1}) all.push_back(sign * std::ldexp(i, exponent - 3));
   double worst = 0;
   for (const double a : all) {
-    if (a < 0) continue;  // -F is the same
+    if (a < 0) continue;  // -F gives the same result
     for (const double b : all) {
       for (const double c : all) {
         const Coefficients k{a, b, c, 0};
@@ -140,13 +140,13 @@ TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
   EXPECT_GT(worst, 0.01);
 }
 
-/// h: Horner's rule on coefficients within `sizes`.
+/// The bound h of Horner's rule for coefficients within `sizes`.
 double horner(double u) {
   return 6 * growth(u, 6) + 18 * growth(u, 5) + 18 * growth(u, 3) + 6 * growth(u, 1);
 }
 
-/// How much nearer to 0 than F̂ at both nodes of an interval F comes between them, over h + m. A root would be
-/// missed where that is all of |F̂|.
+/// The amount by which F between two nodes comes nearer to 0 than F̂ at both nodes, divided by h + m. If this
+/// amount reached |F̂|, a root could be missed.
 double nearer_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);
@@ -171,7 +171,8 @@ TEST(ProofsSolverCubic, FComesNoNearerToZeroBetweenNodesThanTheBound) {
   }
 }
 
-/// The largest |F̂| at a returned time, over a μ that is what neighbouring numbers and steps that change nothing ask for.
+/// The largest |F̂| at a returned time, divided by the μ that neighbouring numbers and ineffective steps
+/// require.
 double residual_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const double mu = snapped((72 * u + horner(u)) * (1 + 16 * u));

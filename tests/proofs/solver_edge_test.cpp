@@ -1,4 +1,5 @@
-// The claim of vertex_edge about ψ: from any time, F_0ij rises by no more than the bound on the way to a candidate.
+// The claim of vertex_edge about ψ: on the way from any time to a candidate, F_0ij rises by at most the
+// bound.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +15,8 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// x_0i (within 2 and 1), x_ji (within 1) and S: numbers that the thread's precision has, taken as exact.
+/// The inputs x_0i (position within 2, velocity within 1), x_ji (within 1) and S. They are numbers in the
+/// thread's precision, taken as exact.
 struct EdgeProblem {
   std::array<double, 12> xv;
   double S;
@@ -60,8 +62,8 @@ struct Checkpoint {
   double F;
 };
 
-/// 0, 1, all candidates of cases 2 and 4 as they are computed, and all checkpoints where the exact F turns, in order: between
-/// two of them F rises or falls. (Double is far finer than the numbers of few bits that are on trial.)
+/// The times 0 and 1, all computed candidates of cases 2 and 4, and all times at which the exact F turns, in
+/// order. Between two of them, F is monotonic. (Double is far finer than the tested numbers of few bits.)
 std::vector<Checkpoint> checkpoints_of(const EdgeProblem& p, double rho) {
   std::vector<Checkpoint> checkpoints;
   const auto add = [&](double t, bool candidate) { checkpoints.push_back({t, candidate, 0}); };
@@ -88,7 +90,7 @@ std::vector<Checkpoint> checkpoints_of(const EdgeProblem& p, double rho) {
   return checkpoints;
 }
 
-/// How much F rises from a place to the nearest candidate on one side, at most on the way.
+/// The largest rise of F on the way from a checkpoint to the nearest candidate on one side.
 template <class Iterator>
 double rise_to_candidate(Iterator from, Iterator end) {
   double top = from->F;
@@ -99,7 +101,8 @@ double rise_to_candidate(Iterator from, Iterator end) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// The largest rise to the better of both sides, over the bound, with coefficients below ρ dropped.
+/// The largest rise to a candidate, on the side where it is smaller, divided by the bound. Coefficients below
+/// ρ are dropped.
 double rise_ratio(const EdgeProblem& p, int bits, double rho) {
   const auto checkpoints = checkpoints_of(p, rho);
   double rise = 0;
@@ -121,8 +124,8 @@ double highest_rise(int bits, double rho, const ClimbEffort& climb) {
   return found;
 }
 
-// With few bits u^½ is of the size of the bound, 470 u, with many far above it: where an error had its root taken, the
-// ratio would grow with the bits as u^-½ does, by 2^12 from 8 to 32.
+// With few bits, u^½ has the size of the bound, 470 u; with many bits, it is far larger. If an error had its
+// root taken, the ratio would grow with the bits like u^-½, by 2^12 from 8 to 32 bits.
 TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   for (const int bits : {8, 11, 16, 24, 32}) {
     const double found = highest_rise(bits, 2 * roundoff(bits), {.rounds = 5, .steps = 2500});
@@ -131,7 +134,7 @@ TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   }
 }
 
-// ρ as the paper has it, 3 ε^½, where what is dropped is far more than all roundings.
+// The paper's ρ, 3 ε^½. The dropped coefficients are far larger than all roundings.
 TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
   for (const int bits : {16, 24, 32}) {
     const double found = highest_rise(bits, 3 * std::sqrt(2 * roundoff(bits)), {.rounds = 5, .steps = 2500});
@@ -140,8 +143,9 @@ TEST(ProofsSolverEdge, FRisesByWhatIsDropped) {
   }
 }
 
-// constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. The largest s · (d × e) squared over signs s is
-// d·d (3 e·e - (s·e)²), which is convex in e: the corners of the cube decide.
+// constraints.hpp: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞ for d at right angles to e. The square of the largest s · (d × e)
+// over signs s is d·d (3 e·e - (s·e)²). This square is convex in e, so checking the corners of the cube is
+// enough.
 TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
   const auto corner = [](int i) {
     return Vector3<double>((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
@@ -163,8 +167,8 @@ TEST(ProofsSolverEdge, RootEightIsEnoughForS) {
   EXPECT_GT(largest, 2.8);
 }
 
-/// A vertex that is within R of an edge, at a time when the edge is not short, with numbers that the thread's precision
-/// has; nothing where rounding puts it farther away.
+/// A vertex within R of an edge at some time, with numbers in the thread's precision. Nothing if rounding
+/// moves the vertex farther away.
 std::optional<EdgeProblem> within_R(Random& random, double R) {
   EdgeProblem p = drawn(random);
   const auto edge = p.moving<double>(6);

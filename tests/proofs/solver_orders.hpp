@@ -1,5 +1,5 @@
-// The proofs of the solvers in full, for B = 1 and operations that err by u at most; ccd/ has the same
-// to first order in comments, and closed forms above it.
+// The full formulas of the solvers' proofs, for B = 1 and operations with relative errors of at most u.
+// Comments in ccd/ have the same formulas to first order, and the code has closed forms above them.
 #pragma once
 
 namespace nearmiss::proofs {
@@ -11,14 +11,14 @@ Number power(const Number& x, int k) {
   return all;
 }
 
-/// (1 + u)^k - 1.
+/// The growth (1 + u)^k - 1.
 template <class Number>
 Number growth(const Number& u, int k) {
   return power(u + Number(1), k) - Number(1);
 }
 
-/// `solve_quadratic` with a leading coefficient that is exact, or itself rounded once (a cubic's 3a): by how much
-/// c' differs from c, how much θ is, and |t' - t| for t' in [0, 1] or t in [0, 1].
+/// Errors of `solve_quadratic` with a leading coefficient that is exact, or rounded once (a cubic's 3a): the
+/// relative difference of c' from c, θ, and |t' - t| if t' or t is in [0, 1].
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;
@@ -29,14 +29,15 @@ struct QuadraticErrors {
         time(factor / (Number(1) - factor)) {}
 };
 
-/// F with computed coefficients, and by Horner's rule, against F: E of the proof of `solve_cubic`.
+/// E in the proof of `solve_cubic`: the error of F with computed coefficients and Horner's rule.
 template <class Number>
 Number cubic_evaluation(const Number& u) {
   return growth(u, 21) * Number(6) + growth(u, 20) * Number(18) + growth(u, 15) * Number(18) +
          growth(u, 9) * Number(6);
 }
 
-/// m of the proof, for coefficients of at most a, b and c: twice ½ |F''| |t' - t|², and the change of c.
+/// m in the proof, for coefficients of magnitudes at most a, b and c: twice ½ |F''| |t' - t|², plus the
+/// change of c.
 template <class Number>
 Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Number& c) {
   const QuadraticErrors<Number> errors(u, true);
@@ -44,13 +45,14 @@ Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Numb
   return c * errors.constant + second * errors.time * errors.time;
 }
 
-/// Of `vertex_edge`: bounds of the components of x_0i × x_ji, and their errors, without those of the roots.
+/// Bounds for `vertex_edge`: of the coefficients of x_0i × x_ji, and of their errors, without the errors of
+/// the roots.
 template <class Number>
 struct EdgeBounds {
   Number a, b, c, error;
 };
 
-/// With vectors that are rounded, or exact (as k tells: roundings of a, b and c).
+/// The bounds for rounded or exact vectors. k_a, k_b and k_c are the numbers of roundings of a, b and c.
 template <class Number>
 EdgeBounds<Number> edge_bounds(const Number& u, int k_a, int k_b, int k_c) {
   return {growth(u, k_a) * Number(2) + Number(2), growth(u, k_b) * Number(6) + Number(6),
@@ -58,18 +60,18 @@ EdgeBounds<Number> edge_bounds(const Number& u, int k_a, int k_b, int k_c) {
           growth(u, k_a) * Number(2) + growth(u, k_b) * Number(6) + growth(u, k_c) * Number(4)};
 }
 
-/// 2Δ, but for what is dropped and for the error of x_ji.
+/// 2Δ, without the dropped coefficients and the error of x_ji.
 template <class Number>
 Number edge_difference(const Number& u, const EdgeBounds<Number>& bounds) {
   const QuadraticErrors<Number> errors(u, false);
   return (bounds.error + bounds.c * errors.constant) * Number(6);
 }
 
-/// The rise, for a threshold S: half of r, and the rate times the error of a time.
+/// The rise for a threshold S: half of r, plus the rate times the error of a time.
 template <class Number>
 Number edge_rise(const Number& u, const EdgeBounds<Number>& bounds, const Number& S) {
   const QuadraticErrors<Number> errors(u, false);
-  // A sum of three components, each with the error of what is added before.
+  // The error of a sum of three components, with the errors of the partial sums.
   const auto sum_error = [&u](const Number& x) {
     const Number first = x * u * Number(2);
     return first + (x * Number(3) + first) * u;

@@ -1,4 +1,4 @@
-// The closed forms of ccd/ against all orders of u, on all of [0, 2^-10], in exact arithmetic.
+// Compares the closed forms of ccd/ with all orders of u, on all of [0, 2^-10], in exact arithmetic.
 #include "tests/proofs/solver_orders.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 const RationalFunction u = RationalFunction::variable();
 const Fraction largest(1, 1024);
-/// The share of underflow: the closed forms have 1 u for it.
+/// The share of underflow, for which the closed forms have 1 u.
 const RationalFunction underflow = u * Fraction(9, 10);
 
 bool holds(const RationalFunction& less, const RationalFunction& more) {
@@ -51,7 +51,7 @@ TEST(ProofsSolverOrders, CubicResidualHasAllOrders) {
   EXPECT_TRUE(holds(cubic_evaluation(u) + nodes_of_F() + underflow, cubic_residual(u)));
 }
 
-// u is ε: for every rounding mode.
+// u stands for ε, so that the bounds hold in every rounding mode.
 TEST(ProofsSolverOrders, CullingHasAllOrders) {
   EXPECT_TRUE(holds(cubic_evaluation(u) + underflow, u * evaluation_error));
   EXPECT_TRUE(holds(nodes_of_F() + underflow, u * node_error));
@@ -59,12 +59,12 @@ TEST(ProofsSolverOrders, CullingHasAllOrders) {
   const Fraction root3(1732050807568878, 1000000000000000);
   const RationalFunction normal = growth(u, 14) * 6 + 6;
   const RationalFunction edges = growth(u, 6) * 6 + 6;
-  const RationalFunction W = u * 36 + 1;  // 35 u, and what is of second order in form_bound
+  const RationalFunction W = u * 36 + 1;  // 35 u, plus the second order of form_bound
   EXPECT_TRUE(
       holds(normal * edges * W * power(u + 1, 11) * root3 - RationalFunction(root3 * 36), u * spread_error));
 }
 
-// Linear in S, so that S = 0 and the coefficient of S decide.
+// Both sides are linear in S, so checking S = 0 and the coefficient of S is enough.
 TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
   const auto bounds = edge_bounds(u, 10, 9, 4);
   const auto needed = [&](const RationalFunction& S) {
@@ -76,19 +76,20 @@ TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
   EXPECT_TRUE(holds(needed(1) - needed(0), psi(1) - psi(0)));
 }
 
-// Steps (2) and (3) of the proof of solve_cubic, with h of Horner's rule and coefficients of at most 6, 18, 18, 6:
-// Bernstein coefficients, neighbouring numbers and steps that change nothing ask less of μ than the nodes do.
+// Steps (2) and (3) of the proof of solve_cubic, with h of Horner's rule and coefficients of at most 6, 18,
+// 18, 6. Bernstein coefficients, neighbouring numbers and ineffective steps require a smaller μ than the
+// nodes.
 TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
-  const RationalFunction scale = power(u + 1, 15);  // of computed coefficients
+  const RationalFunction scale = power(u + 1, 15);  // growth of computed coefficients
   const RationalFunction h =
       (growth(u, 6) * 6 + growth(u, 5) * 18 + growth(u, 3) * 18 + growth(u, 1) * 6) * scale;
   const RationalFunction bernstein = (u * 72 + u * u * 18) * scale / 3;
   EXPECT_TRUE(holds(bernstein, nodes_of_F()));
   const RationalFunction clearance = (growth(u, 3) * 48 + u * 10) * scale;
   EXPECT_TRUE(holds(clearance, h));
-  // Neighbours are 2u apart; the smaller of both |F̂| is half of what F̂ changes by.
+  // Neighbouring numbers are 2u apart. The smaller |F̂| is at most half of the change of F̂.
   EXPECT_TRUE(holds(u * 72 * scale + h, cubic_residual(u)));
-  // |F̂| = |step| |slope|, both rounded; the slope is 3a t² + 2b t + c, with an error of at most 300 u.
+  // |F̂| = |step| |slope|, with both rounded. The slope is 3a t² + 2b t + c, with an error of at most 300 u.
   EXPECT_TRUE(holds(u * (u * 300 + 72) * scale * power(u + 1, 3), cubic_residual(u)));
 }
 

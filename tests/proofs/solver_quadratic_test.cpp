@@ -1,4 +1,5 @@
-// The quadratic solver's computed times are exact roots but for a factor, of a polynomial with one c'.
+// The quadratic solver's computed times are, up to a factor near 1, exact roots of a polynomial with a
+// changed constant c'.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,10 +17,11 @@ using WideReal = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<300, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;
 
-/// a t² + b t + c, numbers that the thread's precision has.
+/// The coefficients of a t² + b t + c, numbers in the thread's precision.
 using QuadraticCoefficients = std::array<double, 3>;
 
-/// The c' that the rounding of b² and of 4ac makes of c; for all products of doubles here WideReal is exact.
+/// The constant c' that results from c by the rounding of b² and 4ac. WideReal is exact for all products of
+/// doubles here.
 WideReal constant_of_roots(const QuadraticCoefficients& p) {
   const auto [a, b, c] = p;
   const MpfrFloat square = MpfrFloat(b) * MpfrFloat(b);
@@ -31,8 +33,8 @@ WideReal constant_of_roots(const QuadraticCoefficients& p) {
   return c * of_product * of_square;
 }
 
-/// How far the solver is from what its comment says, over the bounds: c' from c, and roots of a t² + b t + c' in [0, 1]
-/// from returned times; more than 1 is a refutation.
+/// The errors of the solver, divided by the bounds in its comment: of c' relative to c, and of returned times
+/// relative to the roots of a t² + b t + c' in [0, 1]. A value above 1 refutes a bound.
 struct Distances {
   double constant = 0;
   double factor = 0;
@@ -42,7 +44,7 @@ Distances distances(const QuadraticCoefficients& p, int bits) {
   const QuadraticErrors<double> errors(roundoff(bits), false);
   const auto [a, b, c] = p;
   Distances all;
-  if (a == 0) return all;  // linear: one rounding
+  if (a == 0) return all;  // a linear equation has only one rounding
   const WideReal changed = constant_of_roots(p);
   if (c != 0) all.constant = std::abs(static_cast<double>(changed / c - 1)) / errors.constant;
   const WideReal disc = WideReal(b) * b - 4 * WideReal(a) * changed;
@@ -55,7 +57,7 @@ Distances distances(const QuadraticCoefficients& p, int bits) {
     const auto apart = [&](const WideReal& time) {
       return static_cast<double>(root == 0 ? WideReal(abs(time)) : WideReal(abs(time / root - 1)));
     };
-    double nearest = apart(1);  // t = 1 stands for a root that comes out beyond
+    double nearest = apart(1);  // t = 1 stands for a root that is computed as larger than 1
     for (const MpfrFloat& t : times) nearest = std::min(nearest, apart(WideReal(static_cast<double>(t))));
     all.factor = std::max(all.factor, nearest / errors.factor);
   }
@@ -92,7 +94,7 @@ TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
   EXPECT_GT(worst.factor, 0.1);
 }
 
-/// The largest of one distance that is found.
+/// The largest value of one distance that the search finds.
 double highest_distance(int bits, double Distances::*which) {
   const MpfrFloat::PrecisionScope precision(bits);
   const auto rounded = [](QuadraticCoefficients p) {

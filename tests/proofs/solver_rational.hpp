@@ -1,4 +1,4 @@
-// Rational functions of the roundoff u, and when one is never above another.
+// Rational functions of the roundoff u, and a test that one is never above another.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace nearmiss::proofs {
 
 using Fraction = boost::multiprecision::cpp_rational;
 
-/// A polynomial, from the constant coefficient upwards.
+/// The coefficients of a polynomial, from the constant upwards.
 using FractionPolynomial = std::vector<Fraction>;
 
 inline FractionPolynomial sum(FractionPolynomial a, const FractionPolynomial& b, const Fraction& factor = 1) {
@@ -26,7 +26,8 @@ inline FractionPolynomial product(const FractionPolynomial& a, const FractionPol
   return c;
 }
 
-/// A polynomial on [0, end] lies between the smallest and the largest of these.
+/// The Bernstein coefficients of a polynomial on [0, end]. There its values lie between the smallest and the
+/// largest of them.
 inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, const Fraction& end) {
   const std::size_t degree = p.size() - 1;
   FractionPolynomial all(p.size());
@@ -41,8 +42,8 @@ inline FractionPolynomial bernstein_coefficients(const FractionPolynomial& p, co
   return all;
 }
 
-/// Whether these show that a polynomial is nowhere on [0, end] negative, or everywhere positive. (False says
-/// nothing.)
+/// Whether the Bernstein coefficients show that a polynomial is nowhere negative, or everywhere positive, on
+/// [0, end]. (False proves nothing.)
 inline bool is_nonnegative(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b >= 0; });
 }
@@ -50,8 +51,7 @@ inline bool is_positive(const FractionPolynomial& p, const Fraction& end) {
   return std::ranges::all_of(bernstein_coefficients(p, end), [](const Fraction& b) { return b > 0; });
 }
 
-/// A quotient of polynomials, with the operations that the formulas of ccd/solver_errors.hpp and those of the
-/// tests need.
+/// A quotient of polynomials, with the operations for the formulas of ccd/solver_errors.hpp and of the tests.
 class RationalFunction {
  public:
   RationalFunction(int constant) : numerator_{constant}, denominator_{1} {}

@@ -1,4 +1,4 @@
-// A scalar that records what is computed with it, so that a template writes down its own formula.
+// A scalar that records the operations on it, so that a template writes down its own formula.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,12 @@
 
 namespace nearmiss::proofs {
 
-/// A node of an expression. Each operation but the first three and `negate`, `absolute`, `largest`, `smallest`
-/// rounds its result once, to nearest.
+/// The operation of a node. Each operation rounds its result once, to nearest, except the first three and
+/// `negate`, `absolute`, `largest`, `smallest`.
 enum class Operation : std::uint8_t {
   input,     ///< an exact number with a name
   constant,  ///< an exact number with a value
-  epsilon,   ///< 2u: twice the largest relative error of one rounding
+  epsilon,   ///< 2u, twice the largest relative error of one rounding
   negate,
   absolute,
   largest,   ///< of two
@@ -37,14 +37,14 @@ class Trace;
 /// One operation on its operands; immutable, and shared by all expressions that have it.
 struct Node {
   Operation operation = Operation::constant;
-  std::shared_ptr<const Node> left{}, right{};  ///< null where there is no such operand
-  double value = 0;        ///< of a constant; of any other node its value at the sample of the inputs
+  std::shared_ptr<const Node> left{}, right{};  ///< null without such an operand
+  double value = 0;        ///< value of a constant; of any other node, its value at the sample of the inputs
   std::string name{};      ///< of an input
-  Trace* trace = nullptr;  ///< that its inputs belong to; null where there are none
+  Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
 };
 
-/// A comparison that a template made: left < right, left <= right or left == right. Code after it is reached
-/// under its outcome alone, so a proof about what comes after must have the outcome as a hypothesis, or must
+/// A comparison that a template made: left < right, left <= right or left == right. The code after it runs
+/// only with its outcome. Therefore a proof about that code must have the outcome as a hypothesis, or must
 /// not depend on it.
 struct Branch {
   enum class Relation : std::uint8_t { less, at_most, equal } relation;
@@ -52,18 +52,18 @@ struct Branch {
   bool outcome;
 };
 
-/// The inputs of expressions, and the comparisons between these. It must outlive the expressions' last
-/// comparison, and stays where it is.
+/// The inputs of expressions, and the comparisons between the expressions. The trace must outlive their last
+/// comparison, and cannot be moved.
 class Trace {
  public:
   Trace() = default;
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 
-  /// An exact number. Comparisons are decided as for the sample.
+  /// Adds an exact number. Its sample decides comparisons.
   Traced input(std::string name, double sample);
 
-  /// All comparisons until now, in their order.
+  /// All comparisons so far, in order.
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
   void record(Branch branch) { branches_.push_back(std::move(branch)); }
 
@@ -71,9 +71,9 @@ class Trace {
   std::vector<Branch> branches_;
 };
 
-/// A scalar for the templates of ccd/ and oracle/: each operation makes a node. Comparisons of expressions
-/// with inputs are recorded in their trace, and decided by the inputs' samples. `max`, `min` and `clamp`
-/// found by argument-dependent lookup make nodes and decide nothing; std::max itself would be a comparison.
+/// A scalar for the templates of ccd/ and oracle/. Each operation makes a node. Comparisons of expressions
+/// with inputs are recorded in their trace, and decided by the inputs' samples. `max`, `min` and `clamp`,
+/// found by argument-dependent lookup, make nodes and compare nothing; std::max itself would compare.
 class Traced {
  public:
   Traced(double constant = 0)
@@ -81,7 +81,7 @@ class Traced {
   explicit Traced(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
 
   [[nodiscard]] const std::shared_ptr<const Node>& node() const { return node_; }
-  /// The value for the inputs' samples, in double.
+  /// The value at the inputs' samples, in double.
   [[nodiscard]] double sample() const { return node_->value; }
   explicit operator double() const { return sample(); }
 
@@ -156,9 +156,10 @@ inline Traced Trace::input(std::string name, double sample) {
 
 using TracedPairs = std::vector<std::pair<Traced, Traced>>;
 
-/// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
+/// Steps that keep every accepting comparison and treat it as true, so that all comparisons of a test are
+/// reached.
 struct KeptComparisons : AllSteps {
-  TracedPairs* comparisons;  ///< left, right of left <= right
+  TracedPairs* comparisons;  ///< left and right of each comparison left <= right
 
   explicit KeptComparisons(TracedPairs& kept) : comparisons(&kept) {}
 };
@@ -181,7 +182,8 @@ struct std::numeric_limits<nearmiss::proofs::Traced> : std::numeric_limits<doubl
   static nearmiss::proofs::Traced max() { return std::numeric_limits<double>::max(); }
 };
 
-/// Costs are double's, so that Eigen adds in the order in which it adds doubles without vector instructions.
+/// Costs are those of double, so that Eigen adds in the same order as it adds doubles without vector
+/// instructions.
 template <>
 struct Eigen::NumTraits<nearmiss::proofs::Traced> : Eigen::NumTraits<double> {
   using Real = nearmiss::proofs::Traced;

@@ -1,4 +1,4 @@
-// The record of a template, and its script.
+// Tests the record of a template, and its script.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,11 +47,11 @@ TEST(ProofsTraced, MaximaAreNodesAndComparisonsAreRecorded) {
   EXPECT_EQ(trace.branches()[0].relation, Branch::Relation::less);
   EXPECT_FALSE(trace.branches()[0].outcome);
   EXPECT_TRUE(Traced(1) < Traced(2));
-  EXPECT_EQ(trace.branches().size(), 1);  // no input, no decision
+  EXPECT_EQ(trace.branches().size(), 1);  // constants make no branch
 }
 
-// The templates of ccd/ compute with recorded numbers what they compute with doubles; sums of three have
-// another order there, where the processor adds two at a time.
+// The templates of ccd/ compute the same with recording scalars as with doubles. But sums of three doubles
+// have another order if the processor adds two at a time.
 TEST(ProofsTraced, EvaluatesAsTheTemplatesDo) {
   Trace trace;
   std::map<std::string, double> inputs;
@@ -89,7 +89,7 @@ Problem product_and_sum() {
 
 TEST(ProofsGappa, ProvesWhatOneCanCount) {
   Prover prover;
-  // The product errs by u, and so does the sum, relatively.
+  // The product and the sum have relative errors of u each.
   EXPECT_NEAR(prover.error(product_and_sum(), {53}) * 0x1p53, 3, 1e-6);
   EXPECT_NEAR(prover.error(product_and_sum(), {11}) * 0x1p11, 3, 1e-2);
   EXPECT_TRUE(prover.proves(product_and_sum(), {53}, 3.001 * 0x1p-53));

@@ -84,7 +84,7 @@ std::vector<Number> Measure::results(const Inputs& inputs) const {
   return evaluate<Number>(program_, values, Number(0x1p-52), given);
 }
 
-// From what is of the first degree; the others are only held against it.
+// Uses only limits of degree 1. The other limits are checked against the result.
 template <class Number>
 Number Measure::smallest_bound(const std::vector<Number>& exact) const {
   Number B = 0;
@@ -152,7 +152,7 @@ double Measure::draw(Random& random, const std::string& name) const {
   }
 }
 
-// An input B is to be the smallest bound, or hardly more.
+// Sets an input B to the smallest bound, or to hardly more.
 void Measure::choose_bound(Inputs& inputs) const {
   const auto B = inputs.find("B");
   if (B == inputs.end()) return;

@@ -1,4 +1,4 @@
-// Inputs with large rounding errors: how near to a bound one comes.
+// Inputs with large rounding errors, which show how tight a bound is.
 #pragma once
 
 #include <filesystem>
@@ -17,33 +17,34 @@ namespace nearmiss::proofs {
 /// Values of a problem's inputs, and of numbers that it takes as given, by name.
 using Inputs = std::map<std::string, double>;
 
-/// The inputs with the largest error that is known of a claim, and that error in the claim's unit.
+/// The inputs with the largest known error of a claim, and this error in the claim's unit.
 struct Witness {
   double error = 0;
   Inputs inputs;
 };
 
-/// Witnesses by claim. A line of a file is "claim = error : name=value ...", numbers in hexadecimal.
+/// Reads witnesses by claim. A line of the file is "claim = error : name=value ...", with hexadecimal
+/// numbers.
 std::map<std::string, Witness> read_witnesses(const std::filesystem::path& file);
 void write_witnesses(const std::filesystem::path& file, const std::map<std::string, Witness>& witnesses);
 
-/// Measures errors of a problem in double, B being the smallest for which the inputs are within bounds.
+/// Measures errors of a problem in double. B is the smallest value for which the inputs are within bounds.
 class Measure {
  public:
   explicit Measure(const CcdClaim& claim);
 
-  /// The error in the claim's unit, truncated to double from the exact one; nothing where inputs are out of
-  /// bounds for every B.
+  /// The exact error in the claim's unit, truncated to double; nothing if the inputs are out of bounds for
+  /// every B.
   [[nodiscard]] std::optional<double> error(const Inputs& inputs) const { return measured<Rational>(inputs); }
-  /// About the same, and quickly.
+  /// An estimate of the error, which is quick to compute.
   [[nodiscard]] std::optional<double> estimate(const Inputs& inputs) const {
     return measured<long double>(inputs);
   }
 
-  /// Whether these are the names of all inputs.
+  /// Whether `inputs` has the names of all inputs of the problem.
   [[nodiscard]] bool has_inputs(const Inputs& inputs) const;
 
-  /// Inputs that are within bounds, hopefully.
+  /// Random inputs, which may be out of bounds.
   [[nodiscard]] Inputs drawn(Random& random) const;
   [[nodiscard]] Inputs changed(Random& random, const Inputs& inputs) const;
 
@@ -67,13 +68,13 @@ class Measure {
   Program program_;
   int left_, right_, degree_;
   bool vectors_alone_;
-  std::vector<int> vectors_;          ///< components of the motions
-  std::map<int, std::string> given_;  ///< what is not an input, and yet exact
+  std::vector<int> vectors_;          ///< indices of the components of the motions
+  std::map<int, std::string> given_;  ///< exact numbers that are not inputs, by index
   std::vector<Limit> limits_;
   std::vector<std::string> names_;
 };
 
-/// Climbs from random inputs, and from `start` where there is one, to large errors for a time in seconds.
+/// Climbs from random inputs, and from `start` if given, to large errors for a time in seconds.
 Witness search(const CcdClaim& claim, const std::optional<Witness>& start, double seconds,
                std::uint64_t seed);
 

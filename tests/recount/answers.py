@@ -9,15 +9,16 @@ from asking import KINDS
 
 @dataclass
 class Asked:
-    """The answers of one subject to the queries of one kind; arrays have an element a query."""
+    """The answers of one subject to the queries of one kind. Arrays have one element for each
+    query."""
 
     hit: np.ndarray  # bool
     stage: np.ndarray  # names of the accepting stages
-    collision: np.ndarray  # bool: of the query that the subject is judged by
-    claims: bool  # whether it claims a bound
-    ratio_lo: np.ndarray  # of a false positive: distance / bound from below; NaN elsewhere
-    ratio_hi: np.ndarray  # from above
-    judged: list  # the queries that it is judged by, as lines
+    collision: np.ndarray  # bool: the truth of the query by which the subject is judged
+    claims: bool  # whether the subject claims a bound
+    ratio_lo: np.ndarray  # lower end of distance / bound of a false positive; NaN elsewhere
+    ratio_hi: np.ndarray  # upper end
+    judged: list  # the queries by which the subject is judged, as lines
 
     @property
     def false_positive(self):
@@ -30,7 +31,7 @@ class Asked:
 
 @dataclass
 class Answers:
-    """Queries of each kind, in the order of families and numbers, and what was said of them."""
+    """The queries of each kind, in the order of families and numbers, with all answers."""
 
     seed: int
     family: dict  # kind -> names
@@ -54,7 +55,7 @@ class Answers:
         return sorted(set(self.family[kind]))
 
     def place(self, kind, provenance):
-        """Which query "family:seed:number" is; None if there is no such query."""
+        """The index of the query "family:seed:number"; None if there is no such query."""
         family, seed, number = provenance.rsplit(':', 2)
         if seed != str(self.seed):
             return None
@@ -62,7 +63,7 @@ class Answers:
 
 
 def ask(nearmiss, seed, counts, subjects):
-    """Answers about numbers 0 to counts[family] - 1 of each family."""
+    """Collects answers to the queries 0 to counts[family] - 1 of each family."""
     answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {})
     for kind in KINDS:
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
@@ -106,21 +107,22 @@ def _ask_one(nearmiss, answers, subject, kind, distances):
 
 
 class Distances:
-    """Smallest distances of queries of one kind; each query is asked for once."""
+    """The smallest distances of queries of one kind. Asks about each query once."""
 
     def __init__(self, nearmiss, kind):
         self._nearmiss, self._kind, self._known = nearmiss, kind, {}
 
     def of(self, queries):
-        """Arrays of their lower and upper ends."""
+        """Arrays of the lower and upper ends of the distances."""
         new = sorted({query for query in queries if query not in self._known})
         self._known.update(zip(new, self._nearmiss.distances(self._kind, new).T))
         return np.array([self._known[query] for query in queries]).reshape(-1, 2).T
 
 
 def ratios(lo, hi, bound):
-    """Enclosures of distance / bound: infinite where the bound is 0, 0 where it is infinite."""
-    slack = 1e-15  # more than one division's rounding
+    """Enclosures of distance / bound: infinite if the bound is 0, and 0 if the bound is
+    infinite."""
+    slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)
     zero, infinite = bound == 0, np.isinf(bound)

@@ -1,4 +1,4 @@
-"""Asks the executable: campaigns and reports on one side, single queries on the other."""
+"""Runs the executable: for campaigns and reports, and for single queries."""
 
 import json
 import subprocess
@@ -30,7 +30,7 @@ class Nearmiss:
         self.path = str(path)
 
     def run(self, *arguments, text=None, codes=(0,)):
-        """Standard output; an exit code that is not among `codes` raises an error."""
+        """Returns the standard output. An exit code that is not in `codes` raises an error."""
         done = subprocess.run(
             [self.path, *map(str, arguments)],
             input=text,
@@ -45,7 +45,7 @@ class Nearmiss:
         return done.stdout
 
     def report(self, folder, cases, seed, subjects, families):
-        """Runs a campaign and writes its report into folder/report. Misses are no error here."""
+        """Runs a campaign and writes its report into folder/report. Misses are not errors here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
         fuzz_text = self.run(
             'fuzz',
@@ -68,7 +68,7 @@ class Nearmiss:
         return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
 
     def family(self, name, seed, kind, count):
-        """The queries of a kind among numbers 0 to count - 1 of a family, as lines."""
+        """The queries of one kind among the numbers 0 to count - 1 of a family, as lines."""
         return self.run(
             'family', name, '--seed', seed, '--kind', kind, '--count', count
         ).splitlines()
@@ -85,7 +85,7 @@ class Nearmiss:
         return np.array(ends, dtype=float).reshape(-1, 2).T
 
     def verdicts(self, kind, queries, subject):
-        """A subject's answers."""
+        """The answers of a subject."""
         lines = self._ask(
             'verdict', kind, queries, '--subject', subject, '--distance-bound', '--rounded'
         )
@@ -105,13 +105,13 @@ class Nearmiss:
 
 @dataclass
 class Verdicts:
-    """A subject's answers, one a query."""
+    """A subject's answers, one for each query."""
 
     hit: np.ndarray  # bool
     stage: np.ndarray  # names of the accepting stages, 'none' without a hit
-    bound: np.ndarray  # that measures false positives' distances, in the queries' unit of length
+    bound: np.ndarray  # bound for distances of false positives, in the queries' unit of length
     claims: bool  # whether the subject claims this bound
-    rounded: list  # the queries that it is judged by, as lines
+    rounded: list  # the queries by which the subject is judged, as lines
 
     @classmethod
     def parsed(cls, lines):

@@ -1,4 +1,4 @@
-"""Changes values of reports, and finds out whether a check notices."""
+"""Changes values of reports, and finds out whether a check notices the change."""
 
 import contextlib
 
@@ -15,12 +15,13 @@ def leaves(value, path=()):
 
 
 def pattern(path, names):
-    """A path without the names of subjects, kinds and families, and without places in lists."""
+    """A path without the names of subjects, kinds and families, and without list indices."""
     return '.'.join('*' if isinstance(key, int) or key in names else key for key in path)
 
 
 def changed(value):
-    """Another value of the same type; numbers by more than a largest ratio's precision."""
+    """Another value of the same type. Numbers change by more than the precision of a largest
+    ratio."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, int):
@@ -32,7 +33,7 @@ def changed(value):
 
 @contextlib.contextmanager
 def put(json_value, path, value):
-    """Has this value at the path for a while."""
+    """Puts a value at the path, and restores the old one afterwards."""
     for key in path[:-1]:
         json_value = json_value[key]
     before = json_value[path[-1]]
@@ -44,11 +45,11 @@ def put(json_value, path, value):
 
 
 class Found(Exception):
-    """A difference."""
+    """Raised by a difference."""
 
 
 class UntilFound(Comparison):
-    """Ends a check at its first difference."""
+    """A comparison that ends a check at its first difference."""
 
     def _note(self, sort, where, found, expected, same):
         if not same:

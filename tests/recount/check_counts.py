@@ -1,16 +1,16 @@
-"""The counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
+"""Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
 
 import numpy as np
 
 from asking import KINDS
 from tally import BINS, BORDERS, Tally, denominators, interval, rate, reported, stages, upper_bound
 
-ROUNDING = 1e-12  # relative: a quotient of two counts
-SOLVED = 1e-9  # relative: the solution of an equation, or what follows from it
+ROUNDING = 1e-12  # relative error of a quotient of two counts
+SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
 
 
 def check_statistics(comparison, where, json, answers):
-    """The sections "subjects", "oracle" and "signatures"."""
+    """Checks the sections "subjects", "oracle" and "signatures"."""
     _check_oracle(comparison, f'{where} oracle', json['oracle'], answers)
     _check_signatures(comparison, f'{where} signatures', json['signatures'], answers)
     subjects = json['subjects']
@@ -34,7 +34,7 @@ def check_statistics(comparison, where, json, answers):
 
 
 def check_counts(comparison, where, found, tally):
-    """All counters of one subject over some queries, except times."""
+    """Checks all counters of one subject over some queries, except times."""
     check_rates(comparison, where, found, tally)
     comparison.same('counters', f'{where} positives', found['positives'], tally.positives)
     comparison.same('counters', f'{where} faults', found['faults'], {})
@@ -51,7 +51,7 @@ def check_counts(comparison, where, found, tally):
 
 
 def check_rates(comparison, where, found, tally):
-    """Counters, rates with their intervals, and quantiles of distances."""
+    """Checks counters, rates with their intervals, and quantiles of distances."""
     for name in ('queries', 'collisions', 'false_negatives', 'false_positives'):
         comparison.same('counters', f'{where} {name}', found[name], getattr(tally, name))
     comparison.within(
@@ -88,7 +88,7 @@ def check_rates(comparison, where, found, tally):
 
 
 def check_quantile(comparison, where, found, bins, largest):
-    """The bin of a quantile, which ends at the largest ratio."""
+    """Checks the bin of a quantile, which ends at the largest ratio."""
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))
     upper = np.concatenate((BORDERS, [np.inf])) if bins else [0]
@@ -102,12 +102,13 @@ def check_quantile(comparison, where, found, bins, largest):
 
 
 def outward(least, most):
-    """The same range, with room for the rounding of a border."""
+    """The range, widened by the rounding error of a border."""
     return least * (1 - ROUNDING), most * (1 + ROUNDING)
 
 
 def check_histogram(comparison, where, found, tally):
-    """Each bin holds what is certainly in it, and besides at most what may be."""
+    """Checks that each bin counts at least the ratios certainly in it, and at most those that may
+    be in it."""
     least, most = tally.histogram
     comparison.same('histogram bins', f'{where} sum', sum(found), tally.false_positives)
     if len(found) != BINS:
@@ -119,7 +120,7 @@ def check_histogram(comparison, where, found, tally):
 
 
 def _check_farthest(comparison, where, found, tally, answers, subject, kind):
-    """The farthest false positives that are kept: how far each is, and which query it is."""
+    """Checks the distances and the queries of the farthest false positives that are kept."""
     expected = tally.farthest()
     comparison.same('largest ratios', f'{where} number', len(found), len(expected))
     for i, (far, ends) in enumerate(zip(found, expected)):
@@ -157,7 +158,7 @@ def _check_truth(comparison, where, found, expected):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Each false negative and each refuted bound is seen in one way."""
+    """Checks that each false negative and each refuted bound counts for one signature."""
     sums = {}
     for each in found:
         key = each['what'], each['subject']
@@ -177,7 +178,8 @@ def _check_signatures(comparison, where, found, answers):
 
 
 def check_false_positive(comparison, where, answers, subject, kind, found):
-    """A false positive with its provenance, ratio, and query as a line or a list of numbers."""
+    """Checks a false positive with its provenance, its ratio, and its query as a line or a list of
+    numbers."""
     place = answers.place(kind, found['provenance'])
     if place is None or not answers.asked[subject, kind].false_positive[place]:
         return comparison.fail('provenances', where, found['provenance'], 'a false positive')
@@ -188,6 +190,6 @@ def check_false_positive(comparison, where, answers, subject, kind, found):
 
 
 def check_query(comparison, where, found, line):
-    """A query, as a line or as a list of numbers."""
+    """Checks a query, as a line or as a list of numbers."""
     numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
     comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

@@ -1,4 +1,4 @@
-"""The CSV files of a report: statistics.csv, distances.csv and findings.csv."""
+"""Checks the CSV files of a report: statistics.csv, distances.csv and findings.csv."""
 
 import csv
 
@@ -11,13 +11,13 @@ from tally import BINS, BORDERS, Tally, denominators, interval, rate, stages, up
 
 
 def read(folder, name):
-    """Rows as dictionaries by the heading."""
+    """The rows as dictionaries, with the headings as keys."""
     with open(folder / name, newline='', encoding='utf-8') as file:
         return list(csv.DictReader(file))
 
 
 def number(text):
-    """An int if the text is a whole number, a float for other numbers, or else the text."""
+    """Converts text to an int if it is a whole number, or to a float if it is another number."""
     for kind in (int, float):
         try:
             return kind(text)
@@ -37,7 +37,8 @@ def keys(answers):
 
 
 def check_statistics_csv(comparison, _where, folder, answers, report):
-    """Counters, rates and quantiles. The columns by stage give the names in report.json."""
+    """Checks counters, rates and quantiles. The columns by stage must have the names in
+    report.json."""
     statistics = read(folder, 'statistics.csv')
     by_stage = [name for name in statistics[0] if name.startswith('true_by_')]
     expected = ['true_by_none', *(f'true_by_{stage}' for stage in report['stages'])]
@@ -53,7 +54,7 @@ def _tally(answers, row):
 
 
 def _check_statistics(comparison, row, answers):
-    """One row; times are left out."""
+    """Checks one row, except times."""
     where = f'statistics.csv {row["subject"]} {row["kind"]} {row["family"]}'
     tally = _tally(answers, row)
     for name in ('queries', 'collisions', 'positives', 'false_negatives', 'false_positives'):
@@ -91,7 +92,7 @@ def _check_statistics(comparison, row, answers):
 
 
 def check_distances_csv(comparison, _where, folder, answers):
-    """The non-empty bins of the histograms."""
+    """Checks the non-empty bins of the histograms."""
     lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
     bins = {key: [0] * BINS for key in keys(answers)}
     for row in read(folder, 'distances.csv'):
@@ -107,7 +108,7 @@ def check_distances_csv(comparison, _where, folder, answers):
 
 
 def check_findings_csv(comparison, _where, folder, answers, report):
-    """Every finding is a query that fails in the recorded way."""
+    """Checks that every finding is a query that fails in the recorded way."""
     rows = read(folder, 'findings.csv')
     comparison.same('CSV', 'findings.csv rows', len(rows), report['findings_total'])
     seen = {

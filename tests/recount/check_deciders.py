@@ -1,13 +1,14 @@
-"""The section "deciders" of report.json: which stage decided, for subjects that pass queries on.
+"""Checks the section "deciders" of report.json: which stage decided, for subjects that pass
+queries on.
 
-It adds up counts by the accepting stage and by the rejection. Only a campaign knows the rejection,
-so the sums here are of the section "subjects", which is checked elsewhere."""
+The section adds up counts by the accepting stage and by the rejection. Only a campaign knows the
+rejection, so the expected sums come from the section "subjects", which is checked elsewhere."""
 
 from asking import KINDS
 
 
 def check_deciders(comparison, where, report, answers):
-    """Rows for all families ("") and for each."""
+    """Checks the rows for all families together ("") and for each family."""
     expected = {}
     for subject in answers.subjects:
         families = sorted({*answers.families('vt'), *answers.families('ee')})

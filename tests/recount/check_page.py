@@ -1,11 +1,11 @@
-"""The page of a report: its data, from which scripts draw everything."""
+"""Checks the data of a report's page, from which scripts draw everything."""
 
 import html.parser
 import json
 
 
 class _Data(html.parser.HTMLParser):
-    """The JSON in a page."""
+    """Collects the JSON in a page."""
 
     def __init__(self):
         super().__init__()
@@ -23,7 +23,7 @@ class _Data(html.parser.HTMLParser):
 
 
 def check_page(comparison, where, page, json_report):
-    """The data in the page is that of report.json, value by value."""
+    """Checks that the data in the page equals report.json, value by value."""
     data = _Data()
     data.feed(page)
     _check_same(comparison, where, json.loads(data.text), json_report)

@@ -1,4 +1,4 @@
-"""The sections of report.json beside the counters: error against time, ladder, findings."""
+"""Checks the sections of report.json other than counters: error against time, ladder, findings."""
 
 import math
 
@@ -10,12 +10,12 @@ from check_counts import ROUNDING, SOLVED, check_false_positive, check_query, ch
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
 from tally import BORDERS, Tally, reported
 
-TIME = 'ns_per_query'  # the time that a front compares
+TIME = 'ns_per_query'  # the field with the time that a front compares
 COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
 
 
 def check_borders(comparison, where, found):
-    """The histogram's lower borders."""
+    """Checks the histogram's lower borders."""
     expected = [0.0, *BORDERS]
     comparison.same('histogram borders', f'{where} number', len(found), len(expected))
     for i, (border, value) in enumerate(zip(found, expected)):
@@ -23,7 +23,7 @@ def check_borders(comparison, where, found):
 
 
 def check_places(comparison, where, found, subject):
-    """Algorithm, scalar and epsilon of a subject."""
+    """Checks the algorithm, scalar and epsilon of a subject."""
     algorithm, scalar, power = place(subject)
     comparison.same('names', f'{where} {subject} algorithm', found['algorithm'], algorithm)
     comparison.same('names', f'{where} {subject} scalar', found['scalar'], scalar)
@@ -36,9 +36,9 @@ def slack(subject):
 
 
 def check_trade_offs(comparison, where, found, answers, units):
-    """Error against run time: sums over kinds and families, and their Pareto fronts.
+    """Checks error against run time: sums over kinds and families, and their Pareto fronts.
 
-    The fronts are those of the report's own times."""
+    The expected fronts use the report's own times."""
     comparison.same('names', where, sorted(found['subjects']), answers.subjects)
     for subject, each in found['subjects'].items():
         own = f'{where} {subject}'
@@ -80,9 +80,10 @@ def check_trade_offs(comparison, where, found, answers, units):
 
 
 def front(subjects, error):
-    """Names, fastest first: no other subject is at least as fast with at most the same error.
+    """The names on the front, fastest first: no other subject is at least as fast with at most the
+    same error.
 
-    Of subjects with equal times and errors, the first name is on the front."""
+    If several subjects have equal times and errors, only the first name is on the front."""
     chosen = [
         name
         for name in subjects
@@ -100,7 +101,7 @@ def _beats(other, name, subjects, error):
 
 
 def check_ladder(comparison, where, report, answers, units):
-    """The ladder of precisions: a rung for each subject of its algorithms, and the fits."""
+    """Checks the ladder of precisions: a rung for each subject of its algorithms, and the fits."""
     rungs = [
         (subject, *place(subject))
         for subject in answers.subjects
@@ -150,10 +151,10 @@ def _check_fits(comparison, where, found, expected):
 
 
 def fits(report):
-    """The power of epsilon by which the farthest distance of each algorithm falls.
+    """The fits of each algorithm's farthest distance as a power of epsilon.
 
-    Fitted over all families ("") and by family to the report's largest ratios, which are checked
-    elsewhere."""
+    The fits are over all families ("") and by family. The fits use the report's largest ratios,
+    which are checked elsewhere."""
     lines = []
     families = sorted(
         {
@@ -189,8 +190,8 @@ def fits(report):
 
 
 def _points(report, algorithm, origin):
-    """Exponents of epsilon, logarithms to base 2 of the farthest distances in units of B, and their
-    parts of the claimed ones."""
+    """Exponents of epsilon, binary logarithms of the farthest distances in units of B, and the
+    ratios of these distances to the claimed ones."""
     points = []
     for rung in report['ladder']['rungs']:
         own = report['subjects'][rung['subject']]
@@ -208,7 +209,8 @@ def _points(report, algorithm, origin):
 
 
 def check_findings(comparison, section, report, answers):
-    """Findings and farthest false positives are queries that fail in the recorded way."""
+    """Checks that findings and farthest false positives are queries that fail in the recorded
+    way."""
     seen = {
         (each['what'], each['subject'], each['signature']): each['seen']
         for each in report['signatures']
@@ -240,7 +242,7 @@ def check_findings(comparison, section, report, answers):
 
 
 def check_finding(comparison, where, answers, found):
-    """A missed collision or a refuted bound, by its provenance."""
+    """Checks a missed collision or a refuted bound by its provenance."""
     place_of = answers.place(found['kind'], found['provenance'])
     asked = answers.asked.get((found['subject'], found['kind']))
     if place_of is None or asked is None:

@@ -1,7 +1,8 @@
-"""Text in a report or printed: headline, verdicts, tables of the summary and of the ladder.
+"""Checks texts in a report and in the output: headline, verdicts, the summary's and the ladder's
+tables.
 
-Numbers in text are rounded, so texts are made of the numbers of report.json, which are checked
-elsewhere."""
+Numbers in text are rounded. Therefore the expected texts are made from the numbers of report.json,
+which are checked elsewhere."""
 
 import re
 
@@ -10,7 +11,7 @@ from tally import BORDERS, LARGEST
 
 
 def check_text(comparison, section, report, json_report):
-    """Text in the report, and the output of nearmiss fuzz and nearmiss report."""
+    """Checks text in the report, and the output of nearmiss fuzz and nearmiss report."""
     verdicts = {
         subject: verdict(json_report['error_against_time']['subjects'][subject])
         for subject in json_report['subjects']
@@ -47,7 +48,8 @@ def _check_verdicts(comparison, section, json_report, verdicts):
 
 
 def _check_output(comparison, where, text, json_report, verdicts):
-    """The verdicts, the table of counters, and the oracle's lines of one command."""
+    """Checks the verdicts, the table of counters, and the oracle's lines in the output of one
+    command."""
     lines = text.splitlines()
     expected = [
         f'{" ok " if clean else "FAIL"} {subject}: {said}'
@@ -61,7 +63,7 @@ def _check_output(comparison, where, text, json_report, verdicts):
 
 
 def _check_ladder(comparison, lines, found):
-    """The table and the fits that nearmiss fuzz prints."""
+    """Checks the table and the fits that nearmiss fuzz prints."""
     heading = ['subject', 'epsilon']
     _check_table(comparison, 'nearmiss fuzz ladder', lines, heading, ladder(found))
     fits = [line for line in lines if ' of the claimed distance' in line]
@@ -70,7 +72,7 @@ def _check_ladder(comparison, lines, found):
 
 
 def verdict(found):
-    """Whether a subject is clean, and the text of its verdict."""
+    """Whether a subject is clean, with the text of its verdict."""
     missed, refuted = found['false_negatives'], found['refuted_bounds']
     text = f'MISSED {missed:,} of ' if missed else 'no miss in '
     text += counted(found['collisions'], 'collision')
@@ -102,14 +104,14 @@ def headline(report, verdicts):
 
 
 def listed(names):
-    """ "a, b and c", or how many there are where these are more than eight."""
+    """ "a, b and c", or the number of names if there are more than eight."""
     if len(names) > 8:
         return f'{len(names)} subjects'
     return ' and '.join([', '.join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
 
 
 def counted(count, one, many=None):
-    """A number and what it counts."""
+    """A number and the noun that it counts."""
     return f'{count:,} {one if count == 1 else many or one + "s"}'
 
 
@@ -169,7 +171,7 @@ def ladder(found):
 
 
 def json_exponent(power_of_two):
-    """x of 2^x."""
+    """The exponent x of 2^x."""
     return int(power_of_two.hex().partition('p')[2])
 
 
@@ -186,7 +188,7 @@ def fit(found):
 
 
 def oracle_line(total):
-    """The two lines on the oracle."""
+    """The two lines about the oracle."""
     parts = [
         f'oracle: {total["queries"]:,} queries',
         f' {total["decided_by"]["undecided"]:,} left to exact arithmetic by the filters; '
@@ -199,7 +201,7 @@ def oracle_line(total):
 
 
 def _check_table(comparison, where, lines, heading, rows):
-    """The rows stand below a line that begins with the heading; the last column is a time."""
+    """Checks the rows below the line that begins with the heading. The last column is a time."""
     cells = [re.split(r' {2,}', line.strip()) for line in lines]
     start = next((i for i, row in enumerate(cells) if row[:2] == heading), None)
     if start is None:

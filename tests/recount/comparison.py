@@ -1,4 +1,4 @@
-"""Compared values, and their differences."""
+"""Compares values, and collects differences."""
 
 import math
 from dataclasses import dataclass, field
@@ -18,44 +18,47 @@ class Comparison:
             self.differences.append(f'{sort}: {where}: found {found}, expected {expected}')
 
     def same(self, sort, where, found, expected):
-        """Found must be the expected value itself."""
+        """`found` must equal `expected`."""
         self._note(sort, where, found, expected, found == expected)
 
     def near(self, sort, where, found, expected, relative):
-        """Found must be the expected number up to a relative error, or None if None is expected."""
+        """`found` must equal the expected number up to a relative error, or None if None is
+        expected."""
         if found is None or expected is None:
             return self.same(sort, where, found, expected)
         is_near = _is_number(found) and math.isclose(found, expected, rel_tol=relative)
         self._note(sort, where, found, expected, is_near)
 
     def within(self, sort, where, found, least, most):
-        """Found must be a number from least to most."""
+        """`found` must be a number from `least` to `most`."""
         is_within = _is_number(found) and least <= found <= most
         self._note(
             sort, where, found, str(least) if least == most else f'{least} to {most}', is_within
         )
 
     def fail(self, sort, where, found, expected):
-        """A value that cannot be compared."""
+        """Adds a difference for a value that cannot be compared."""
         self._note(sort, where, found, expected, False)
 
     def agree(self, sort, count):
-        """Adds values that were found as expected."""
+        """Adds the number of values that are as expected."""
         self.compared[sort] = self.compared.get(sort, 0) + count
 
     def section(self, check, where, *arguments):
-        """Runs a check. A missing entry, or one of another type, is a difference."""
+        """Runs a check. A missing entry, or an entry of another type, is a difference."""
         try:
             check(self, where, *arguments)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
             self.fail('structure', where, repr(error), 'something to read')
 
     def allow(self, what, count=1):
-        """Adds values that are allowed either way, because an enclosure holds a border."""
+        """Adds the number of values for which two results are allowed, because an enclosure
+        contains a border."""
         self.either_way[what] = self.either_way.get(what, 0) + count
 
     def print(self):
-        """A line for each sort of check, for what may be either way, and for each difference."""
+        """Prints a line for each sort of check, for each sort of ambiguous value, and for each
+        difference."""
         for sort, count in self.compared.items():
             wrong = sum(line.startswith(f'{sort}: ') for line in self.differences)
             print(f'{sort}: {count:,} values compared, {wrong:,} different')

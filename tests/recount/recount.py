@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Computes a report anew from single queries, and says what differs.
+"""Recomputes a report from single queries, and prints the differences.
 
-It runs a campaign and writes its report, then asks the same executable for the same queries one by
-one (nearmiss family, oracle and verdict), and computes everything but times with NumPy and SciPy.
-Exit code 0: no difference; 1: there is one; 2: the executable failed."""
+It runs a campaign and writes its report. Then it asks the same executable about the same queries
+one by one (nearmiss family, oracle and verdict), and recomputes everything except times with NumPy
+and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
 
 import argparse
 import sys
@@ -33,7 +33,7 @@ def counts_of(report):
 
 
 def check_report(comparison, report, answers, units):
-    """Everything in report.json."""
+    """Checks everything in report.json."""
     comparison.section(check_statistics, 'report.json', report, answers)
     comparison.section(check_borders, 'histogram_borders', report['histogram_borders'])
     comparison.section(
@@ -45,7 +45,7 @@ def check_report(comparison, report, answers, units):
 
 
 def check_all(comparison, report, answers, units):
-    """Everything in a campaign's output and its report."""
+    """Checks everything in a campaign's output and in its report."""
     json_report = report.json()
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
@@ -58,14 +58,14 @@ def check_all(comparison, report, answers, units):
 
 
 def check_cases(comparison, found, cases, counts, seed):
-    """The campaign is the one that was asked for."""
+    """Checks that the campaign has the requested cases and seed."""
     comparison.same('cases', 'sum over families', sum(counts.values()), cases)
     comparison.same('cases', 'cases of the run', found['runs'][0]['cases_done'], cases)
     comparison.same('cases', 'seed of the run', found['runs'][0]['seed'], str(seed))
 
 
 def note_either_way(comparison, answers):
-    """Counts enclosures that hold a border of bins, or the bound itself."""
+    """Counts the enclosures that contain a border of bins, or the bound itself."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         first, last = tally.bins
@@ -76,7 +76,7 @@ def note_either_way(comparison, answers):
 
 
 def recount(nearmiss, folder, cases, seed, subjects, families):
-    """Runs a campaign, asks the same again, and compares."""
+    """Runs a campaign, recomputes its report, and compares."""
     comparison = Comparison()
     report = nearmiss.report(folder, cases, seed, subjects, families)
     counts = counts_of(report.json())
@@ -98,15 +98,15 @@ def main():
         '--cases', type=int, default=4000, help='total number of queries (default: %(default)s)'
     )
     parser.add_argument(
-        '--seed', type=int, default=1, help='of the queries (default: %(default)s)'
+        '--seed', type=int, default=1, help='seed of the queries (default: %(default)s)'
     )
     parser.add_argument(
         '--subject',
         default='basic,wang,wang:float,wang:p144',
-        help='built-in ones, separated by commas',
+        help='built-in subjects, separated by commas',
     )
     parser.add_argument(
-        '--family', default='all', help='as in nearmiss fuzz (default: %(default)s)'
+        '--family', default='all', help='families, as in nearmiss fuzz (default: %(default)s)'
     )
     options = parser.parse_args()
     try:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A report is what its queries say, and recount notices whatever number of one is changed.
+"""Tests that a report agrees with its queries, and that recount notices a change of any value.
 
 Usage: recount_test.py NEARMISS"""
 
@@ -21,13 +21,13 @@ from check_sections import front
 from check_text import check_text
 from recount import check_report, recount
 
-# A subject that misses, claims that hold at several precisions, a subject that passes queries on,
-# and a claim that is refuted.
+# The subjects: one that misses, several with valid claims at various precisions, one that passes
+# queries on, and one whose claim is refuted.
 SUBJECTS = ['adaptive', 'basic', 'wang', 'wang:float', 'wang:p60', 'wang:p144', 'defect:D2*10']
 CASES, SEED = 2200, 7
 
-# Values that cannot be computed anew: times; facts on the machine of a run; the oracle's counters of
-# its own work; shrunk queries. Headline and verdicts are text, with a test of their own; the number
+# Values that cannot be recomputed: times; facts about the machine of a run; the oracle's counters
+# of its own work; shrunk queries. Headline and verdicts are text, with a separate test. The number
 # of findings and the names of stages are compared with the CSV files.
 UNCHECKED = [
     r'^findings_total$',
@@ -47,7 +47,7 @@ UNCHECKED = [
 
 
 class Recount(unittest.TestCase):
-    """One campaign, which all tests look at."""
+    """One campaign, which all tests share."""
 
     @classmethod
     def setUpClass(cls):
@@ -73,14 +73,15 @@ class Recount(unittest.TestCase):
         return found(lambda comparison: comparison.section(check, 'changed', *arguments))
 
     def finds_in_report(self, path, value):
-        """Whether a difference is found where report.json has this value at the path."""
+        """Whether a difference is found if report.json has this value at the path."""
         with put(self.json, path, value):
             return found(
                 lambda comparison: check_report(comparison, self.json, self.answers, self.units)
             )
 
     def one_leaf_of_each_pattern(self, value):
-        """Takes the largest one, because a change of a large number is the clearest."""
+        """Takes the largest value of each sort, because a change of a large number is the
+        clearest."""
         chosen = {}
         for path, leaf in leaves(value):
             of = pattern(path, self.names)
@@ -143,7 +144,7 @@ class Recount(unittest.TestCase):
         self.assertEqual(front(subjects, 'error'), ['a', 'better'])
 
     def copy_with_change(self, name, column):
-        """A copy of the CSV files with another value in one column of a row in the middle."""
+        """Copies the CSV files with another value in one column of a row in the middle."""
         folder = self.folder / 'copy'
         folder.mkdir(exist_ok=True)
         for file in self.report.folder.glob('*.csv'):
@@ -185,7 +186,7 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def checked_lines(text):
-        """Verdicts, tables, the oracle's line and fits."""
+        """The lines with verdicts, table rows, the oracle's counters, and fits."""
         return [
             line
             for line in text.splitlines()
@@ -194,7 +195,7 @@ class Recount(unittest.TestCase):
 
     @staticmethod
     def with_other_digit(line):
-        """The last digit of the last number before a time is changed."""
+        """The line with another last digit in the last number before a time."""
         end = line.rindex('  ') if re.search(r' (vt|ee|2\^\S+) ', line) else len(line)
         i = max(i for i in range(end) if line[i].isdigit())
         return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'

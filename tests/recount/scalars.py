@@ -1,23 +1,24 @@
-"""Names of subjects: algorithm, scalar, and the claimed distance bound in units of B."""
+"""Parses names of subjects: algorithm, scalar, and the claimed distance bound in units of B."""
 
 import math
 
 import numpy as np
 
-ALGORITHMS = ('wang', 'wang-tight')  # of the ladder of precisions
+ALGORITHMS = ('wang', 'wang-tight')  # algorithms of the ladder of precisions
 EPSILONS = {'': -52, 'double': -52, 'float': -23, 'longdouble': -63, 'dd': -102, 'quad': -112}
 AS_WANG = ('basic', 'basic-plain', 'wang', 'wang-eps', 'wang-plain')
 
 
 def exponent(scalar):
-    """Binary exponent of the machine epsilon; None if the name is no scalar."""
+    """The binary exponent of the machine epsilon; None if the name is not a scalar."""
     if scalar.startswith('p') and scalar[1:].isdigit():
         return 1 - int(scalar[1:])
     return EPSILONS.get(scalar)
 
 
 def place(subject):
-    """Algorithm, scalar and exponent of epsilon; a name without scalar is its own algorithm."""
+    """The algorithm, the scalar and the exponent of epsilon. For a name without a scalar, the
+    algorithm is the name."""
     algorithm, _, scalar = subject.partition(':')
     if exponent(scalar) is None:
         return subject, 'double', EPSILONS['double']
@@ -32,21 +33,23 @@ def paper_bound(epsilon):
 
 
 class Units:
-    """Distance bounds of subjects in units of B."""
+    """The distance bounds of subjects in units of B."""
 
     def __init__(self, nearmiss, seed):
         self._nearmiss, self._seed, self._known = nearmiss, seed, {}
 
     def claimed(self, subject):
-        """The bound that a subject claims; None if it claims none in proportion to B.
+        """The bound that a subject claims; None if it claims no bound proportional to B.
 
-        Computed as the quotient of its bound and wang's for the same queries, times wang's."""
+        The bound is computed as the quotient of the subject's and wang's bounds for the same
+        queries, times wang's bound."""
         if subject not in self._known:
             self._known[subject] = self._measured(subject)
         return self._known[subject]
 
     def of_distances(self, subject):
-        """The bound in its ratios distance / bound: the claimed one, or wang's for basic."""
+        """The bound in the subject's ratios distance / bound: the claimed bound, or wang's for
+        basic."""
         algorithm, _, _ = place(subject)
         if algorithm in ('basic', 'basic-plain'):
             return paper_bound(2.0 ** EPSILONS['double'])

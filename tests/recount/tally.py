@@ -1,4 +1,4 @@
-"""Counters, histograms and intervals, computed anew from single answers."""
+"""Recomputes counters, histograms and intervals from single answers."""
 
 import functools
 from dataclasses import dataclass
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import betaincinv
 
-# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One bin lies below them
-# and one above.
+# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One more bin lies below
+# all borders and one above.
 BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
 BINS = len(BORDERS) + 1
 FARTHEST = 5  # number of farthest false positives that are kept
@@ -28,12 +28,13 @@ class Tally:
     claims: bool
     true_by_stage: dict
     false_by_stage: dict
-    ratio_lo: np.ndarray  # an enclosure for each false positive
+    ratio_lo: np.ndarray  # lower ends of the enclosures of the false positives' ratios
     ratio_hi: np.ndarray
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
-        """Over the queries of these kinds, of one family or of all. Computed once."""
+        """The tally over the queries of these kinds, of one family or of all. It is computed
+        once."""
         key = subject, tuple(kinds), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
@@ -60,7 +61,8 @@ class Tally:
 
     @functools.cached_property
     def bins(self):
-        """The histogram's bin of each false positive by its ratio's lower end, and the upper."""
+        """The histogram's bins of each false positive, by the lower and by the upper end of its
+        ratio."""
         return [
             np.searchsorted(BORDERS, ratio, side='right')
             for ratio in (self.ratio_lo, self.ratio_hi)
@@ -68,7 +70,7 @@ class Tally:
 
     @functools.cached_property
     def histogram(self):
-        """For each bin the number that is certainly in it, and the number that may be."""
+        """For each bin, the number of ratios certainly in it, and the number that may be in it."""
         first, last = self.bins
         least = np.bincount(first[first == last], minlength=BINS)
         most = least.copy()
@@ -83,14 +85,15 @@ class Tally:
         return int((self.ratio_lo > 1).sum()), int((self.ratio_hi > 1).sum())
 
     def farthest(self):
-        """Enclosures of the largest ratios, largest first."""
+        """The enclosures of the largest ratios, largest first."""
         lo, hi = (np.sort(ratio)[::-1][:FARTHEST] for ratio in (self.ratio_lo, self.ratio_hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
     def quantile_bins(self, part):
-        """The first and the last bin that may hold the ratio which a part of all does not exceed.
+        """The first and the last bin that may contain the ratio that a fraction `part` of all does
+        not exceed.
 
-        None without false positives."""
+        The result is None without false positives."""
         if self.false_positives == 0:
             return None
         place = max(int(np.ceil(part * self.false_positives)), 1) - 1
@@ -111,17 +114,19 @@ def _by_name(stages):
 
 
 def reported(lo, hi):
-    """The range of a reported ratio whose true value is from lo to hi; reports round it up.
+    """The range of a reported ratio whose true value is from lo to hi. Reports round ratios up.
 
-    Infinity is the largest double; what is below all borders is only known to be there."""
+    The largest double stands for infinity. For a ratio below all borders, a report need not know
+    more than that."""
     most = BORDERS[0] if lo < BORDERS[0] else 0
     return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)
 
 
 def stages(subject, counts):
-    """Counts by the accepting stage that do not depend on which queries are decided side by side.
+    """Counts by the accepting stage that do not depend on which queries are decided at once.
 
-    The subject exact decides many at once, and its filter then leaves other ones undecided."""
+    The subject exact decides many queries at once; its filter then leaves other queries
+    undecided."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}
@@ -129,18 +134,19 @@ def stages(subject, counts):
 
 
 def denominators(tally):
-    """The totals for the rates of false negatives and of false positives."""
+    """The totals that divide the numbers of false negatives and of false positives."""
     return tally.collisions, tally.queries - tally.collisions
 
 
 def rate(count, total):
-    """0 if the total is 0."""
+    """The quotient, or 0 if the total is 0."""
     return count / total if total else 0.0
 
 
 @functools.cache
 def upper_bound(count, total, risk=0.05):
-    """Clopper and Pearson's upper bound of a rate, wrong with probability `risk` at most."""
+    """Clopper and Pearson's upper bound of a rate, which is wrong with probability at most
+    `risk`."""
     return 1.0 if count >= total else float(betaincinv(count + 1, total - count, 1 - risk))
 
 

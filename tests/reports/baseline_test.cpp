@@ -60,7 +60,8 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
   EXPECT_THAT(changes(with_others(1200), with_others(1000)).rates, IsEmpty());
 }
 
-// In a single uncorrected test, 11 of 10,000 after none are enough. With 4 comparisons at the level of 0.001 it takes 13.
+// In a single uncorrected test, 11 failures in 10,000 after none are significant. With 4 comparisons at the
+// level of 0.001, 13 are required.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{key, counts(20000, 10000, missed, 0)}});
@@ -71,7 +72,7 @@ TEST(Changes, AFewAfterNoneAreEnough) {
   EXPECT_LT(found.rates[0].p, false_alarm_risk / 4);
 }
 
-// No family has enough of them, but all together do.
+// No single family has enough failures, but all together have.
 TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const auto with = [](std::uint64_t missed, std::uint64_t in_the_last) {
     std::map<CountsKey, Counts> all;
@@ -113,7 +114,7 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_THAT(changes(with(1), with(0)).rates, IsEmpty());
 }
 
-// p is 2 / 2^13, which is between a 4th and a 5th of the risk.
+// p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.
 TEST(Changes, ASumOverFamiliesIsAComparisonToo) {
   const auto with = [](std::uint64_t in_a, std::uint64_t in_b) {
     return campaign("1", {{{"basic", Kind::edge_edge, "a"}, counts(10000, 10000, in_a, 0)},
@@ -155,14 +156,14 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   Campaign now = before;
   now.statistics.seen[{missed, "wang", "ee inside"}] = 1;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
-  // That another subject fails, or this one in another way, is no excuse.
+  // Failures of another subject, or other failures of this subject, do not matter.
   before.statistics.seen[{missed, "basic", "ee inside"}] = 9;
   before.statistics.seen[{Finding::What::refuted_bound, "wang", "ee"}] = 9;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
   now.statistics.seen = {{{Finding::What::oracle_disagreement, "", "ee"}, 1}};
   before.statistics.seen[{Finding::What::oracle_disagreement, "", "vt"}] = 1;
   EXPECT_THAT(changes(now, before).new_signatures,
-              SizeIs(1));  // one failure of the oracle is always too many
+              SizeIs(1));  // a single failure of the oracle counts
 }
 
 TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
@@ -183,7 +184,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "wang", "a"}));
 }
 
-// The test is one-sided: k after none have p = 1 / 2^k, and the risk is divided by the number of all signatures.
+// The test is one-sided: k failures after none have p = 1 / 2^k. The risk is divided by the number of all
+// signatures.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const auto with = [](std::map<Signature, std::uint64_t> seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
@@ -199,7 +201,7 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const Campaign two = with({{a, 40}});
   EXPECT_FALSE(is_new(10, two));
   EXPECT_TRUE(is_new(11, two));
-  const Campaign three = with({{a, 40}, {c, 1}});  // a signature that is gone is compared too
+  const Campaign three = with({{a, 40}, {c, 1}});  // signature c, which no longer occurs, is compared too
   EXPECT_FALSE(is_new(11, three));
   EXPECT_TRUE(is_new(12, three));
 }

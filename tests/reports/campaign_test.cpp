@@ -1,4 +1,4 @@
-// Campaigns: parts of a run come together, and give what one machine would have found.
+// Campaigns merge the parts of a run to the result of one machine.
 #include "reports/campaign/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   return made;
 }
 
-/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9: of signature "s", and of "t" from
+/// Shard `shard` of three, with a finding in each of its rounds 0 .. 9. The signature is "s", and "t" from
 /// round 5 on.
 Campaign shard_of_three(std::uint64_t shard) {
   Run run{info, {{.index = shard, .count = 3, .rounds = 4, .complete = true}}, {}};
@@ -63,7 +63,7 @@ TEST(Campaign, AllShardsGiveTheWholeInAnyOrder) {
   EXPECT_EQ(whole.statistics.oracle_disagreements, 6);
   std::vector<std::uint64_t> order{0, 1, 2};
   while (std::next_permutation(order.begin(), order.end())) EXPECT_EQ(merged(order).runs, whole.runs);
-  // In steps too.
+  // The result is the same in several steps.
   const std::vector parts{merged({2, 0}), shard_of_three(1)};
   const std::vector<std::string> names{"a", "b"};
   EXPECT_EQ(merge_campaigns(parts, names).runs, whole.runs);

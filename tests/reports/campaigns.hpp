@@ -1,4 +1,4 @@
-// Campaigns to report on, made of a few numbers.
+// Makes campaigns for reports from a few numbers.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace nearmiss::testing {
 
-/// Counters whose farthest false positive is at a thousandth of the bound for each false positive; `ns` is the time per
-/// query.
+/// Counters in which the ratio of the farthest false positive is the number of false positives divided by
+/// 1000. `ns` is the time per query.
 inline Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
                      std::uint64_t false_positives, std::uint64_t ns = 0) {
   Counts c;

@@ -9,7 +9,7 @@
 namespace nearmiss {
 namespace {
 
-// Clopper and Pearson's bound solves P(X <= count) = 5 % for the binomial X; for 0 in n that is 1 -
+// Clopper and Pearson's bound solves P(X <= count) = 5 % for binomial X. For 0 in n trials, it is 1 -
 // 0.05^(1/n).
 TEST(Confidence, NoneSeenInMany) {
   for (const std::uint64_t n : {1U, 10U, 1000U, 1000000U})
@@ -23,9 +23,9 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// P(X <= count) at the upper end and P(X >= count) at the lower one are half of the risk.
+// P(X <= count) at the upper end and P(X >= count) at the lower end are half of the risk each.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
-  const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9
+  const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);
   EXPECT_NEAR(at_most_one(interval.hi), 0.005, 1e-9);
   EXPECT_NEAR(1 - std::pow(1 - interval.lo, 9), 0.005, 1e-9);
@@ -50,18 +50,21 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // In two campaigns of the same size, at least 9 of 10 are in a given one with probability 11 / 1024.
+  // Of 10 events in two campaigns of the same size, at least 9 are in a given campaign with probability 11 /
+  // 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);
-  // Three times as many queries in one family, as many in the other: on average two thirds of 6 are expected now.
+  // One family has three times as many queries now, and the other as many as before. The mean expectation is
+  // that two thirds of 6 are seen now.
   EXPECT_NEAR(pooled_test({{{4, 300}, {0, 100}}, {{2, 100}, {0, 100}}}).more,
               std::pow((4 * 0.75 + 2 * 0.5) / 6, 6), 1e-12);
   EXPECT_EQ(pooled_test({{{3, 100}, {3, 100}}}).either(), 1);
   EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
-// The binomial distribution of large numbers says a larger probability, but not by much where shares are small.
+// The binomial distribution for large numbers gives a larger probability, but only slightly larger for small
+// shares.
 TEST(FisherTest, OfLargeNumbersIsNearTheBinomial) {
   const double small = fisher_test({60, 1ULL << 30}, {30, (1ULL << 30) - 1}).more;
   const double large = fisher_test({60, 1ULL << 31}, {30, 1ULL << 31}).more;

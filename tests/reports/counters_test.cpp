@@ -1,4 +1,4 @@
-// Every declared counter merges, and goes through the store, report.json and statistics.csv.
+// Every declared counter merges, and appears in the store, report.json and statistics.csv.
 #include "reports/statistics/counter.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace nearmiss {
 namespace {
 
-/// Gives each counter a value of its own.
+/// Gives each counter a distinct value.
 class Filler {
  public:
   explicit Filler(std::uint64_t last) : last_(last) {}
@@ -54,7 +54,7 @@ Owner filled(std::uint64_t last = 0) {
   return owner;
 }
 
-/// Counters with distinct values; more queries than faults and collisions.
+/// Counters with distinct values, and with more queries than faults and collisions.
 Counts filled_counts() {
   auto counts = filled<Counts>();
   counts.queries = 1000000;
@@ -195,7 +195,7 @@ void expect_in_csv(const Fields& fields, const Counts& counts, const NamedCounts
               std::to_string((counts.*counter.member)[i]));
 }
 
-/// Anything else is no number.
+/// Other values are not numbers.
 template <class Member>
 void expect_in_csv(const Fields& /*fields*/, const Counts& /*counts*/,
                    const Counter<Counts, Member>& /*counter*/) {}

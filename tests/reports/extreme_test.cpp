@@ -1,4 +1,4 @@
-// The most extreme queries, and how they merge.
+// Merging of the most extreme queries.
 #include "reports/statistics/extreme.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ Extreme extreme(Extreme::Of of, double value, const std::string& provenance) {
   return {of, "mu", value, testing::falling_edge(0.1, value), provenance, 10};
 }
 
-/// Merges in both orders, which must not matter, and gives the value.
+/// Merges in both orders, which must not matter, and returns the value.
 double merged_value(const Extreme& a, const Extreme& b) {
   Extreme ab = a;
   ab.merge(b);

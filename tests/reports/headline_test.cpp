@@ -24,7 +24,7 @@ TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
   bad.statistics.oracle[{Kind::edge_edge, "f"}].queries = 1234;
   EXPECT_EQ(headline(bad.statistics, std::nullopt).text, "a failed; b did not fail, in 1,234 queries.");
   EXPECT_FALSE(headline(bad.statistics, std::nullopt).clean);
-  // A failure that was there before is no news.
+  // A failure that the baseline has too is not new.
   EXPECT_EQ(headline(bad.statistics, changes(bad, bad)).text,
             "a failed; b did not fail, in 1,234 queries; nothing worse since the baseline.");
   EXPECT_TRUE(headline(bad.statistics, changes(bad, bad)).clean);
@@ -35,7 +35,7 @@ TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
 
   bad.statistics.oracle_disagreements = 2;
   EXPECT_THAT(headline(bad.statistics, changes(bad, bad)).text,
-              HasSubstr("The oracle is not to be trusted: 2 "));
+              HasSubstr("The oracle cannot be trusted: 2 "));
   EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
 }
 

@@ -11,7 +11,7 @@
 namespace nearmiss {
 namespace {
 
-/// Statistics in which the farthest false positive of each subject is at a part of its bound.
+/// Statistics in which the farthest false positive of each subject is at a given fraction of its bound.
 Statistics farthest_at(const std::map<std::string, double>& parts) {
   Statistics statistics;
   for (const auto& [subject, part] : parts) {
@@ -68,7 +68,7 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
   EXPECT_EQ(line->greatest_part, 1);
   EXPECT_EQ(describe(*line),
             "wang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions");
-  // Another factor of a half for each halving of ε: one more power.
+  // A further factor of a half for each halving of ε increases the power by one.
   const auto steeper =
       fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})), "wang");
   EXPECT_NEAR(steeper->exponent, 1.25, 1e-4);
@@ -92,7 +92,8 @@ TEST(Ladder, TheIntervalIsStudents) {
             "0.125 to 1 of the claimed distance");
 }
 
-// The middle one of three points 16 apart is 1 below the others: squared residuals of 2/3 over one degree of freedom.
+// The middle of three points at intervals of 16 is 1 below the others. The squared residuals are 2/3 with one
+// degree of freedom.
 TEST(Ladder, TheStandardErrorIsThatOfTheSlope) {
   const auto line = fit(rungs(farthest_at({{"wang:p24", 1}, {"wang:p40", 0.5}, {"wang:p56", 1}})), "wang");
   EXPECT_NEAR(line->exponent, 0.25, 1e-5);
@@ -123,7 +124,7 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[1].origin, "directed search");
   EXPECT_EQ(all[2].origin, families.begin()->first.family);
   for (const Fit& each : all) {
-    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² has a term in ε beside that in ε^½
+    EXPECT_NEAR(each.exponent, 0.25, 1e-5);  // D² also has a term in ε
     EXPECT_EQ(each.precisions, 3);
   }
 }

@@ -1,4 +1,4 @@
-// Opens reports in Chromium as a user does and looks at what is drawn. Usage: page_test.mjs NEARMISS
+// Opens reports in Chromium as a user does, and checks what is drawn. Usage: page_test.mjs NEARMISS
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSweepsOfWhatIsNeverWrong, showsWhatDecides } from "./page/charts.mjs";
 import { showsFindings, showsThatNothingWasFound, showsTheBaseline } from "./page/findings.mjs";

@@ -30,7 +30,8 @@ class ReportTest : public testing::TemporaryFolder {};
 const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
 const Query simple = testing::falling_vertex(0.5, 0.5, 1, -1);
 
-/// `subject` finds one collision, misses one, and has one false positive at half of the bound.
+/// A campaign in which `subject` finds one collision, misses one, and has one false positive at half of the
+/// bound.
 Campaign some_campaign(const std::string& subject) {
   Campaign campaign;
   campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
@@ -170,7 +171,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
             rates_json(both, true)["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
-  // Links back to a query have the whole name.
+  // References to a query have the full name.
   EXPECT_EQ(json["findings"][0]["family"], "search-far-wang");
   ASSERT_EQ(json["farthest"].size(), 5);
   EXPECT_EQ(json["farthest"][1]["family"], "search-far-wang");
@@ -190,14 +191,14 @@ TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
 TEST_F(ReportTest, NeverReplacesAnythingElse) {
   write("home/letter.txt", "precious");
   EXPECT_THAT([&] { write_report(some_campaign("wang"), {}, file("home")); },
-              ThrowsMessage<Error>(HasSubstr("found something that is no report")));
+              ThrowsMessage<Error>(HasSubstr("found something that is not a report")));
   EXPECT_EQ(read("home/letter.txt"), "precious");
 }
 
 TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   const Campaign before = some_campaign("wang");
   Campaign now = before;
-  now.statistics.seen.begin()->second += 1;  // once more in a known way
+  now.statistics.seen.begin()->second += 1;  // one more failure in a known way
   EXPECT_TRUE(report_json(now, {.baseline = before})["baseline"]["new_signatures"].empty());
   now.statistics.seen[{Finding::What::fault, "wang", "vt crash SEGV"}] = 1;
   const auto json = report_json(now, {.baseline = before});

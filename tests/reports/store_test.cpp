@@ -1,4 +1,4 @@
-// The store: what is saved is there, whole, whatever happens next.
+// Whatever happens after a save, the store has all saved results.
 #include "reports/store/store.hpp"
 
 #include <gmock/gmock.h>
@@ -76,7 +76,7 @@ Statistics some_statistics(const std::string& subject) {
   return statistics;
 }
 
-/// A finding; those with provenances of one length are shrunk to the same query.
+/// A finding. Findings whose provenances have the same length are shrunk to the same query.
 Finding some_finding(const std::string& provenance) {
   return {Finding::What::false_negative,
           "basic",
@@ -152,7 +152,7 @@ TEST_F(StoreTest, GoesOnWithOnePartOfOneRunOnly) {
   EXPECT_THAT([&] { Store(file("none.db")); }, ThrowsMessage<Error>(HasSubstr("none.db: unable to open")));
 }
 
-/// No file of this process can grow beyond a size: to a writer the same as a full disk.
+/// Limits the size of this process's files, which has the same effect as a full disk.
 class NoRoom {
  public:
   explicit NoRoom(rlim_t bytes) {

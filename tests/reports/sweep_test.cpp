@@ -1,4 +1,4 @@
-// Sweeps are read from the names of families alone.
+// The names of families are enough to recognise sweeps.
 #include "reports/sections/sweep.hpp"
 
 #include <gmock/gmock.h>

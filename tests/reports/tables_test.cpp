@@ -1,4 +1,4 @@
-// Tables that other commands keep, as reports read them.
+// Reports read the tables of other commands.
 #include "reports/sections/power_table.hpp"
 
 #include <gmock/gmock.h>

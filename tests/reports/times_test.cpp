@@ -1,4 +1,4 @@
-// How long subjects take.
+// Run times of subjects.
 #include "reports/statistics/times.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ TEST(Times, AreMediansOverTheBatchesOfAFamily) {
   for (const std::uint64_t ns : {500U, 520U, 90'000U}) times.add(Kind::edge_edge, "f", {10, ns});
   EXPECT_EQ(times.ns_per_query(), 52);
   EXPECT_EQ(times.mean(), 91020 / 30.0);
-  times.add(Kind::edge_edge, "f", {31, 31 * 40});  // more queries than all others
+  times.add(Kind::edge_edge, "f", {31, 31 * 40});  // more queries than all other batches
   EXPECT_EQ(times.ns_per_query(), 40);
   SubjectTimes others;
   others.add(Kind::edge_edge, "g", {10, 10 * 1000});
@@ -66,7 +66,7 @@ TEST(Times, TheSlowestAreKept) {
   for (std::size_t i = 0; i < SubjectTimes::slow_cases; ++i) EXPECT_EQ(a.slowest[i].nanoseconds, 19 - i);
 }
 
-// Six are equally slow; the first five by their provenance are kept, whatever the order.
+// Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;

@@ -77,7 +77,8 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   EXPECT_FALSE(trade_offs_json(statistics).contains("ladder"));  // two scalars
   statistics.counts[at("wang:p80")] = counts(100, 50, 0, 30, 300);
   statistics.counts[at("wang:p80")].farthest = {{1, {}, "f:1:0"}};
-  statistics.counts[at("defect:vv")] = counts(100, 50, 0, 30, 10);  // the unit of its distances is not known
+  statistics.counts[at("defect:vv")] = counts(100, 50, 0, 30, 10);  // the unit of this subject's distances is
+                                                                    // not known
   statistics.counts[at("exact")] = counts(100, 50, 0, 0, 1000);
   const auto json = trade_offs_json(statistics);
   const double paper = 40.963 * 0x1p-13;

@@ -1,4 +1,4 @@
-// The command nearmiss in the background: to signal it, or to see what others may do meanwhile.
+// Runs nearmiss in the background, to send signals to it, or to test what other processes may do meanwhile.
 #pragma once
 
 #include <sys/wait.h>
@@ -13,7 +13,7 @@
 
 namespace nearmiss::testing {
 
-/// "nearmiss ARGUMENTS" in a folder; killed at the end of the scope if it still runs.
+/// "nearmiss ARGUMENTS" in a folder. It is killed at the end of the scope if it still runs.
 class Background {
  public:
   Background(const std::filesystem::path& folder, const std::string& arguments) {
@@ -37,14 +37,14 @@ class Background {
     return code_.has_value();
   }
 
-  /// Waits until `is_true`, or for the end of the process; false if it has ended.
+  /// Waits until `is_true`, or until the process ends. False if the process has ended.
   template <class Condition>
   bool wait_until(const Condition& is_true) {
     while (!has_ended() && !is_true()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return !has_ended();
   }
 
-  /// Waits for a change of a file that exists or will.
+  /// Waits until a file changes or appears.
   bool wait_for_a_change(const std::filesystem::path& file) {
     const auto time = [&] {
       std::error_code none;
@@ -53,7 +53,7 @@ class Background {
     return wait_until([&, before = time()] { return time() != before; });
   }
 
-  /// Sends a signal and waits for the end.
+  /// Sends a signal, and waits for the process to end.
   void stop(int signal) {
     kill(process_, signal);
     int status = 0;
@@ -61,7 +61,7 @@ class Background {
     code_ = code_of(status);
   }
 
-  /// The exit code, once it has ended; -1 if a signal ended it.
+  /// The exit code after the process has ended; -1 if a signal ended it.
   [[nodiscard]] int code() const { return code_.value(); }
 
  private:

@@ -9,8 +9,8 @@ cd "$(dirname "$0")/../.."
 fail() { echo "$1" >&2; exit 1; }
 command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
 
-# The settings of the Dockerfile and base-builder, with libFuzzer and the address sanitizer. One process at a time, because
-# other tests run at the same time.
+# These are the settings of the Dockerfile and of base-builder, with libFuzzer and the address sanitizer. The
+# build uses one process, because other tests run at the same time.
 root=$PWD/build/clusterfuzzlite
 flags="-O1 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
 flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"
@@ -22,7 +22,7 @@ mkdir -p "$SRC" "$WORK" "$OUT"
 cp .clusterfuzzlite/build.sh "$SRC/"
 bash -eux "$SRC/build.sh" "$@"
 
-# Somewhere else, with another folder as the current one and no environment.
+# Runs the targets in another place, with another current folder and without environment variables.
 away=$(mktemp -d)
 trap 'rm -rf "$away"' EXIT
 mv "$OUT" "$away/out"
@@ -40,7 +40,7 @@ for target in "$@"; do
   seeds=$(find seeds -type f | wc -l)
   ((seeds > 100)) || fail "fuzz_$target has $seeds seeds"
 
-  # The arguments are base-runner's: its own, then those of NAME.options, and NAME.dict where there is one.
+  # The arguments are those of base-runner: its own, then those in NAME.options, and NAME.dict if it exists.
   arguments=(-rss_limit_mb=2560 -timeout=25 $(sed -n 's/^[a-z_]*=/-&/p' "$exe.options"))
   [[ ! -e $exe.dict ]] || arguments+=(-dict="$exe.dict")
   try() {

@@ -1,4 +1,4 @@
-// The command nearmiss, run as a user runs it.
+// Runs the command nearmiss as a user does.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -23,8 +23,8 @@ class CommandLine : public testing::TemporaryFolder {
     std::string out, error;
   };
 
-  /// A vertex that falls through the triangle (0,0,0) (1,0,0) (0,1,0), from z = 1 to -1, and one that stays
-  /// above.
+  /// Two queries with the triangle (0,0,0) (1,0,0) (0,1,0): a vertex that falls through it from z = 1 to -1,
+  /// and a vertex that stays above.
   static inline const std::string hit =
       "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -1  0 0 0  1 0 0  0 1 0\n";
   static inline const std::string miss =
@@ -32,8 +32,8 @@ class CommandLine : public testing::TemporaryFolder {
 
   static std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-  /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder; `before` is put in front, such as "ulimit -f
-  /// 8;".
+  /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder. `before` precedes the command, such as
+  /// "ulimit -f 8;".
   [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = "cd " + file("").string() + " && " + before + " " + NEARMISS_EXECUTABLE +
                                 " " + arguments + " >out.txt 2>error.txt";
@@ -41,7 +41,7 @@ class CommandLine : public testing::TemporaryFolder {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
   }
 
-  /// One line on stderr with all of these words, exit code 2, and no file that was not there before.
+  /// Expects one line on stderr with all of these words, exit code 2, and no new file.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
     const Output output = run(arguments);
     EXPECT_EQ(output.code, 2) << arguments;
@@ -53,7 +53,8 @@ class CommandLine : public testing::TemporaryFolder {
       EXPECT_FALSE(std::filesystem::exists(file(name))) << arguments << " left " << name;
   }
 
-  /// Waits until a campaign with the store a.db has saved some of its rounds; false if it ends before.
+  /// Waits until a campaign with the store a.db has saved some of its rounds. False if the campaign ends
+  /// before.
   [[nodiscard]] bool wait_for_a_save(Background& campaign) const {
     const auto has_queries = [&] {
       return run("report a.db -o saved").code == 0 && !read_json("saved/report.json")["subjects"].empty();

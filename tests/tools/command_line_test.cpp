@@ -1,4 +1,4 @@
-// The command line from outside: answers and exit codes.
+// Tests the command line as a user sees it: answers and exit codes.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -18,7 +18,7 @@ TEST_F(CommandLine, OraclePrintsOneLinePerQuery) {
 
 TEST_F(CommandLine, OracleAnswersByEveryMethod) {
   write("q.vt", hit + miss);
-  // Through the triangle and back: two roots, which parity takes for none.
+  // The vertex goes through the triangle and back. Parity cannot distinguish its two roots from none.
   write("even.vt", "-0.375 -0.3125 0.25  0 0 0  1 -1 0  1 0 1   1.125 0.4375 0.25  0 0 0  1 1 0  -1 0 1\n");
   for (const char* method : {"filtered", "exact", "sturm", "parity", "all"})
     EXPECT_EQ(run(std::string("oracle --kind vt q.vt --method ") + method).out, "1\n0\n") << method;
@@ -168,7 +168,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   for (const char* kind : {"vt", "ee"})
     for (const char* count : {"queries", "collisions", "positives", "false_positives"})
       EXPECT_EQ(read_json("replay.json")["subjects"]["wang"][kind][count], subjects["wang"][kind][count]);
-  // Both triangles are only translated, so that the plan needs no subject.
+  // Both triangles are only translated, so the plan needs no subject.
   const Output planned = run(scene + "--verify-plan");
   EXPECT_EQ(planned.code, 0) << planned.error;
   EXPECT_THAT(planned.out, HasSubstr("plan verified: "));
@@ -191,7 +191,7 @@ TEST_F(CommandLine, ScenesAreBuiltInToo) {
   expect_refused("scene flying@9", {"flying@9: found size 9, expected 100 to 4000000"});
   expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
   expect_refused("scene", {"SCENE is required"});
-  // A folder of that name is not the built-in scene.
+  // A folder with this name is not the built-in scene.
   write("flying/1.obj", falling_triangle);
   write("flying/2.obj", fallen_triangle);
   EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs tools/environments on two environments, and checks its output, and that nothing else is compiled there.
+# Runs tools/environments on two environments, and checks its output. Also checks which flags the headers of
+# ccd/ refuse.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 fail() { echo "$1"; exit 1; }

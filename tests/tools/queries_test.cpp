@@ -1,4 +1,4 @@
-// From outside: the commands that print queries and the bounds by which subjects are judged.
+// Tests the commands that print queries, and the bounds by which subjects are judged, as a user runs them.
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -12,7 +12,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims no bound and is measured by wang's.
+  // basic claims no bound, and is measured by wang's bound.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -30,7 +30,7 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 }
 
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
-  // Numbers 2 to 6 of the family: three are even, two odd.
+  // Of the numbers 2 to 6 of the family, three are even and two are odd.
   const auto lines = [&](const std::string& options) {
     const Output output = run("family parallel --seed 5 " + options);
     EXPECT_EQ(output.code, 0) << output.error;
@@ -42,7 +42,7 @@ TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   EXPECT_EQ(lines("--kind ee --count 8"),
             lines("--kind ee --count 4") + lines("--kind ee --first 4 --count 4"));
   EXPECT_EQ(lines("--kind ee --count 1"), "");
-  // They are the queries of a campaign, and give its counts.
+  // These queries are those of a campaign, and give the same counts.
   EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
   write("q.ee", lines("--kind ee --count 1000"));
   EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);

@@ -1,4 +1,4 @@
-// A campaign that is interrupted, killed, divided into shards or run by more threads gives the same report.
+// A campaign gives the same report if it is interrupted, killed, divided into shards, or run by more threads.
 #include <chrono>
 #include <csignal>
 
@@ -25,8 +25,8 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes the campaign in a.db, waits until it has written, and then a while, and sends it a signal. Returns
-  /// the exit code; -1 if the signal ended it.
+  /// Starts or resumes the campaign in a.db, waits until it has saved and then for some time, and sends it a
+  /// signal. Returns the exit code; -1 if the signal ended it.
   [[nodiscard]] int run_until_a_signal(std::chrono::milliseconds after, int signal) const {
     Background process(file(""), std::string(campaign) + " --db a.db --resume");
     process.wait_for_a_change(file("a.db-wal"));
@@ -63,15 +63,15 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(timeless_report("merged.db"), report);
 
   int kills = 0;
-  // The times between start and signal are spread over more than the interval between two saves, and grow until the
-  // campaign is complete, on a slow machine too.
+  // The times between start and signal cover more than the interval between two saves. These times grow until
+  // the campaign is complete, even on a slow machine.
   while (run_until_a_signal(std::chrono::milliseconds(137 * kills % 1000 + 20 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
   RecordProperty("kills", kills);
   EXPECT_GT(kills, 0);
   EXPECT_EQ(timeless_report("a.db"), report);
-  // A complete campaign is not run again.
+  // A complete campaign does not run again.
   EXPECT_EQ(run(std::string(campaign) + " --db a.db --resume").code, 1);
   EXPECT_EQ(timeless_report("a.db"), report);
 }
@@ -105,7 +105,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // has a number of cases in place of a time
+  other["runs"] = report["runs"];  // these have a number of cases instead of a time
   EXPECT_EQ(other, report);
 }
 

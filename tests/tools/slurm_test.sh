@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A campaign on a Slurm cluster gives the report of one machine, even if one task reaches its time limit, one is killed and
-# one never runs. The test starts its own cluster of one node, with all files in a temporary folder.
+# A campaign on a Slurm cluster gives the same report as one machine, even if one task reaches its time limit,
+# one task is killed and one never runs. The test starts its own cluster of one node, with all files in a
+# temporary folder.
 # Usage: slurm_test.sh NEARMISS. Exit code 77: there is no Slurm, or it cannot start.
 set -euo pipefail
 nearmiss=$(realpath "$1")
@@ -28,7 +29,7 @@ trap 'exit 130' INT TERM
 
 skip() { echo "skipped: $1"; exit 77; }
 fail() { echo "failed: $1"; exit 1; }
-# Looks again until a command succeeds, for as long as that takes on a busy machine, but not where a daemon has ended.
+# Repeats a command until it succeeds, with patience for a busy machine. Gives up if a daemon has ended.
 wait_until() {
   local end=$((SECONDS + 200))
   until "$@"; do
@@ -64,7 +65,7 @@ SlurmctldHost=$(hostname -s)(127.0.0.1)
 SlurmUser=$(id -un)
 SlurmdUser=$(id -un)
 AuthType=auth/munge
-# A task that goes on waits in the queue for as long as its credential holds.
+# A requeued task waits in the queue for as long as its credential is valid.
 AuthInfo=socket=$folder/munge,cred_expire=5
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -88,7 +89,7 @@ daemons+=($!)
 idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
-# What one machine gives, and an earlier campaign to compare it with.
+# Makes the report of one machine, and an earlier campaign as its baseline.
 fuzz=(--cases 100000 --subject basic,wang)
 expect_code() {
   local code=0
@@ -107,8 +108,8 @@ expect_said "found --shards 'none'"
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --subject none
 expect_said "nearmiss: "
 
-# Held until the second task is cancelled. When the others have saved something the first one is killed, and the third
-# one is told that its time limit comes near.
+# The campaign is held until the second task is cancelled. When the others have saved something, the first
+# task is killed, and the third task receives the signal for its time limit.
 expect_code 0 "${campaign[@]}" "${fuzz[@]}" -- --hold
 IFS=, read -r array report <"$results/jobs"
 scancel "${array}_1"
@@ -129,7 +130,7 @@ expect_job "$report" " ExitCode=0:0 "
 cp "$results/summary.txt" "$folder/said.log"
 expect_said "fuzz: shards 1 of 3 are missing, shards 0 of 3 are not complete"
 
-# The same command does what is missing, another campaign is refused there.
+# The same command completes the missing shards. Another campaign in the same folder is refused.
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --seed 2
 expect_said "found a run with"
 expect_code 0 "${campaign[@]}" --baseline "$folder/earlier.db" "${fuzz[@]}"

@@ -1,4 +1,4 @@
-// The command line in trouble: bad input, and failures during the work.
+// Tests the command line with bad input, and with failures during the work.
 #include <algorithm>
 
 #include "tests/tools/background.hpp"
@@ -140,7 +140,7 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // The threads of a campaign and the processes of its plug-ins have the command's arithmetic.
+  // The threads of a campaign and the processes of its plug-ins use the arithmetic of the command.
   const auto positives = [&](const std::string& preload, const std::string& error) {
     EXPECT_EQ(run("fuzz --family scale@-1070,planted --cases 2000 --quiet --json new.json --subject wang," +
                       plugin("hostile"),
@@ -175,7 +175,7 @@ TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
 }
 
 TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
-  // A limit on the size of files simulates the full disk.
+  // A limit on the size of files simulates a full disk.
   const Output output =
       run("fuzz --time 24h --subject basic --family planted --db a.db", "ulimit -f 300; trap '' XFSZ;");
   EXPECT_EQ(output.code, 2);

@@ -1,5 +1,6 @@
-# Included by project() in the copies of tests/judge/copy.mjs: compiles the libraries' headers once, not for every defect.
-# The files for wider instructions have other flags, with which precompiled headers cannot be shared.
+# project() includes this file in the copies that tests/judge/copy.mjs makes. It precompiles the libraries'
+# headers, so that they are compiled once and not for every defect. The files for wider instructions have
+# other flags and cannot share precompiled headers.
 function(nearmiss_precompile)
   set(numbers <CGAL/Gmpq.h> <CGAL/Mpzf.h> <CGAL/Interval_nt.h> <CGAL/Simple_cartesian.h>
     <CGAL/Exact_predicates_inexact_constructions_kernel.h> <boost/multiprecision/gmp.hpp> <Eigen/Core> <Eigen/Geometry>)

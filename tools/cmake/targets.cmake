@@ -54,8 +54,8 @@ function(nearmiss_uses_cgal target)
   # Interval arithmetic changes the rounding mode, which the compiler must know.
   target_compile_options(${target} PRIVATE -frounding-math)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT NEARMISS_CLANG_TIDY)  # clang-tidy does not know the options
-    # g++ 12 warns wrongly of a use after free where CGAL's reference-counted handles are inlined, and of a mismatched
-    # delete in CGAL's Mpzf, which sets its pointer back to where new[] had put it.
+    # g++ 12 gives two false warnings. It sees a use after free in CGAL's inlined reference-counted handles,
+    # and a mismatched delete in CGAL's Mpzf, which resets its pointer to the address from new[] first.
     target_compile_options(${target} PRIVATE -Wno-use-after-free -Wno-mismatched-new-delete)
   endif()
 endfunction()

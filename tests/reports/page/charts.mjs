@@ -1,4 +1,4 @@
-// Sweeps, claims of no distance, and what decides.
+// Tests charts of sweeps, of claims of no distance, and of deciders.
 import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
 import { count, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
@@ -7,7 +7,8 @@ export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
     ["--sweep", "needle,stiff", "--steps", "3", "--cases", "1200", "--subject", "basic,wang"]));
   assert.equal(await page.isVisible("#sweeps-section"), true);
-  // 4 panels, each of 2 families with 2 subjects at 3 values; above them those that are not 0.
+  // There are 4 panels, each with 2 families, 2 subjects and 3 values. Marks above them show values other
+  // than 0.
   const steps = Object.values(jsonOf("swept").sweeps).flatMap(Object.values).flat();
   const shown = ["false_negative_rate", "max_fp_distance_over_bound", "false_positive_rate", "ns_per_query"]
     .map((field) => steps.filter((step) => step[field] > 0).length);
@@ -18,11 +19,11 @@ export async function showsSweeps(browser) {
 
 export async function showsSweepsOfWhatIsNeverWrong(browser) {
   const page = await open(browser, makeReport("right", ["--sweep", "stiff", "--steps", "2", "--cases", "40", "--subject", "exact"]));
-  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all 0 but the times
+  assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 2 + 2); // all values are 0 except the times
   await page.close();
 }
 
-/** A false positive is infinitely many times as far as a claim of 0. */
+/** For a claim of 0, the ratio of a false positive is infinite. */
 export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   const plugin = join(dirname(nearmiss), "plugins", "claims_exact.so");
   const page = await open(browser, makeReport("infinite", ["--sweep", "stiff", "--steps", "2", "--cases", "80", "--subject", `wang,${plugin}`]));

@@ -1,4 +1,5 @@
-// Findings, verdicts and counters of a campaign with failures, of one without, and against a baseline.
+// Tests findings, verdicts and counters: of a campaign with failures, of a campaign without, and with a
+// baseline.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -19,14 +20,14 @@ async function checkVerdicts(page, report) {
 
 async function checkCharts(page, report) {
   const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
-  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the one that missed
+  assert.deepEqual([await points(0), await points(1)], [3, 3]); // 2 subjects, and the cross of the subject that missed
   assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 2);
   assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
     Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
   assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>
     labels.filter((label) => !label.endsWith("%")))), new Set([...reported("vt"), ...reported("ee")]));
-  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds, how many and which share
+  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds, numbers and shares
   assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
   assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
   assert.deepEqual(await page.locator("#stages .role-legend-label text").allTextContents(), report.stages);
@@ -35,7 +36,7 @@ async function checkCharts(page, report) {
 async function checkTables(page, report) {
   assert.equal(await page.isVisible("#picker"), false);
 
-  assert.equal(await page.isVisible("#deciders-part"), false); // neither asks another
+  assert.equal(await page.isVisible("#deciders-part"), false); // neither subject passes queries on
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
   await page.check("#by-family");
@@ -60,7 +61,7 @@ async function checkFindings(page, report) {
   assert.deepEqual(seen, report.findings.map(({ seen: n }) => (n === 1 ? "seen once" : `seen ${n.toLocaleString("en-US")} times`)));
   const shrunk = page.locator("#findings tbody tr").first().locator("pre");
   assert.match(await shrunk.first().textContent(), /^x0 \(.*, .*, .*\)/);
-  assert.equal(await shrunk.last().isVisible(), false); // the query as it was found
+  assert.equal(await shrunk.last().isVisible(), false); // the original query
   await page.locator("#findings summary").first().click();
   assert.equal(await shrunk.last().isVisible(), true);
 }
@@ -84,7 +85,7 @@ async function checkThatAPictureTurns(page, report) {
   assert.notEqual(await drawn(), byMouse);
 }
 
-/** What the buttons of the first finding copy: its command, and its query. */
+/** The texts that the buttons of the first finding copy: its command, and its query. */
 async function checkCopies(page, report, command) {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   const copied = async (number) => {
@@ -98,7 +99,7 @@ async function checkCopies(page, report, command) {
 }
 
 async function checkOtherSections(page) {
-  assert.equal(await count(page, "#farthest svg.picture"), 4); // of each subject and kind
+  assert.equal(await count(page, "#farthest svg.picture"), 4); // one for each subject and kind
   const far = await page.locator("#counts tbody a").evaluateAll((links) => links.map((link) => link.getAttribute("href")));
   assert.ok(far.length > 20);
   for (const file of far) readFileSync(join(folder, "found", file));
@@ -123,7 +124,7 @@ export async function showsFindings(browser) {
 
   const [, file] = command.match(/^nearmiss replay (cases\/\S+) --subject basic$/);
   assert.throws(() => execFileSync(nearmiss, ["replay", file, "--subject", "basic"], { cwd: join(folder, "found") }),
-    { status: 1 }); // the command on the page finds it again
+    { status: 1 }); // the command on the page repeats the failure
   await page.close();
 }
 
@@ -145,8 +146,8 @@ export async function showsTheBaseline(browser) {
   assert.equal(await page.isVisible("#baseline"), true);
   const news = await page.textContent("#news");
   assert.match(news, /New: false-negative of basic-plain, /); // the baseline does not have it
-  assert.doesNotMatch(news, /New: false-negative of basic, /); // it failed before
-  assert.match(news, /not in the baseline, but as rare as chance explains \(about \d+ were expected\): false-negative of basic, /);
+  assert.doesNotMatch(news, /New: false-negative of basic, /); // the baseline has this failure
+  assert.match(news, /not in the baseline, but no more frequent than chance explains \(about \d+ were expected\): false-negative of basic, /);
   assert.match(await page.textContent("#headline"), /since the baseline\.$/);
   assert.equal(await count(page, "#before-and-now tbody tr"), 6);
   assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);

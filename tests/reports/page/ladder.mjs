@@ -1,8 +1,8 @@
-// The ladder of precisions and the audit.
+// Tests the ladder of precisions and the audit.
 import assert from "node:assert/strict";
 import { count, jsonOf, open, pageOf, run } from "./session.mjs";
 
-/** Colours are algorithms'; labels are scalars, and hide no other. */
+/** Colours show algorithms. Labels show scalars, and do not overlap. */
 async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate }) {
   assert.equal(await page.isVisible("#error-time-of-ladder"), true);
   assert.equal(await page.isVisible("#error-time-of-each"), false);

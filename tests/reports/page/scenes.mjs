@@ -1,4 +1,4 @@
-// Scenes: their pairs, steps and meshes.
+// Tests scenes: their pairs, steps and meshes.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";

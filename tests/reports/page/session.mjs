@@ -22,14 +22,14 @@ export function run(...args) {
 export const pageOf = (name) => pathToFileURL(join(folder, name, "index.html")).href;
 export const jsonOf = (name) => JSON.parse(readFileSync(join(folder, name, "report.json")));
 
-/** Runs a campaign and writes its report; the address of its page. */
+/** Runs a campaign and writes its report. Returns the address of its page. */
 export function makeReport(name, fuzz, report = []) {
   run("fuzz", ...fuzz, "--db", `${name}.db`);
   run("report", `${name}.db`, "-o", name, ...report);
   return pageOf(name);
 }
 
-/** Opens a page that must draw without any complaint and without the network. */
+/** Opens a page, which must draw without any error and without the network. */
 export async function open(browser, url, options = {}) {
   const page = await browser.newPage({ offline: true, ...options });
   const complaints = [];

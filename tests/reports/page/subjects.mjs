@@ -1,8 +1,8 @@
-// Many subjects: the picker, and what it draws again.
+// Tests the picker for many subjects, and the charts that it redraws.
 import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open } from "./session.mjs";
 
-/** Those that failed and the Pareto front come first; a change draws again what has a row or a line for each subject. */
+/** Failed subjects and the Pareto front come first. A change redraws the charts with a row or a line for each subject. */
 export async function showsAChoiceOfManySubjects(browser) {
   const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
   const page = await open(browser, makeReport("many", ["--cases", "500", "--search", "--subject", names.join(",")]));
@@ -53,9 +53,9 @@ export async function showsAChoiceOfManySubjects(browser) {
   await press("wang");
   await isAsChosen(ofWang);
   await press("all");
-  await press("wang"); // before all are drawn
+  await press("wang"); // before all charts are drawn
   await isAsChosen(names.filter((name) => !ofWang.includes(name)));
-  await press("as at first");
+  await press("reset");
   await isAsChosen(first);
   assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables are complete
   await page.close();
@@ -70,7 +70,7 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   };
   const points = () => count(page, "#error-time .concat_1_group .mark-symbol.role-mark path");
   const all = await points();
-  assert.equal(new Set(await legend()).size, 9); // those that are chosen at first, and the others in one colour
+  assert.equal(new Set(await legend()).size, 9); // the initial selection, and all other subjects in one colour
   assert.ok((await legend()).includes("others"));
   await page.click("#picker summary");
   for (const [button, labels] of [["none", ["others"]], ["all", names]]) {

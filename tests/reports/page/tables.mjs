@@ -1,4 +1,4 @@
-// Tables of other commands; and the page in other media.
+// Tests tables of other commands, and the page in other media.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -25,7 +25,7 @@ export async function showsEnvironments(browser) {
   await page.close();
 }
 
-/** Under another theme, on a phone, and on paper nothing is lost and nothing sticks out. */
+/** With another theme, on a phone, and on paper, everything is shown and nothing extends beyond the page. */
 export async function fitsEveryMedium(browser) {
   const url = pageOf("found");
   for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
