@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Identifies a set of pairs in any order: their number, and the sum of their hashes.
+/// Identifies a set of pairs, independent of their order, by their number and the sum of their hashes.
 struct Fingerprint {
   std::uint64_t count = 0;
   std::uint64_t sum = 0;
@@ -34,7 +34,7 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks about the pairs that a plan leaves out.
+/// Asks the oracle and the subjects about pairs that a plan leaves out.
 Verification verify(const AskedPairs& pairs, const Subjects& subjects) {
   std::vector<Query> queries;
   std::vector<bool> expected;
