@@ -59,7 +59,7 @@ inline constexpr double delta = delta_of(squared_distance, distance_of_vectors, 
 inline constexpr double delta_far = delta_of(squared_distance_far, distance_of_vectors_far, time_far);
 
 // cubic.hpp
-inline constexpr double coefficient_a = 43.15;  ///< coefficients of F; for edges, whose p is far
+inline constexpr double coefficient_a = 43.15;  ///< a coefficient of F; for edges, since their p is far
 inline constexpr double coefficient_b = 123.4;
 inline constexpr double coefficient_c = 102.3;
 inline constexpr double coefficient_d = 22.04;

@@ -29,7 +29,7 @@ enum class Step : std::uint8_t {
   first_interval,        ///< the first of two or three intervals between nodes
   middle_interval,       ///< the middle one of three intervals
   last_interval,         ///< the last of two or three intervals
-  residual,              ///< a root has |F| <= μ; without this step, refinement ends at 2^-20
+  residual,              ///< a root has |F| <= μ; without this step, a Newton step below 2^-20 is enough
   // wang.hpp
   proximity,      ///< area, height and barycentric tests
   proximity_end,  ///< the same tests at t = 1

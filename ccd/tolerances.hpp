@@ -30,7 +30,7 @@ struct Tolerances {
   T rho;      ///< ρ, length²: components of x_a, x_b below it are dropped (§4.3)
   T psi;      ///< ψ, length²: VE accepts F_0ij <= ψ (§4.3)
   T lambda2;  ///< λ², length²: VE's edge-length test (§4.3)
-  T R, S;     ///< length: VE's distance threshold and 3R, or √8 R (§3.2, §4.4; constraints.hpp)
+  T R, S;     ///< length: VE's distance threshold R, and S = 3R or √8 R (§3.2, §4.4)
   T mu;       ///< μ, length³: the cubic's residual (§4.4)
   T tau;      ///< τ, length²: the area test (§4.4)
   T eta;      ///< η, length: the height test (§4.4)

@@ -12,7 +12,7 @@ namespace nearmiss {
 namespace {
 
 constexpr std::array infos{
-    SubjectInfo{"exact", "the oracle itself: certified filter, exact arithmetic for what it leaves"},
+    SubjectInfo{"exact", "the oracle itself: the certified filter, then exact arithmetic"},
     SubjectInfo{"exact-scalar", "the same, one query at a time"},
 };
 

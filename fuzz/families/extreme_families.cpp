@@ -208,7 +208,7 @@ std::vector<Family> extreme_families() {
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",
-                     "an edge beside the other edge, or the motion beside an edge of the triangle",
+                     "an edge nearly parallel to the other, or motion nearly parallel to a triangle's edge",
                      {"angle = 10^x", -16, 0, false, near_parallel}),
       with_parameter("needle", "long thin primitives", {"height / length = 10^x", -16, 0, false, needle}),
       with_parameter("static-pair", "one primitive rests",

@@ -16,8 +16,8 @@ struct Place {
 };
 
 /// The query with the position `point` (0 .. 3 are the vertices at t = 0, 4 .. 7 at t = 1) moved so that the
-/// two points of the place coincide at its time. Coordinates are rounded to the nearest double, rarely one
-/// ulp beside it. An overflow results in coordinates that are not finite.
+/// two points of the place coincide at its time. Coordinates are rounded to the nearest double or, in rare
+/// cases, to its neighbour. An overflow results in coordinates that are not finite.
 Query joined(const Query& query, const Place& place, int point);
 
 /// The positions that joined() moves by at most 64 times the distance of the two points. There is always at

@@ -179,7 +179,7 @@ std::vector<Family> random_families() {
       plain("planted", "exact collisions by construction: inside, on edges, in vertices, at t = 0 and t = 1",
             planted, true),
       plain("planted-ulp", "planted collisions with a few coordinates moved by ulps", planted_ulp),
-      plain("grazing", "tangential contact: a double root, exactly or but for ulps", grazing),
+      plain("grazing", "tangential contact: a double root, exact or up to a few ulps", grazing),
       plain("parallel", "relative motion nearly in the plane of the primitives", parallel),
       plain("small", "primitives down to 1e-12 of their motion", small),
       plain("sliver", "thin triangles and nearly parallel edges", sliver),

@@ -94,8 +94,8 @@ Query triple_root(Random& random, Kind kind, double x) {
 
 std::vector<Family> root_families() {
   return {
-      with_parameter("end-contact", "contact at t = 0 or t = 1, exactly but for one coordinate",
-                     {"ulps by which that is moved = x", 0, 64, true, end_contact}),
+      with_parameter("end-contact", "exact contact at t = 0 or t = 1, with one coordinate moved",
+                     {"ulps by which the coordinate is moved = x", 0, 64, true, end_contact}),
       with_parameter("even-roots", "touching, passing and coming back; or coming near and turning back",
                      {"time between the roots = 10^x", -16, 0, false, even_roots}),
       with_parameter("triple-root", "a triple root of F, or nearly so",

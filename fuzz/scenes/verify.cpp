@@ -105,13 +105,13 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
 
 std::string describe(const Verification& verification) {
   std::string text =
-      fmt::format("{}: {} pairs are left out, of {} the oracle says otherwise; {}\n",
+      fmt::format("{}: {} pairs are left out, the oracle contradicts {} of them; {}\n",
                   verification.fine() ? "plan verified" : "THE PLAN IS WRONG",
                   with_separators(verification.left_out), with_separators(verification.wrong),
                   verification.different_searches == 0 ? "box intersection and sweep find the same pairs"
                                                        : "BOX INTERSECTION AND SWEEP DIFFER");
   for (const auto& [subject, count] : verification.spared)
-    text += fmt::format("false positives of {} that the plan spares: {}\n", subject, with_separators(count));
+    text += fmt::format("false positives of {} that the plan avoids: {}\n", subject, with_separators(count));
   return text;
 }
 

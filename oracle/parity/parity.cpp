@@ -132,7 +132,7 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   return false;
 }
 
-/// Whether the origin is on a patch that is in one plane with it. If so, it is on the segment from a(t) to
+/// Whether the origin is on a flat patch whose plane contains it. If so, it is on the segment from a(t) to
 /// b(t), the sides s = 0 and s = 1, at some t.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;

@@ -9,7 +9,7 @@
 namespace nearmiss {
 
 inline constexpr SubjectInfo adaptive_info{
-    "adaptive", "wang; what it reports is decided again: by the certified filter, in double-double, exactly"};
+    "adaptive", "wang, whose reports are decided again: by the certified filter, in double-double, exactly"};
 
 /// wang decides first, and misses nothing. The oracle's certified filter decides wang's reports again, in
 /// double. wang:dd, which also misses nothing, decides the queries that the filter leaves undecided, and
