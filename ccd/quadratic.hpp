@@ -40,9 +40,9 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
 /// that, for each root t' of a t² + b t + c' in [0, 1], a time t'(1 + θ) with |θ| <= 6ω is returned, unless
 /// it is beyond 1. (All to first order; tests/proofs/ has all orders.) The proof: the computed discriminant
 /// disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the discriminant of a, b and c' =
-/// c(1 + δ2)/(1 + δ1), and has its sign. Its square root then has a relative error of 2ω; q, a sum of two
-/// terms of one sign, 3ω; q/2a, 4ω; and 2c/q, with c in place of c', 6ω. An error of 1ω in a, such as that of
-/// 3a in a cubic's derivative, enters c' and θ too, which makes them 3ω and 7ω.
+/// c(1 + δ2)/(1 + δ1), and has its sign. The relative errors are then 2ω for its square root, 3ω for q (a sum
+/// of two terms of one sign), 4ω for q/2a, and 6ω for 2c/q with c in place of c'. An error of 1ω in a, such
+/// as that of 3a in a cubic's derivative, enters c' and θ too, which makes them 3ω and 7ω.
 template <class T, int capacity, class Steps = AllSteps>
 void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
   using std::sqrt;

@@ -97,7 +97,7 @@ SearchPoint draw(Random& random, double smallest) {
   return m;
 }
 
-/// log2 of six ratios. The smaller one of them is, the harder is the contact.
+/// log2 of six ratios. A contact is harder if one of them is smaller.
 std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& w) {
   const Vector q = contact.q.at(contact.time);
   const Vector r = contact.r.at(contact.time);

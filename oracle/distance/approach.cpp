@@ -190,8 +190,8 @@ class DistanceSearch {
     return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
-  /// A time in a gap. It is near the end that covers less, since the distance is small there, a few times as
-  /// far away as this end covers; in a wide gap, it is the middle.
+  /// A time in a gap. It is near the end that covers less, since the distance is small there; its offset from
+  /// that end is a few times the time that the end covers. In a wide gap, it is the middle.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;

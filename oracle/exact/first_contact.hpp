@@ -12,7 +12,7 @@ namespace nearmiss::exact {
 struct Meeting {
   /// The number of weights that vanish: none for a contact inside the triangle or the edges, one on an edge
   /// or at one end, two at a vertex or at two ends. Primitives without a common normal always meet at a
-  /// border, with one or two.
+  /// border, so the number is one or two.
   int vanishing_weights = 0;
   /// There is no common normal: the triangle has no area, or the edges are parallel or have no length.
   bool degenerate = false;
