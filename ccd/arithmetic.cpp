@@ -3,7 +3,7 @@
 namespace nearmiss {
 
 std::string odd_arithmetic() {
-  // Found by computing: the control registers and their names differ between processors.
+  // Detects the mode by computing, because control registers and their names differ between processors.
   const volatile double one = 1;
   const volatile double minus_one = -1;
   const volatile double tiny = std::numeric_limits<double>::min();

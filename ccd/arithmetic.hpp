@@ -1,5 +1,5 @@
-// The assumptions of nearmiss about floating-point arithmetic: IEEE 754 by the compiler, rounding to nearest
-// with subnormals and without traps by the processor.
+// The assumptions of nearmiss about floating-point arithmetic: the compiler follows IEEE 754; the processor
+// rounds to nearest, keeps subnormals and does not trap.
 #pragma once
 
 #include <cfenv>
@@ -11,8 +11,9 @@
 #include <xmmintrin.h>
 #endif
 
-// The compiler. Only the plug-ins of fuzz/environments, which are on trial for this, define
-// NEARMISS_ANY_ARITHMETIC. No macro says whether a compiler contracts: see README.md.
+// Assumptions about the compiler. Only the plug-ins of fuzz/studies/environments, which measure other
+// arithmetic, define NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts to FMA (see
+// README.md).
 #ifndef NEARMISS_ANY_ARITHMETIC
 #ifdef __FAST_MATH__
 #error "nearmiss needs IEEE arithmetic: found -ffast-math"
@@ -25,18 +26,19 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<doub
 
 namespace nearmiss {
 
-/// Whether this thread rounds to nearest, keeps subnormals and traps nothing. A nanosecond.
+/// Whether this thread rounds to nearest, keeps subnormals and does not trap. Takes about a nanosecond.
 inline bool is_arithmetic_plain() {
 #ifdef __SSE2__
-  constexpr unsigned flags = 0x3f;    // what happened so far
-  constexpr unsigned plain = 0x1f80;  // all traps masked; to nearest, no flushing
+  constexpr unsigned flags = 0x3f;    // exceptions raised so far
+  constexpr unsigned plain = 0x1f80;  // all traps masked, rounding to nearest, no flushing
   return (_mm_getcsr() & 0xffffU & ~flags) == plain;
 #else
   return std::fegetround() == FE_TONEAREST;
 #endif
 }
 
-/// How this arithmetic differs from plain: "rounds upward, flushes subnormals to zero"; "" if it does not.
+/// How this thread's arithmetic differs from plain, such as "rounds upward, flushes subnormals to zero"; ""
+/// if it is plain.
 std::string odd_arithmetic();
 
 /// Makes this thread's arithmetic plain.
@@ -45,8 +47,9 @@ inline void make_arithmetic_plain() {
     std::fesetenv(FE_DFL_ENV);
 }
 
-/// Plain arithmetic for a scope; its end restores the caller's mode. It guards every entry that is certified for
-/// rounding to nearest. A build with NEARMISS_UNGUARDED leaves it out, to measure the effect.
+/// Makes arithmetic plain within a scope and restores the caller's mode at its end. It guards every entry
+/// point that is certified for rounding to nearest. A build with NEARMISS_UNGUARDED omits it, to measure the
+/// effect.
 class PlainArithmetic {
  public:
   PlainArithmetic() {

@@ -1,4 +1,4 @@
-// A number that audits the rounding errors of whatever is computed with it, by the paper's Theorem 4.1.
+// A number that tracks the rounding errors of the computations it takes part in, by the paper's Theorem 4.1.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 
 namespace nearmiss {
 
-/// Theorem 4.1 about a computed value f̂ of f: |f| <= coefficient B^degree = B_f and |f̂ - f| <= ((1 + ω)^k - 1) B_f,
-/// where each operation errs by at most ω relatively: ε in the paper, u = ε/2 if all round to nearest. The
-/// coefficient is infinite if the theorem has no rule.
+/// The statement of Theorem 4.1 about a computed value f̂ of f: |f| <= B_f and |f̂ - f| <= ((1 + ω)^k - 1) B_f,
+/// with B_f = coefficient B^degree. Each operation has a relative error of at most ω: ε in the paper, and u =
+/// ε/2 if all operations round to nearest. The coefficient is infinite if the theorem has no rule for the
+/// operation.
 struct ErrorBound {
   double coefficient = 0;
   int degree = 0;
@@ -25,14 +26,15 @@ struct ErrorBound {
   bool operator==(const ErrorBound&) const = default;
 };
 
-/// A double together with the exact value that it stands for and its error bound, as a scalar of ccd/'s
-/// templates: they compute as they do in double, and decide by the computed values. `Exact` is any exact
-/// field with a constructor from double.
+/// A double, the exact value that it approximates, and its error bound, as a scalar for the templates of
+/// ccd/. These compute as they do in double and decide by the computed values. `Exact` is any exact field
+/// with a constructor from double.
 ///
-/// Rules: a constant is exact. Sums and differences B_l + B_r, max(k_l, k_r) + 1; products B_l B_r, k_l + k_r
-/// + 1 (Theorem 4.1), without the 1 for an exact power of two. A quotient by a constant is a product; any
-/// other has no rule, and an infinite bound. A maximum is one of its operands, and has its bound; those of
-/// ccd/ are over numbers with equal bounds, or else over all of them in turn.
+/// Rules: a constant is exact. A sum or difference has B_l + B_r and k = max(k_l, k_r) + 1. A product has B_l
+/// B_r and k = k_l + k_r + 1 (Theorem 4.1), without the 1 if a factor is an exact power of two. A quotient by
+/// a constant follows the rule of products; any other quotient has no rule and an infinite bound. A maximum
+/// has the bound of the operand that it returns; the maxima in ccd/ are taken over numbers with equal bounds,
+/// or else over all of them in turn.
 template <class Exact>
 class Audited {
  public:
@@ -97,10 +99,10 @@ class Audited {
   bool constant_ = false;
 };
 
-/// x + t v where x bounds the vector at both ends of the step, and so at every t in [0, 1] (§4.1): B_f is
-/// B_x, not B_x + B_v. With a = 1 + ω, m = k_t + k_v + 1 and B_v <= B_x the error is at most B_x times
+/// x + t v, when the bound of x holds at both ends of the step and so at every t in [0, 1] (§4.1): B_f is
+/// then B_x, not B_x + B_v. With a = 1 + ω, m = k_t + k_v + 1 and B_v <= B_x, the error is at most B_x times
 ///   ((a^k_x - 1) + (a^m - 1)) a + ω = a^(k_x + 1) + a^(m + 1) - a - 1 <= a^(k_x + m + 1) - 1,
-/// since (a^k_x - 1)(a^m - 1) >= 0: k is k_x + m + 1, which for exact leaves is the paper's 2 (§4.2).
+/// since (a^k_x - 1)(a^m - 1) >= 0. So k is k_x + m + 1, which is the paper's 2 for exact leaves (§4.2).
 template <class X, class Exact, class V>
 Vector3<Audited<Exact>> interpolated(const X& x, const Audited<Exact>& t, const V& v) {
   Vector3<Audited<Exact>> sum;
@@ -114,7 +116,8 @@ Vector3<Audited<Exact>> interpolated(const X& x, const Audited<Exact>& t, const 
   return sum;
 }
 
-/// Steps under which every comparison that accepts is kept, and holds, so that all of a test are reached.
+/// Steps under which every comparison that accepts is recorded and succeeds, so that a test reaches all of
+/// its comparisons.
 template <class Exact>
 struct ComparisonLog : AllSteps {
   using Comparisons = std::vector<std::pair<Audited<Exact>, Audited<Exact>>>;

@@ -1,4 +1,5 @@
-// Inequalities of the tolerances under which the CCD misses nothing and reports nothing beyond its bound (§4).
+// Inequalities of the tolerances; if they hold, the CCD misses nothing and reports nothing beyond its bound
+// (§4).
 #pragma once
 
 #include <array>
@@ -12,25 +13,25 @@
 
 namespace nearmiss {
 
-/// Rounding errors in the constraints, and the least μ and ψ, for B = 1. `Number` is any arithmetic type, such as an
-/// interval.
+/// Bounds of the rounding errors in the constraints, and the least μ and ψ, all for B = 1. `Number` is any
+/// arithmetic type, such as an interval.
 template <class Number>
 struct RoundingErrors {
   Number area;       ///< a component of N
-  Number height_vt;  ///< of the height test, for η <= B
+  Number height_vt;  ///< error of the height test, for η <= B
   Number height_ee;
-  Number weight_vt;  ///< of a weight's comparison with N·N
+  Number weight_vt;  ///< error of comparing a weight with N·N
   Number weight_ee;
   Number length2;    ///< VE: squared edge length
-  Number weight_ve;  ///< VE: of a weight's comparison
+  Number weight_ve;  ///< VE: error of comparing a weight
   Number F;          ///< VE: F_0ij
-  Number residual;   ///< by how much |F| may exceed μ between a root and its computed one
-  Number delta;      ///< VV: squared distance, for all reasons
-  Number least_mu;   ///< for no root to be missed (Appendix B)
-  Number least_psi;  ///< for no time to be missed by VE (Appendix C)
+  Number residual;   ///< the most by which |F| exceeds μ between a root and its computed time
+  Number delta;      ///< VV: squared distance, all errors together
+  Number least_mu;   ///< the least μ with which no root is missed (Appendix B)
+  Number least_psi;  ///< the least ψ with which VE misses no time (Appendix C)
 };
 
-/// The errors that the paper prints (§4.2 to §4.5); those that it leaves out are 0.
+/// The errors that the paper states (§4.2 to §4.5); those that it omits are 0.
 template <class Number>
 RoundingErrors<Number> printed_errors(const Number& eps) {
   using std::sqrt;
@@ -39,11 +40,11 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
           eps * 44, eps * 0,  eps * 0,  eps * 311, eps * 33492, e * e * 725};
 }
 
-/// With all that the paper leaves out, rounding to nearest (u = ε/2): the rounding of the relative vectors
-/// themselves (§5); what is of second order in ε; end points of edges that are within 2B, not B. For every ε
-/// <= 2^-10: proven by Gappa (proven.hpp).
+/// The errors with everything that the paper omits, for rounding to nearest (u = ε/2): the rounding of the
+/// relative vectors themselves (§5), terms of second order in ε, and end points of edges that are within 2B
+/// but not within B. Gappa proves them for every ε <= 2^-10 (proven.hpp).
 ///
-/// The solvers' errors are in solver_errors.hpp, derived there and in cubic.hpp and vertex_edge.hpp.
+/// The errors of the solvers are in solver_errors.hpp; that file, cubic.hpp and vertex_edge.hpp derive them.
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;
@@ -72,26 +73,28 @@ struct Constraint {
 
 inline constexpr std::size_t constraint_count = 18;
 
-/// All inequalities, for B = 1 and any E_vt, E_ee > 0: edge lengths of the proofs of §4.4 and §4.5, which no
-/// code has.
+/// All inequalities, for B = 1 and any E_vt, E_ee > 0. E_vt and E_ee are edge lengths in the proofs of §4.4
+/// and §4.5; the algorithm does not use them.
 ///
-/// R is S/√8: F_0ij <= 0 for every vertex within that of the line of an edge e. The paper has S = 3R (§3.2), by
-/// norms of any vectors. But x_0i × e = d × e with the distance d is at right angles to e, so that s · (d × e)
-/// with signs s is at most ‖d‖ √(3 e·e - (s·e)²). The radicand is convex in e, hence largest in the corners of
-/// the cube ‖e‖∞ <= 1, where s·e is odd: ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞, which e = (1, 1, 1) attains.
+/// R is S/√8: F_0ij <= 0 for every vertex within R of the line of an edge e. The paper has S = 3R (§3.2),
+/// from norms of arbitrary vectors. But x_0i × e = d × e, with the distance vector d, is at right angles to
+/// e. So for every vector of signs s, s · (d × e) is at most ‖d‖ √(3 e·e - (s·e)²). The radicand is convex in
+/// e, hence largest at the corners of the cube ‖e‖∞ <= 1, where s·e is odd. This gives ‖d × e‖₁ <= √8 ‖d‖
+/// ‖e‖∞, which e = (1, 1, 1) attains.
 ///
-/// In short: r bounds the distance from the plane where the area test passes; a collision that fails a test
-/// is within R of an edge at some time, because what fails is small (two-event analysis, §3.3.1): the
-/// triangle (its inscribed circle) or the quadrilateral, an edge, a height, or a weight. A vertex within R of
-/// an edge is reported by VE itself, or is within D of an end of the edge when VE's length or weight test
-/// fails.
+/// The argument in short: r bounds the distance from the plane if the area test passes. A collision that
+/// fails a test is within R of an edge at some time, because something is small (two-event analysis, §3.3.1):
+/// the triangle (its inscribed circle) or the quadrilateral, an edge, a height, or a weight. A vertex within
+/// R of an edge is reported by VE itself, or it is within D of an end of the edge when VE's length or weight
+/// test fails.
 ///
-/// A pair that does not collide may have its p within 2B at t = 1: the errors of its weights double at most, and so
-/// does the distance of a false positive from an edge's line.
+/// If a pair does not collide, its p may be as large as 2B at t = 1. The errors of its weights are then at
+/// most doubled, and so is the distance of a false positive from an edge's line.
 ///
-/// (2) and (3) print min of the distances of the two ways to be a false positive; it must be max. (2) has E
-/// fixed, (3) too, as 21/4 ε^½ and 4 ε^½, which leaves 4 ε^½ beside η. That the quadrilateral's shorter edge
-/// is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but what follows from it does.
+/// A false positive can arise in two ways; the paper's (2) and (3) take the min of the two distances, where
+/// it must be the max. (2) fixes E at 21/4 ε^½, and (3) fixes it at 4 ε^½; in both, the rounding error of the
+/// height test then adds 4 ε^½ to η. The paper's claim that the quadrilateral's shorter edge is below √τ
+/// (§3.4.1) does not hold for edges that are nearly parallel, but its consequences do.
 template <class Number>
 auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,
                  const RoundingErrors<Number>& errors) {

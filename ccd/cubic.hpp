@@ -20,9 +20,9 @@ struct Cubic {
   [[nodiscard]] T slope(T t) const { return (3 * a * t + 2 * b) * t + c; }
 };
 
-/// F(t) = p · (q × r) of a pair. By Theorem 4.1, with all vectors within B and exact: a and d are computed
-/// within 6B³((1 + ε)⁵ - 1) and b and c within 18B³((1 + ε)⁷ - 1), as the paper has it: x·(v×v) + v·(x×v +
-/// v×x) is the paper's sum with the dot product taken out.
+/// F(t) = p · (q × r) of a pair. If all vectors are exact and within B, Theorem 4.1 bounds the errors of a
+/// and d by 6B³((1 + ε)⁵ - 1) and those of b and c by 18B³((1 + ε)⁷ - 1), as in the paper. Here x·(v×v) +
+/// v·(x×v + v×x) is the paper's sum with the dot product factored out.
 template <Kind kind, class T>
 Cubic<T> coplanarity(const Pair<kind, T>& pair) {
   const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
@@ -34,10 +34,11 @@ Cubic<T> coplanarity(const Pair<kind, T>& pair) {
 
 namespace detail {
 
-// A time between lo and hi, where F has different signs and |F| > μ, with |F| <= μ: Newton, safeguarded by
-// bisection. It ends: a step that leaves the bracket, or does not halve what the step before it did, is replaced by
-// bisection; when the bracket cannot shrink any more, its end with the smaller residual is returned (which
-// takes a μ below what `solve_cubic` asks for, as `next == t` does).
+// A time with |F| <= μ between lo and hi, at which F has different signs and |F| > μ, by Newton's method
+// safeguarded by bisection. It terminates: bisection replaces a step that leaves the bracket or is more than
+// half as long as the step before it. If the bracket cannot shrink any more, the end with the smaller
+// residual is returned. That happens only if μ is smaller than `solve_cubic` requires; the same holds for
+// `next == t`.
 template <class T, class Steps = AllSteps>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& steps = {}) {
   using std::abs;
@@ -63,7 +64,7 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
     const T next = t - step;
     if (next == t) return t;
     if (!steps.does(Step::residual) && abs(step) <= T(0x1p-20)) return t;
-    t = abs(step) * 2 <= last_step ? next : hi;  // hi: not inside, so bisect
+    t = abs(step) * 2 <= last_step ? next : hi;  // hi is not inside the bracket, so bisect
     last_step = abs(step);
   }
 }
@@ -71,7 +72,8 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
 // Adds the critical points of F in [0, 1], in ascending order.
 template <class T, class Steps = AllSteps>
 void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
-  // F' in Bernstein form is c, c + b, 3a + 2b + c: of one sign, F is monotone and has no node inside.
+  // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have one sign, F is monotone and has no
+  // node inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
@@ -81,7 +83,7 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F, cons
   }
 }
 
-// The step that looks at interval i of count + 1: a single one is all there is, and is never left out.
+// The step that searches interval i of the count + 1 intervals. A single interval is never left out.
 constexpr Step interval_step(std::size_t i, std::size_t count) {
   if (count == 0) return Step::solver;
   return i == 0 ? Step::first_interval : i == count ? Step::last_interval : Step::middle_interval;
@@ -89,11 +91,12 @@ constexpr Step interval_step(std::size_t i, std::size_t count) {
 
 }  // namespace detail
 
-/// |computed - exact| / (B³ε) of `clearance` of computed coefficients. To nearest 41 are proven (proven.hpp).
+/// Bound of |computed - exact| / (B³ε) for `clearance` with the computed coefficients as input. For rounding
+/// to nearest, 41 is proven (proven.hpp).
 inline constexpr int clearance_error = 100;
 
-/// How far F certainly keeps from 0 on [0, 1], but for `clearance_error`; negative if that is not known. F lies
-/// between its Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
+/// A lower bound of |F| on [0, 1], up to `clearance_error`; negative if no bound is known. F lies between its
+/// Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
 template <class T>
 T clearance(const Cubic<T>& F) {
   using std::max;
@@ -107,29 +110,32 @@ T clearance(const Cubic<T>& F) {
   return max(lowest, T(-highest));
 }
 
-/// Times at which |F| <= μ that stand for the roots of F in [0, 1], in ascending order, at most three.
+/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1].
 ///
-/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes gives its left node if |F| <=
-/// μ there, else its right node if |F| <= μ there, else nothing if F has one sign at both, else a refined root.
+/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes contributes its left
+/// node if |F| <= μ there, else its right node if |F| <= μ there, else nothing if F has one sign at both,
+/// else a refined root.
 ///
-/// Claim (Appendix B): for μ >= `cubic_residual` each root t0 of the exact F* has a returned t with |F*| at
-/// most μ + `cubic_residual` between t0 and t.
+/// Claim (Appendix B), for μ >= `cubic_residual`: for each root t0 of the exact F*, a time t is returned such
+/// that |F*| is at most μ + `cubic_residual` between t0 and t.
 ///
-/// Proof, for operations that err by ω at most. F has the computed coefficients, |F - F*| <= e, and F̂ is what
-/// Horner's rule makes of F, |F̂ - F| <= h; e + h = E.
-/// (1) Between s and t, both in the interval between two nodes, F stays within F(s) and F(t), but for m. The
-///     inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω |c|), each but
-///     for a factor 1 + θ. That function is monotone between the exact ones, and moves by O(ω²) between such
-///     a point, where its slope is 0, and its node. So m is 54 ω + O(ω²). Where the Bernstein coefficients
-///     have one sign, computed, the last one errs by at most 72 ω and the slope by 72 ω t²: m is 24 ω.
-/// (2) If |F̂| > μ with one sign at both nodes, |F| > μ - h - m between them, and no root t0 of F*, where |F|
-///     <= e, is there. `clearance` misses by at most 114 ω: F* has no root where it exceeds μ.
-/// (3) `refine_root` ends with |F̂| <= μ. Its bracket's ends have |F̂| > μ and different signs; of two
-///     neighbouring numbers with different signs one has |F̂| <= 72 ω + h, so the bracket can always shrink;
-///     and a step that leaves t where it was is at most ω t, which |F̂| > 73 ω does not give.
+/// Proof, for operations with a relative error of at most ω. F has the computed coefficients, and |F - F*| <=
+/// e. F̂ is the value of F computed by Horner's rule, and |F̂ - F| <= h. Let E = e + h.
+/// (1) If s and t lie in the interval between two nodes, F stays between F(s) and F(t) there, up to an error
+///     of m. The inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω
+///     |c|), each up to a factor 1 + θ. That function is monotone between its exact critical points, and it
+///     changes by O(ω²) between such a point, where its slope is 0, and the node. So m is 54 ω + O(ω²). If
+///     the computed Bernstein coefficients have one sign, the last one has an error of at most 72 ω, and the
+///     slope has one of at most 72 ω t²: m is 24 ω.
+/// (2) If |F̂| > μ with one sign at both nodes, then |F| > μ - h - m between them. A root t0 of F* has |F| <=
+///     e, so there is none between them. `clearance` has an error of at most 114 ω; if it exceeds μ, F* has
+///     no root.
+/// (3) `refine_root` ends with |F̂| <= μ. F̂ has different signs at the ends of its bracket, with |F̂| > μ.
+///     If F̂ has different signs at two neighbouring numbers, |F̂| <= 72 ω + h at one of them, so the bracket
+///     can always shrink. A step that leaves t unchanged is at most ω t, but |F̂| > 73 ω gives a longer step.
 /// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
 ///
-/// If F keeps clear of μ, there are no such times.
+/// If |F| is above μ on all of [0, 1], there are no such times.
 template <class T, class Steps = AllSteps>
 CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
   using std::abs;
@@ -139,7 +145,7 @@ CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {
 
   CandidateTimes<T, 2> critical;
   detail::find_critical_times(critical, F, steps);
-  const auto last = static_cast<std::size_t>(critical.count);  // interval
+  const auto last = static_cast<std::size_t>(critical.count);  // the last interval
   std::array<T, 4> node{0};
   std::array<T, 4> value{F.d};
   for (std::size_t i = 0; i < last; ++i) {

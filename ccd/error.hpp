@@ -5,8 +5,8 @@
 
 namespace nearmiss {
 
-/// Something that the user can act on: bad usage or bad input. The message is one line that says where (file and
-/// line, if there is one), what was found and what was expected. Only tools/ prints it.
+/// An error that the user can correct: bad usage or bad input. The message is one line that says where the
+/// error is (file and line, if any), what was found and what was expected. Only tools/ prints it.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

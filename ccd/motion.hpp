@@ -21,7 +21,7 @@ auto max_component(const Vector& a) {
   return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
 }
 
-/// x + t v; a scalar that knows more than its value may have its own (audited.hpp).
+/// x + t v; a scalar type that carries more than its value may have its own overload (audited.hpp).
 template <class X, class T, class V>
 Vector3<T> interpolated(const X& x, const T& t, const V& v) {
   return x + t * v;
@@ -37,14 +37,14 @@ struct Moving {
   [[nodiscard]] Vector3<T> at(T t) const { return interpolated(x(), t, v()); }
 };
 
-/// The power-of-two frame in which a pair is computed: differences of coordinates times 2^exponent, with
-/// the coordinates themselves times 2^-4 first if a difference would overflow.
+/// The power-of-two frame in which a pair is computed: differences of coordinates are multiplied by
+/// 2^exponent. If a difference would overflow, the coordinates themselves are multiplied by 2^-4 first.
 struct Frame {
   int exponent = 0;
   bool reduced = false;
 
   [[nodiscard]] bool identity() const { return exponent == 0 && !reduced; }
-  /// The exponent by which a length of the frame is the length of the query.
+  /// A length in the frame is the length in the query times 2 to this power.
   [[nodiscard]] int total() const { return exponent - (reduced ? reduction : 0); }
 
   static constexpr int reduction = 4;
@@ -66,9 +66,9 @@ Vector3<T> difference(const Coordinate* a, const Coordinate* b, const Frame& fra
 
 }  // namespace detail
 
-/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position is one
-/// rounding away from exact (relative error u); scaling is exact but for underflow below 2^-1074. `Points` is
-/// Query, or has 24 coordinates of another type.
+/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position has one
+/// rounding (relative error u); scaling is exact except for underflow below 2^-1074. `Points` is Query, or a
+/// type with 24 coordinates of another scalar.
 template <class T, class Points>
 Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame = {}) {
   const auto* x = points.x.data();
@@ -79,8 +79,8 @@ Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame
   return motion;
 }
 
-/// The vertices of a pair in the order in which the paper's formulas name them. For edges the end points
-/// of each may change places (§4.1).
+/// The vertices of a pair in the order in which the paper's formulas name them. The two end points of an edge
+/// may change places (§4.1).
 using VertexOrder = std::array<int, 4>;
 inline constexpr VertexOrder given_order{0, 1, 2, 3};
 
@@ -92,7 +92,7 @@ struct Pair {
   Frame frame;
   VertexOrder order = given_order;
   T E = 0;  ///< largest component of an edge at t = 0
-  T W = 0;  ///< largest component of a relative velocity within the pair: 2 V_max of §4.1, relative
+  T W = 0;  ///< largest component of a relative velocity within the pair: the relative 2 V_max of §4.1
   T B = 0;  ///< the bound of §4.1 on all relative positions and velocities, if the pair collides
 };
 
@@ -111,25 +111,31 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   }
 }
 
-/// B is larger than E + W by this, in units of ε relatively, and needs to be by that.
+/// B exceeds E + W by `bound_margin`, relatively and in units of ε; the proofs need an excess of
+/// `bound_needs`.
 inline constexpr int bound_margin = 64;
 inline constexpr int bound_needs = 40;
 
 namespace detail {
 
 // B = (E + W)(1 + 64 ε), where E bounds the edges at t = 0 and W is the extent of the box of all velocities
-// relative to one vertex, that is, of the velocities themselves: W = 2 V_max with V_max the relative one of
-// §4.1, which is never above 2 max ‖v_i‖∞.
-// Rounding, with E*, W* exact and B* = E* + W*, for a pair that collides (others need no bound):
-//   every edge is within B* at both times; the vertex of VT is within B* of all others; any two end points
-//   of EE are within B* + 2E* <= 3B* of each other (some pair is within B*, and the edges are within E*)
-//   at t = 0, and within 4B* at t = 1. A computed velocity misses by u(|start| + |end|) + u|v| <= 8uB*;
-//   a sum of two (v30 = v20 + v32) by 17uB*; an extent is the difference of two: by 34uB* + u; an edge
-//   (x32 = x31 - x21) by 4uB*; the sum E + W adds u: together below 40uB* = 20 ε B* (17 are proven).
-// 64 ε leaves room for the product's own rounding: B >= B*(1 + 40ε).
+// relative to one vertex, which is the extent of the velocities themselves. W = 2 V_max with the relative
+// V_max of §4.1, and is never above 2 max ‖v_i‖∞.
+//
+// Rounding errors, with exact E* and W* and B* = E* + W*, for a pair that collides (others need no bound):
+// every edge is within B* at both times, and the vertex of VT is within B* of all others. Any two end points
+// of EE are within B* + 2E* <= 3B* of each other at t = 0 (some pair is within B*, and the edges are within
+// E*), and within 4B* at t = 1. So the errors are at most
+// - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
+// - 17uB* for a sum of two velocities (v30 = v20 + v32),
+// - 34uB* + u for an extent, which is the difference of two,
+// - 4uB* for an edge (x32 = x31 - x21).
+// The sum E + W adds u. All together are below 40uB* = 20 ε B* (17 is proven). The factor 1 + 64 ε leaves
+// room for the rounding of its own product: B >= B*(1 + 40ε).
 template <Kind kind, class T, class Steps = AllSteps>
 void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
-  // Six components at once: positions, then velocities, of the points relative to the first one, itself at 0.
+  // Six components at once: positions, then velocities, of the points relative to the first point, which is
+  // at 0.
   using Six = Eigen::Array<T, 6, 1>;
   const Six& q = pair.q.xv;
   Six p;
@@ -143,7 +149,7 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
     using std::max;
     return max(max(six[first], six[first + 1]), six[first + 2]);
   };
-  // The edges of a triangle are the differences of {0, q, r}; two edges are q and r themselves.
+  // The edges of a triangle are the differences of {0, q, r}; the edges of EE are q and r themselves.
   pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
   pair.W = largest(extent, 3);
   pair.B =
@@ -164,9 +170,9 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Verte
   return pair;
 }
 
-/// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double, with B within
-/// [2^-100, 2^100], nothing can overflow, and what underflows is below 2^-1074 against B⁴ε >= 2^-452: scaling
-/// there would change no digit. For a narrower scalar the same argument holds with a smaller range.
+/// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double with B in [2^-100,
+/// 2^100], nothing can overflow, and a result that underflows is below 2^-1074, while B⁴ε >= 2^-452. So
+/// scaling would change no digit there. For a narrower scalar the same argument holds with a smaller range.
 template <class T>
 bool in_range(T B) {
   constexpr int range = std::numeric_limits<T>::max_exponent >= 1024 ? 50 : 3;
@@ -174,13 +180,13 @@ bool in_range(T B) {
   return B <= root * root && B >= 1 / (root * root);
 }
 
-/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude; the identity if the pair is in range
-/// already, or B = 0.
+/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if the
+/// pair is already in range, or if B = 0.
 template <Kind kind, class T, class Steps = AllSteps>
 Frame normalising_frame(const Query& query, const Steps& steps = {}) {
   Frame frame;
   const auto pair = make_pair<kind, T>(query, frame, given_order, steps);
-  // If a position overflows at both times, its velocity is not a number, and B may be anything.
+  // If a position overflows at both times, its velocity is NaN, and B may have any value.
   const bool finite =
       !steps.does(Step::overflow) ||
       (pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all());
@@ -197,7 +203,7 @@ Frame normalising_frame(const Query& query, const Steps& steps = {}) {
 
 namespace detail {
 
-// The order of end points in which x20 is the closest of the four pairs by largest component.
+// The order of end points in which x20 has the smallest largest component of the four pairs.
 template <class T>
 VertexOrder closest_order(const Query& query, const Frame& frame) {
   VertexOrder best = given_order;
@@ -216,9 +222,9 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B, as they are when it collides (§4.1) and, of two edges, the
-/// end points of p are the closest ones: x20 within B is all that §4.1 needs. A computed p is at most u away
-/// from exact and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+/// Whether all vectors of the pair are within B. They are if the pair collides (§4.1) and, for two edges, p
+/// joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative error of at
+/// most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
 template <Kind kind, class T>
 bool within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;

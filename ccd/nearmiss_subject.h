@@ -14,13 +14,12 @@ typedef struct {
   const char *name, *version;
   /* x: 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
    * vertex_triangle: vertex x0, triangle x1 x2 x3. edge_edge: edges x0x1 and x2x3.
-   * Returns 1 for a collision within [0, 1], 0 for none, less than 0 for an error. *toi is the time of a
-   * collision; it is NaN on entry and may be left so. Called from several threads at once, rounding to
-   * nearest, with subnormals and without traps; a plug-in may change that, and it is changed back after each
-   * call. */
+   * Returns 1 for a collision within [0, 1], 0 for none, a negative number for an error. *toi is the time of
+   * a collision; it is NaN on entry and may stay so. Several threads may call at once. Arithmetic rounds to
+   * nearest, keeps subnormals and does not trap; if a plug-in changes that, it is restored after the call. */
   int (*vertex_triangle)(const double* x, double* toi);
   int (*edge_edge)(const double* x, double* toi);
-  /* The largest distance that a false positive may have, as claimed; NULL where nothing is claimed. */
+  /* The largest distance of a false positive that the plug-in claims; NULL if it claims no bound. */
   double (*distance_bound)(const double* x, int is_edge_edge);
 } nearmiss_subject;
 

@@ -1,4 +1,4 @@
-// Plane-based culling of Brochu and Bridson (2012), as §5 of the paper applies it.
+// The plane-based culling of Brochu and Bridson (2012), as §5 of the paper uses it.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@ namespace nearmiss {
 
 namespace detail {
 
-// Whether one primitive is wholly on one side of the other in the given coordinate at t = 0 and, on that
-// same side, at t = 1. Every vertex difference is then of one sign at both ends, so, being linear, always;
-// and so is every convex combination of them: the primitives never meet. `coordinate(time, vertex)` is a
-// number, or many side by side, and so is the answer.
+// Whether one primitive lies entirely on one side of the other in the given coordinate, at t = 0 and, on the
+// same side, at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
+// at all times between them. The same holds for every convex combination, so the primitives never meet.
+// `coordinate(time, vertex)` is one number or a vector of numbers, and the answer has the same shape.
 template <Kind kind, class Coordinate, class Steps>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate, const Steps& steps) {
   using std::max;
   using std::min;
-  const auto extents = [&](std::size_t time) {  // of the first primitive and of the second
+  const auto extents = [&](std::size_t time) {  // extents of the first and the second primitive
     const auto s0 = coordinate(time, 0);
     const auto s1 = coordinate(time, 1);
     const auto s2 = coordinate(time, 2);
@@ -43,7 +43,7 @@ template <Kind kind, class Coordinate, class Steps>
   return above | below;
 }
 
-/// Across the axes x, y, z; `x(time, vertex, k)` are the points.
+/// Tests the axes x, y and z; `x(time, vertex, k)` is coordinate k of a point.
 template <Kind kind, class Points, class Steps = AllSteps>
 auto separated_across_axis(const Points& x, const Steps& steps = {}) {
   const auto axis = [&](std::size_t k) {
@@ -53,7 +53,7 @@ auto separated_across_axis(const Points& x, const Steps& steps = {}) {
   return axis(0) | axis(1) | axis(2);
 }
 
-/// Across the diagonals x ± y, x ± z, y ± z.
+/// Tests the diagonals x ± y, x ± z and y ± z.
 template <Kind kind, class Points, class Steps = AllSteps>
 auto separated_across_diagonal(const Points& x, const Steps& steps = {}) {
   const auto sum = [&](std::size_t k, std::size_t l) {
@@ -71,12 +71,13 @@ auto separated_across_diagonal(const Points& x, const Steps& steps = {}) {
 
 }  // namespace detail
 
-/// Whether a moving plane across an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) certainly separates
-/// the primitives at all times in [0, 1]: then there is no collision, exactly.
+/// Whether a moving plane across an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably separates the
+/// primitives at all times in [0, 1], so that there is no collision.
 ///
-/// The axis tests compare input coordinates. The diagonal ones compare sums and differences that were rounded
-/// once; rounding is monotone, so fl(a) > fl(b) implies a > b, and no error gap is needed (overflow included:
-/// an infinite sum is above every finite one rightly, and not above another infinite one).
+/// The axis tests compare input coordinates. The diagonal tests compare sums and differences that were
+/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error margin is needed.
+/// Overflow is no exception: an infinite sum is rightly above every finite one, and not above another
+/// infinite one.
 template <Kind kind, class Steps = AllSteps>
 bool separated_by_plane(const Query& query, const Steps& steps = {}) {
   const auto x = coordinates(query);

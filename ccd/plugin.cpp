@@ -10,7 +10,7 @@ namespace nearmiss {
 void Plugin::Unload::operator()(void* handle) const { dlclose(handle); }
 
 Plugin::Plugin(const std::string& path) : library_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-  make_arithmetic_plain();  // a library linked by g++ -ffast-math flushes subnormals from then on
+  make_arithmetic_plain();  // loading a library linked by g++ -ffast-math turns on flushing of subnormals
   if (!library_) throw Error(path + ": cannot load the plug-in: " + dlerror());
   using GetSubject = decltype(&nearmiss_get_subject);
   const auto get = reinterpret_cast<GetSubject>(dlsym(library_.get(), "nearmiss_get_subject"));

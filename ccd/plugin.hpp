@@ -1,4 +1,4 @@
-// Subjects from shared objects (nearmiss_subject.h).
+// Subjects that shared objects export (nearmiss_subject.h).
 #pragma once
 
 #include <memory>
@@ -10,14 +10,15 @@
 
 namespace nearmiss {
 
-/// Whether a subject's name is the path of a plug-in: it has a '/'.
+/// Whether a subject's name is the path of a plug-in, that is, contains a '/'.
 inline bool is_plugin_path(std::string_view name) { return name.find('/') != std::string_view::npos; }
 
-/// The subject that a shared object exports, in this process. Whatever it does to the rounding mode, to
-/// subnormals or to traps, arithmetic is plain again when it has answered.
+/// The subject that a shared object exports, run in this process. A plug-in may change the rounding mode, the
+/// treatment of subnormals or the traps; arithmetic is plain again after each answer.
 class Plugin final : public Subject {
  public:
-  /// Throws Error if the file cannot be loaded, has no nearmiss_get_subject, has another abi, or lacks a function.
+  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, has another abi, or lacks a
+  /// function.
   explicit Plugin(const std::string& path);
 
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -27,7 +28,8 @@ class Plugin final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override;
   [[nodiscard]] bool claims_bound() const override { return subject_->distance_bound != nullptr; }
 
-  /// The plug-in's return value. `time` becomes the time that it gives, and stays as it is if it gives none.
+  /// The plug-in's return value. `time` is set to the time that the plug-in gives, and is left unchanged if
+  /// it gives none.
   int ask(const Query& query, double& time) const;
 
   /// A plug-in that does nothing and answers 0.
@@ -37,7 +39,7 @@ class Plugin final : public Subject {
   [[nodiscard]] const Subject& empty() const override { return empty_plugin(); }
 
  private:
-  /// A subject of this program.
+  /// Makes a plug-in of a subject that is part of this program.
   explicit Plugin(const nearmiss_subject& subject) : subject_(&subject), name_(subject.name) {}
 
   struct Unload {

@@ -10,11 +10,12 @@
 
 namespace nearmiss {
 
-/// The configuration of a pair at one time: p, q, r of `Pair`, the normal N = q × r and the barycentric weights.
+/// The configuration of a pair at one time: the p, q, r of `Pair`, the normal N = q × r and the barycentric
+/// weights.
 ///
-/// vertex-triangle: weights of x3, x2 and their sum (1 minus that of x1), each times N·N; x01 = β x31 + α x21
-/// gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: α on x0x1 and β on x2x3 from
-/// x20 = α x10 - β x32: N·(x20 × x32) = α N·N, N·(x20 × x10) = β N·N.
+/// Vertex-triangle: the weights of x3 and x2 and their sum (1 minus the weight of x1), each times N·N. x01 =
+/// β x31 + α x21 gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: the weights α on x0x1 and
+/// β on x2x3. x20 = α x10 - β x32 gives N·(x20 × x32) = α N·N and N·(x20 × x10) = β N·N.
 template <Kind kind, class T>
 struct Configuration {
   Vector3<T> p, q, r, N;

@@ -1,4 +1,4 @@
-// A query: the value that every part of nearmiss passes on.
+// A query: two moving primitives. Every part of nearmiss works on this value.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ enum class Kind : std::uint8_t {
 
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge};
 
-/// "vt" or "ee", the names on the command line, in files and in reports.
+/// "vt" or "ee": the name on the command line, in files and in reports.
 constexpr std::string_view short_name(Kind kind) { return kind == Kind::vertex_triangle ? "vt" : "ee"; }
 
 /// The vertices of one primitive are x[0 .. split), those of the other x[split .. 4).
@@ -33,8 +33,8 @@ constexpr int split(Kind kind) { return kind == Kind::vertex_triangle ? 1 : 2; }
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
-/// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, with the
-/// double coordinates given. Any unit of length. Coordinates are finite; readers refuse others.
+/// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
+/// double coordinates. The unit of length is arbitrary. Coordinates are finite; readers refuse any others.
 struct Query {
   Kind kind{};
   /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
@@ -56,7 +56,7 @@ struct Query {
   }
 };
 
-/// The coordinates as a function: component k of a vertex at a time, 0 or 1.
+/// The coordinates as a function of a time (0 or 1), a vertex and a component k.
 inline auto coordinates(const Query& query) {
   return [&query](std::size_t time, std::size_t vertex, std::size_t k) {
     return query.x[12 * time + 3 * vertex + k];
@@ -65,7 +65,7 @@ inline auto coordinates(const Query& query) {
 
 /// Whether all 24 coordinates are finite.
 inline bool is_finite(const Query& query) {
-  // One more in an exponent of all ones, which infinities and NaN have, carries into the sign's bit.
+  // Infinities and NaN have an exponent of all ones; adding one to it carries into the sign bit.
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;
   constexpr std::uint64_t one_more = std::uint64_t{1} << 52;
   std::uint64_t carries = 0;

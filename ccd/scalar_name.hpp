@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The algorithm and the scalar of a subject's name, without its bound; the scalar is "" if none is named, which
-/// means double.
+/// The algorithm and the scalar in a subject's name, without its bound. The scalar is "", which means double,
+/// if the name has none.
 struct ScaledName {
   std::string_view algorithm, scalar;
 };
@@ -19,7 +19,7 @@ constexpr ScaledName split_scalar(std::string_view name) {
   return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
-/// The exponent of ε = 2^exponent of a scalar by its name; nothing for any other name.
+/// The exponent in ε = 2^exponent for the scalar of this name; nothing if the name is unknown.
 inline std::optional<int> epsilon_exponent_of(std::string_view scalar) {
   if (scalar.empty() || scalar == "double") return -52;
   if (scalar == "float") return -23;

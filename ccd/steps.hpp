@@ -1,4 +1,4 @@
-// The steps of the algorithm. Each can be left out, to measure a fuzzer's power on known defects.
+// The steps of the algorithm. Each can be left out, to measure how well a fuzzer finds known defects.
 #pragma once
 
 #include <cmath>
@@ -8,31 +8,31 @@
 
 namespace nearmiss {
 
-/// The steps that make the CCD failure-proof; each is one condition at one place of ccd/.
+/// The steps that make the CCD failure-proof; each is one condition in one place of ccd/.
 enum class Step : std::uint8_t {
   // plane_culling.hpp
-  both_ends,       ///< a plane must separate at t = 1 too
-  touching_meets,  ///< touching primitives are not separate
+  both_ends,       ///< a plane must separate the primitives at t = 1 too
+  touching_meets,  ///< touching primitives are not separated
   // motion.hpp
-  velocity_in_bound,  ///< B = E + W; without: E
-  normalisation,      ///< powers of two against over- and underflow
-  overflow,           ///< a velocity that is not a number asks for them too; without: B alone decides
-  reordering,         ///< the closest end points come first; without: the given order is used as it is
-  closest_pair,       ///< without: a pair out of reach in its given order is taken for apart
+  velocity_in_bound,  ///< B = E + W; without this step: B = E
+  normalisation,      ///< scaling by powers of two against overflow and underflow
+  overflow,           ///< a NaN velocity triggers scaling; without this step, only B does
+  reordering,         ///< the closest end points come first; without this step, the order is kept
+  closest_pair,       ///< without this step, a pair out of reach in its given order is rejected
   // quadratic.hpp, cubic.hpp
-  clamped_discriminant,  ///< a negative discriminant is taken as 0; without: no root
+  clamped_discriminant,  ///< a negative discriminant counts as 0; without this step, there is no root
   solver,                ///< roots where F is monotone
-  clear_of_mu,           ///< F keeps clear of μ; without: of 0
-  solver_start,          ///< a root at t = 0 by its residual
-  solver_end,            ///< a root at t = 1 by its residual
-  double_roots,          ///< a root at a critical point by its residual
-  first_interval,        ///< of the two or three between nodes
-  middle_interval,       ///< of three
-  last_interval,         ///< of the two or three
-  residual,              ///< a root has |F| <= μ; without: a last step below 2^-20
+  clear_of_mu,           ///< clearance is compared with μ; without this step, with 0
+  solver_start,          ///< a root at t = 0, accepted by its residual
+  solver_end,            ///< a root at t = 1, accepted by its residual
+  double_roots,          ///< a root at a critical point, accepted by its residual
+  first_interval,        ///< the first of two or three intervals between nodes
+  middle_interval,       ///< the middle one of three intervals
+  last_interval,         ///< the last of two or three intervals
+  residual,              ///< a root has |F| <= μ; without this step, a Newton step below 2^-20 is enough
   // wang.hpp
   proximity,      ///< area, height and barycentric tests
-  proximity_end,  ///< also at t = 1
+  proximity_end,  ///< the same tests at t = 1
   vertex_edge,    ///< the vertex-edge tests
   last_edge,      ///< the last of the vertex-edge pairs
   // ve_culling.hpp
@@ -50,7 +50,7 @@ enum class Step : std::uint8_t {
   ties,  ///< comparisons that accept are non-strict
 };
 
-/// The whole algorithm. Another policy has the same members, and may answer at run time.
+/// The whole algorithm. Other policies have the same members and may decide at run time.
 struct AllSteps {
   static constexpr bool does(Step /*step*/) { return true; }
 
@@ -61,7 +61,7 @@ struct AllSteps {
   }
 };
 
-/// Other steps, with the lengths of the tolerances that accept (D, √δ, √ψ, S, ∛μ) times s.
+/// The given steps, with the accepting tolerances multiplied, as lengths (D, √δ, √ψ, S, ∛μ), by s.
 template <class Steps>
 struct Loosened {
   Steps steps;
@@ -83,8 +83,8 @@ struct Loosened {
   }
 };
 
-/// The s, to about 1 %, at which hits(s), the answer with Loosened steps, turns from false to true; 2^-40 or 2^8 if
-/// that is not between them.
+/// The s, to about 1 %, at which hits(s), the answer with Loosened steps, changes from false to true. If it
+/// does not change between 2^-40 and 2^8, the nearer of the two is returned.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   using std::exp2;
@@ -100,7 +100,7 @@ double least_loosening(const Hits& hits) {
   return exp2(lo < 0 ? hi : lo);
 }
 
-/// a <= b, in a comparison that accepts.
+/// a <= b, used by every comparison that accepts.
 template <class T, class Steps>
 bool at_most(T a, T b, const Steps& steps) {
   return steps.does(Step::ties) ? a <= b : a < b;

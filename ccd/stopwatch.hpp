@@ -1,4 +1,4 @@
-// The stopwatch by which all subjects are timed alike, in whatever process they run.
+// The stopwatch that times all subjects alike, whichever process they run in.
 #pragma once
 
 #include <sys/resource.h>
@@ -14,10 +14,10 @@ namespace nearmiss {
 /// Number of queries decided before a batch is timed, to bring the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// How long some work took, in ns. Reading the wall clock takes about 20 ns, but it keeps running while another
-/// process has the processor. The CPU clock, of this thread or of all threads of this process, stops then, but is
-/// only accurate to about 500 ns. So the shorter time counts. If the work itself waited, for a device or a thread,
-/// the wall clock's time counts.
+/// Measures how long some work took, in ns. Reading the wall clock takes about 20 ns, but this clock keeps
+/// running while another process has the processor. The CPU clock, of this thread or of all threads of this
+/// process, stops then, but is only accurate to about 500 ns. So the shorter of the two times counts. If the
+/// work itself waited for a device or a thread, the time of the wall clock counts.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
@@ -33,7 +33,7 @@ class Stopwatch {
  private:
   using Wall = std::chrono::steady_clock;
 
-  /// How often the processor was given up voluntarily.
+  /// The number of voluntary context switches.
   [[nodiscard]] long waits() const {
     rusage usage{};
     getrusage(clock_ == CLOCK_THREAD_CPUTIME_ID ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
@@ -59,25 +59,25 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
   return watch.nanoseconds();
 }
 
-/// The time of the shortest of three tries: a disturbance of one try seldom hits all three.
+/// The shortest time of three tries, since a disturbance seldom affects all three.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   return std::min({time_of(clock, work), time_of(clock, work), time_of(clock, work)});
 }
 
-/// A time less an overhead; 0 if the overhead is longer.
+/// A time minus an overhead; 0 if the overhead is longer.
 inline std::uint64_t less_overhead(std::uint64_t time, std::uint64_t overhead) {
   return time - std::min(overhead, time);
 }
 
-/// How much longer `work` takes than `nothing`, which is the same work without the subject's part.
+/// The time of `work` minus that of `nothing`, which is the same work without the subject's part.
 template <class Work, class Nothing>
 std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = time_of(clock, nothing);
   return less_overhead(time_of(clock, work), overhead);
 }
 
-/// The same for the best times of both.
+/// The same with the best time of each.
 template <class Work, class Nothing>
 std::uint64_t best_time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = best_time_of(clock, nothing);

@@ -1,4 +1,4 @@
-// The interface behind which any CCD is put on trial.
+// The interface through which any CCD is put on trial.
 #pragma once
 
 #include <array>
@@ -22,17 +22,17 @@ enum class Stage : std::uint8_t {
   proximity,    ///< area, height and barycentric tests of VT or EE
   ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
   ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
-  ve_equal,     ///< VE, KKT case 3: two edge components of the same magnitude
+  ve_equal,     ///< VE, KKT case 3: two components of the edge have the same magnitude
   ve_zero,      ///< VE, KKT case 4: a component of the cross product vanishes
   vv,           ///< VV (KKT case 5)
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< a subject that does not say, such as a plug-in
+  unspecified,  ///< the subject does not say, as a plug-in
 };
 
 inline constexpr std::size_t stage_count = 10;
 
-/// Names of the stages, in order, as they stand in files and reports.
+/// Names of the stages, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none",    "proximity", "ve-end", "ve-minimum", "ve-equal",
     "ve-zero", "vv",        "filter", "exact",      "unspecified"};
@@ -41,18 +41,18 @@ inline constexpr std::array<std::string_view, stage_count> stage_names{
 enum class Rejection : std::uint8_t {
   untold,   ///< a collision was reported, or the subject does not say
   planes,   ///< plane culling
-  apart,    ///< vectors that no colliding pair has (§4.1)
+  apart,    ///< the vectors are too large for a pair that collides (§4.1)
   no_root,  ///< the cubic has no root in [0, 1]
   culled,   ///< VE culling (§5): VE tests were not needed
-  tests,    ///< all tests of the algorithm
+  tests,    ///< all tests of the algorithm failed
   filter,   ///< certified arithmetic in double
-  finer,    ///< the algorithm with a finer scalar
+  finer,    ///< the algorithm with a scalar of more bits
   exact,    ///< exact arithmetic
 };
 
 inline constexpr std::size_t rejection_count = 9;
 
-/// Names of the rejections, in order, as they stand in files and reports.
+/// Names of the rejections, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, rejection_count> rejection_names{
     "untold", "planes", "apart", "no-root", "culled", "tests", "filter", "finer", "exact"};
 
@@ -61,13 +61,13 @@ enum class Fault : std::uint8_t {
   none,
   error,   ///< it reported an error, or gave an invalid answer
   crash,   ///< its process ended
-  time,    ///< it took longer than it may
-  memory,  ///< it wanted more memory than it may have
+  time,    ///< it exceeded its time limit
+  memory,  ///< it exceeded its memory limit
 };
 
 inline constexpr std::size_t fault_count = 5;
 
-/// Names of the faults, in order, as they stand in files and reports.
+/// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{"none", "error", "crash", "time",
                                                                        "memory"};
 
@@ -78,16 +78,16 @@ struct Verdict {
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] for a hit; NaN if unknown
   Fault fault = Fault::none;                               ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  std::int32_t fault_code = 0;  ///< an error's return value; a crash's signal, or its exit code negated
+  std::int32_t fault_code = 0;  ///< return value of an error; signal or negated exit code of a crash
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
   static Verdict rejected(Rejection rejection) { return {.rejection = rejection}; }
 };
 
-/// How long some answers took, in the thread that decides, or in the subject's own process. The time of an empty
-/// subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
+/// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
+/// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
-  std::size_t queries = 0;  ///< that were timed: all but those beside a query at which a process ended
+  std::size_t queries = 0;  ///< timed queries; none next to a query at which a process ended
   std::uint64_t nanoseconds = 0;
 };
 
@@ -100,51 +100,52 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// Name on the command line and in reports; a plug-in's own name for a plug-in.
+  /// Name on the command line and in reports; for a plug-in, its own name.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
   /// Throws Error if a coordinate is not finite.
   [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
 
-  /// verdicts[i] = decide(queries[i]); the spans have one length.
+  /// verdicts[i] = decide(queries[i]); both spans have the same length.
   virtual void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
   }
 
-  /// The same, and how long it took.
+  /// Decides the queries and measures how long that took.
   virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// The time of each query on its own, in ns, the best of three tries; nothing if there is no answer.
+  /// The time of each query on its own, in ns: the shortest of three tries, or nothing if there is no answer.
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
-  /// The largest distance that a false positive of this subject may have, as the subject claims it (same unit of
-  /// length as the query); infinity if it claims nothing or more than the largest double, NaN if it fails to answer.
+  /// The largest distance of a false positive that this subject claims, in the query's unit of length. It is
+  /// infinity if the subject claims nothing or more than the largest double, and NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
-  /// Whether it claims a bound, for all queries or for none.
+  /// Whether the subject claims a bound; it does so for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
-  /// Whether it rounds coordinates to fewer digits than a double has.
+  /// Whether the subject rounds coordinates to fewer digits than those of double.
   [[nodiscard]] virtual bool rounds() const { return false; }
 
-  /// The query that it decides and is judged on: with rounded coordinates, if the subject rounds.
+  /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
 
-  /// How far the query is from the border between hit and miss: the factor s by which the lengths of all
-  /// tolerances that accept (D, ψ^½, S, μ^⅓) must be multiplied for the subject to just report it; at most 1
-  /// for a hit, more for a miss. A guide for directed search, accurate to a few bits; NaN if the subject does not
-  /// say.
+  /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
+  /// lengths (D, ψ^½, S, μ^⅓), must be multiplied so that the subject just reports the query. It is at most 1
+  /// if the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few
+  /// bits, and is NaN if the subject does not say.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that decides nothing and is asked in the same way; its time is subtracted from this one's.
+  /// A subject that decides nothing and is asked in the same way; its time is subtracted from this subject's
+  /// time.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 
-/// A built-in subject's name and what it is, in a line.
+/// A built-in subject's name and a one-line description.
 struct SubjectInfo {
   std::string_view name;
   std::string_view about;
@@ -156,31 +157,32 @@ std::vector<SubjectInfo> subjects();
 /// Suffix of the name of a subject that uses the scene's bound for every pair.
 inline constexpr std::string_view of_scene = "@scene";
 
-/// A built-in subject by its name, or the plug-in at a path (anything with a '/' in it). A bound, given as
-/// NAME@B or as `given_bound` (of NAME and NAME@scene), in the queries' unit of length, takes the place of
+/// Makes a built-in subject from its name, or a plug-in from its path (any name with a '/'). A bound may be
+/// given as NAME@B, or as `given_bound` for NAME and NAME@scene, in the queries' unit of length. It replaces
 /// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B ignore it.
-/// Throws Error for an unknown name or a plug-in that cannot be used.
+/// Throws Error for an unknown name or an unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
-/// The same, but nothing for an unknown name.
+/// The same, but returns nothing for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
-/// A name without its suffix "@B" or "@scene", and its bound; without a suffix, the given bound.
+/// A name without its suffix "@B" or "@scene", and the bound of the suffix, or the given bound if there is no
+/// suffix.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
-/// Throws Error: a subject found a coordinate that is not finite.
+/// Throws the Error that a subject found a coordinate that is not finite.
 [[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
 
-/// Throws Error that lists the known names.
+/// Throws an Error that lists the known names.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
 
-/// The bound B of one pair (§4.1), in its unit of length; infinity beyond the largest double. The largest
-/// over a scene's pairs is the scene's.
+/// The bound B of one pair (§4.1), in its unit of length; infinity if it exceeds the largest double. The
+/// bound of a scene is the largest one of its pairs.
 double pair_bound(const Query& query);
 
 }  // namespace nearmiss

@@ -23,8 +23,9 @@ double own_bound(const Query& query) {
   return std::ldexp(pair.B, -pair.frame.total());
 }
 
-/// A policy is `template <Kind> static Verdict decide(query, given)`, and the same of `distance_bound` and
-/// `needed_tolerance`, each a static function that gives a double; and a constant `claims_bound`.
+/// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
+/// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and a constant
+/// `claims_bound`.
 template <class Policy>
 class BuiltInSubject final : public Subject {
  public:
@@ -81,7 +82,7 @@ struct Basic {
   }
 };
 
-/// Decides nothing.
+/// The policy of a subject that decides nothing.
 struct Empty : Basic<false> {
   template <Kind kind>
   static Verdict decide(const Query& /*query*/, const std::optional<double>& /*given*/) {
@@ -98,8 +99,8 @@ struct Wang {
     return wang<kind, double, options, Steps>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
-    // The bound is proportional to B, so it is taken at B = 1, where nothing overflows; rounded up, so that a
-    // tiny pair's does not vanish.
+    // The bound is proportional to B, so it is computed for B = 1, where nothing overflows. It is rounded up,
+    // so that it does not vanish for a tiny pair.
     const double bound = Steps::tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
     return std::nextafter(bound, std::numeric_limits<double>::infinity());
   }
@@ -132,7 +133,7 @@ constexpr std::array registry{
     entry<Wang<WangOptions{true, VeCulling::per_root}>>(
         "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
     entry<Wang<WangOptions{true, VeCulling::fixed}>>(
-        "wang-eps", "the same with the paper's fixed interval, the root of epsilon"),
+        "wang-eps", "the same with the paper's fixed interval, the square root of epsilon"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightSteps>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),

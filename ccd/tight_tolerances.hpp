@@ -11,17 +11,17 @@
 
 namespace nearmiss {
 
-/// ε = 2^this.
+/// The exponent in ε = 2^epsilon_exponent.
 template <class T>
 inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 
 /// Tolerances for B = 1 as multiples of powers of e = ε^¼.
 struct ToleranceConstants {
-  double mu;           ///< of ε
-  double tau, eta;     ///< of e², e
-  double R, S;         ///< of e
-  double lambda2, D2;  ///< of e²
-  double psi, rho;     ///< of e²
+  double mu;           ///< in units of ε
+  double tau, eta;     ///< in units of e² and e
+  double R, S;         ///< in units of e
+  double lambda2, D2;  ///< in units of e²
+  double psi, rho;     ///< in units of e²
 };
 
 namespace detail {
@@ -32,7 +32,7 @@ constexpr double power_of_two(int exponent) {
   return power;
 }
 
-constexpr double square_root(double x) {  // Newton, from above
+constexpr double square_root(double x) {  // Newton's method, from above
   double root = x > 1 ? x : 1;
   for (;;) {
     const double next = (root + x / root) / 2;
@@ -41,7 +41,8 @@ constexpr double square_root(double x) {  // Newton, from above
   }
 }
 
-/// The place in [lo, hi] at which a function that falls and then rises is smallest (golden section).
+/// The place in [lo, hi] at which a function that first falls and then rises is smallest (golden-section
+/// search).
 template <class Function>
 constexpr double lowest(const Function& f, double lo, double hi) {
   constexpr double golden = 0.6180339887498949;
@@ -69,8 +70,9 @@ struct EdgeTolerances {
   double psi, lambda2, D2;
 };
 
-// The smallest ψ and D² for S, for B = 1. λ²/4 + (ψ/λ + S)² falls with λ² and then rises, since its slope grows;
-// the other constraint on D² falls, so that the larger of both falls and then rises.
+// The smallest ψ and D² for a given S, for B = 1. As λ² grows, λ²/4 + (ψ/λ + S)² first falls and then rises,
+// since its slope grows. The other constraint on D² falls, so the larger of the two also falls and then
+// rises.
 constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
   const double psi = errors.least_psi * margin;
   const auto D2 = [&](double lambda2) {
@@ -88,8 +90,8 @@ constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, d
   return {psi, lambda2, D2(lambda2) * margin};
 }
 
-// The smallest g for which the weight's constraint holds, with η(g) and τ(g) as in `solve_tight`: 2 weight <=
-// g η (τ - error). The left side does not depend on g, the right one grows.
+// The smallest g for which the constraint on the weight holds, with η(g) and τ(g) as in `solve_tight`: 2
+// weight <= g η (τ - error). The left side does not depend on g, and the right side grows with it.
 template <class Allows>
 constexpr double least_size(const Allows& allows) {
   double none = 0;
@@ -106,14 +108,14 @@ constexpr double least_size(const Allows& allows) {
 
 /// Minimises D² subject to `constraints` with `full_errors`.
 ///
-/// D² grows with R alone, so R comes first. Let g² = R² - r². E = 2g is the largest that the short edge
-/// allows, η = 2g/√3 - error/E the largest by the height, or B, τ = 4g²/√3 - error the largest by the
-/// quadrilateral's area (the triangle's allows more); larger ones make everything else smaller. The weight
-/// asks for g η (τ - error) >= 2 weight, that is for g above some g0, and R² = g² + r(g)² falls and then
+/// D² grows with R alone, so R comes first. Let g² = R² - r². The short edge allows E up to 2g. The height
+/// allows η up to 2g/√3 - error/E, and η is at most B. The quadrilateral's area allows τ up to 4g²/√3 - error
+/// (the triangle's area allows more). Larger values of E, η and τ make everything else smaller. The weight
+/// requires g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then
 /// rises. S, ρ = ε and `edge_tolerances` follow.
 ///
-/// Every value is rounded a few times when it is computed: below 16 ε relatively, all together. R, ψ and D²
-/// are larger by that and 2^-30, and so is μ.
+/// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
+/// made larger by that and by 2^-30.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
@@ -151,7 +153,7 @@ constexpr ToleranceConstants solve_tight(int eps_exponent) {
 template <class T>
 inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
 
-/// The same constants of the paper's closed forms, for ε = 2^eps_exponent.
+/// The constants of the paper's closed forms, for ε = 2^eps_exponent.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
   return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
@@ -178,9 +180,9 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
   return tol;
 }
 
-/// Failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for queries whose coordinates
-/// the scalar has: a narrower one rounds them first. The distance bound is the smallest that the constraints
-/// give: 11.9 B e for double and finer, 12.1 B e for float.
+/// Tolerances that are failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for
+/// queries whose coordinates the scalar represents; a narrower scalar rounds them first. The distance bound
+/// is the smallest that the constraints give: 11.9 B e for double and finer, 12.1 B e for float.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);

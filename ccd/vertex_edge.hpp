@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// A vertex x0 against an edge xi xj: x_0i and x_ji of Algorithm 2, and x_0j for its VV tests.
+/// A vertex x0 and an edge xi xj: the x_0i and x_ji of Algorithm 2, and x_0j for its VV tests.
 template <class T>
 struct VertexEdge {
   Moving<T> x0i, xji, x0j;
@@ -20,7 +20,8 @@ struct VertexEdge {
 
 namespace detail {
 
-/// The proximity test of Algorithm 2 at one time: F_0ij and the barycentric and length tests.
+/// The proximity test of Algorithm 2 at one time: the test of F_0ij, the barycentric test and the length
+/// test.
 template <class T, class Steps = AllSteps>
 bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Steps& steps = {}) {
   const Vector3<T> a = ve.x0i.at(t);
@@ -44,7 +45,7 @@ CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
   return times;
 }
 
-/// x_0i × x_ji = a t² + b t + c, with components of a and b below ρ dropped (§4.3).
+/// x_0i × x_ji = a t² + b t + c; components of a and b of at most ρ are dropped (§4.3).
 template <class T>
 struct CrossProduct {
   Vector3<T> a, b, c;
@@ -70,8 +71,8 @@ CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g, const Steps& step
 }
 
 /// Case 2: the minima of the quadratic pieces of G_0ij, ±Q_x ± Q_y ± Q_z ∓ S e_k. A piece and its negative
-/// have their extremum at one time, so 4 × 3 × 2 of the 48 stand for all; a piece without a t² has no
-/// minimum.
+/// have their extremum at the same time, so 4 × 3 × 2 of the 48 pieces represent all. A piece without a t²
+/// term has no minimum.
 template <class T>
 CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
   CandidateTimes<T, 24> times;
@@ -90,26 +91,28 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 
 }  // namespace detail
 
-/// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1]; never one farther away than the
-/// tolerances' distance bound (§4.3). The Karush-Kuhn-Tucker case that accepted is the verdict's stage.
+/// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1], and never a vertex farther away
+/// than the tolerances' distance bound (§4.3). The verdict's stage is the Karush-Kuhn-Tucker case that
+/// accepted.
 ///
-/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t where
-/// its computed value is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
+/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t at
+/// which the computed value of F_0ij is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
 ///
-/// Proof, for operations that err by ω at most. Let Q_k be the computed components of x_0i × x_ji, less what
-/// was dropped, each with the c' of its roots in the place of c (`solve_quadratic`), and G the sum of all
-/// |Q_k| less S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). From t_E follow G downwards, or
-/// level, to a time t' that is one of these, since the kinks of -S‖x_ji‖∞ are concave and stop nobody:
+/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of x_0i ×
+/// x_ji without the dropped terms, each with the c' of its roots in place of c (`solve_quadratic`). Let G be
+/// the sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). From t_E, follow G
+/// downwards, or level, until it would rise. The kinks of -S‖x_ji‖∞ are concave and cannot end the descent,
+/// so it ends at a time t' of one of these kinds:
 /// - 0 or 1 (case 1).
-/// - A kink of some |Q_k|, a root of Q_k (case 4). Its computed time, or 1 in its place, is within 6ω, and G
-///   changes at a rate of at most 30 B² + SB.
-/// - The vertex of a piece (case 2). The computed slope of the piece is wrong by at most r = (68 B² + 2 SB) ω.
-///   So between t' and the computed vertex, or 0 or 1 if that is outside, the piece rises by at most r/2.
-///   At a concave kink G continues below the piece. At a kink of some |Q_k|, if one comes first, go on to
-///   that root's computed time.
-/// All the way F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. No root is taken of an error: all times are,
-/// nearly, exact ones of one function near F_0ij. The paper's 688 B²ε^½, for the distance from the computed
-/// root of one Q_k to its exact one, is not needed.
+/// - A kink of some |Q_k|, which is a root of Q_k (case 4). Its computed time, or 1 in its place, is within
+///   6ω of it, and G changes at a rate of at most 30 B² + SB.
+/// - The vertex of a piece (case 2). The computed slope of the piece has an error of at most r = (68 B² + 2
+///   SB) ω. So the piece rises by at most r/2 between t' and the computed vertex, or 0 or 1 if the computed
+///   vertex is outside. After a concave kink G continues below the piece. If a kink of some |Q_k| comes
+///   first, go on to the computed time of that root.
+/// Along this path F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square root of an
+/// error, because all times are nearly exact times of one function near F_0ij. The paper's 688 B²ε^½, for the
+/// distance from the computed root of one Q_k to the exact root, is not needed.
 template <class T, class Steps = AllSteps>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Steps& steps = {}) {
   const auto accept = [&](Step step, T t) {

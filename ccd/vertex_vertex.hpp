@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// Algorithm 1: the time at which two vertices are closest, if they are then within D: computed squared
-/// distance <= D² + δ, which no pair within D fails (§4.2). At rest relative to each other, v = 0, t is 0.
+/// Algorithm 1: the time at which two vertices are closest, if they are then within D. The test is that the
+/// computed squared distance is at most D² + δ, and every pair within D passes it (§4.2). If the vertices do
+/// not move relative to each other (v = 0), t is 0.
 template <class T, class Steps = AllSteps>
 std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol, const Steps& steps = {}) {
   using std::clamp;

@@ -18,7 +18,7 @@
 
 namespace nearmiss {
 
-/// The culling of a variant of the algorithm.
+/// The culling that a variant of the algorithm uses.
 struct WangOptions {
   bool plane_culling = true;
   VeCulling ve_culling = VeCulling::per_root;
@@ -26,7 +26,7 @@ struct WangOptions {
 
 namespace detail {
 
-// The vertex-edge pairs of Algorithms 3 and 4: vertex, edge's i and j.
+// The vertex-edge pairs of Algorithms 3 and 4: the vertex, then i and j of the edge.
 template <Kind kind>
 inline constexpr auto ve_tests = [] {
   if constexpr (kind == Kind::vertex_triangle)
@@ -52,7 +52,7 @@ template <Kind kind, class T, class Steps>
   return Verdict::rejected(Rejection::tests);
 }
 
-// A pair with a given B in the place of its own, in the frame that this B asks for.
+// The pair with a given B in place of its own, in the frame that the given B requires.
 template <Kind kind, class T>
 Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
   using std::ilogb;
@@ -69,17 +69,18 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
-// Whether F certainly keeps clear of μ, without knowing B: then solve_cubic finds no root, and nothing is left to
-// test.
+// Whether |F| provably stays above μ, without knowing B. If so, solve_cubic finds no root, and no further
+// test is needed.
 //
-// Let s be the sum of all squared components of p, q and r. E <= √2 √s_x with the positions' part s_x (an edge is the
-// difference of two vectors at most), W <= √3 √s_v with the velocities' part (p + r - q at most), and so E + W <= √(5
-// s) by Cauchy and Schwarz; μ, proportional to B³ and μ1 at B = 1, is at most 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2): a
-// clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not matter: with all components within √s and
-// velocities off by 4ε √s, F and its clearance err by less than 1000 ε s^(3/2) in every mode (Theorem 4.1: 48 · 18
-// and 114), and 16 μ1 is more than 6900 ε. Nor does the order of end points, on which F* depends by its sign alone.
-// Compare squares, to avoid a root: (16 μ1)² s³. For s outside its range s³ might overflow or underflow, and the
-// answer is false.
+// Let s be the sum of all squared components of p, q and r, with the part s_x of the positions and s_v of the
+// velocities. E <= √2 √s_x, since an edge is the difference of at most two vectors. W <= √3 √s_v, since a
+// relative velocity is at most p + r - q. So E + W <= √(5 s) by the Cauchy-Schwarz inequality. μ is
+// proportional to B³; let μ1 be its value at B = 1. Then μ is at most 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2),
+// and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding does not matter: with all components within √s
+// and errors of 4ε √s in the velocities, the errors of F and its clearance are below 1000 ε s^(3/2) in every
+// mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter
+// either, since it only affects the sign of F*. The code compares squares, (16 μ1)² s³, to avoid a square
+// root. If s is out of range, s³ might overflow or underflow, and the answer is false.
 template <Kind kind, class T, class Steps>
 bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
   const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();
@@ -106,8 +107,8 @@ template <Kind kind, class T, WangOptions options, class Steps>
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
   for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
-  // T ∪ {0, 1} of the algorithms: a candidate only if its residual is that of a root. Then t = 0 is the left
-  // node of the first interval, hence among the roots; t = 1 need not be.
+  // The algorithms test T ∪ {0, 1}; 0 and 1 count only if their residual is that of a root. Then t = 0 is the
+  // left node of the first interval, hence among the roots; t = 1 need not be.
   using std::abs;
   if (steps.does(Step::proximity_end) && at_most(T(abs(F(T(1)))), tol.mu, steps) && proximity(T(1), false))
     return hit(T(1));
@@ -115,7 +116,7 @@ template <Kind kind, class T, WangOptions options, class Steps>
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol, steps);
 }
 
-// The same for a pair that needs another frame, another order of end points, or has a given B (§5).
+// The same for a pair that has a given B (§5), or needs another frame or another order of end points.
 template <Kind kind, class T, WangOptions options, class Steps>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
                                        const Steps& steps) {
@@ -127,10 +128,10 @@ template <Kind kind, class T, WangOptions options, class Steps>
 
 }  // namespace detail
 
-/// Algorithms 3 and 4. Reports every true collision of finite input in a scalar of 13 bits or more (§4 and
-/// constraints.hpp), contact at t = 0 and t = 1 included. A pair that it reports without a collision is within the
-/// tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). `given`, where it is set, takes the place of the
-/// pair's own B; one that is smaller throws Error (§5).
+/// Algorithms 3 and 4. Reports every true collision of finite input, including contact at t = 0 and t = 1, in
+/// a scalar of 13 bits or more (§4 and constraints.hpp). A pair that it reports without a collision is within
+/// the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). If `given` is set, it replaces the pair's
+/// own B; a smaller value throws Error (§5).
 template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt, const Steps& steps = {}) {
   if (options.plane_culling && separated_by_plane<kind>(query, steps))

@@ -34,15 +34,8 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
   const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
   if (hex) digits.remove_prefix(2);
-<<<<<<< HEAD
-  // from_chars takes a sign of its own, which has been read already, and "inf" and "nan".
-  if (digits.find_first_of(".0123456789abcdefABCDEF") != 0) throw fail();
-=======
   // from_chars would also accept a second sign, "inf" and "nan".
-  const bool starts_well =
-      !digits.empty() && (digits[0] == '.' || std::isxdigit(static_cast<unsigned char>(digits[0])));
-  if (!starts_well) throw fail();
->>>>>>> english-b
+  if (digits.find_first_of(".0123456789abcdefABCDEF") != 0) throw fail();
   Number value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
                                             hex ? std::chars_format::hex : std::chars_format::general);

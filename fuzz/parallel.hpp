@@ -1,4 +1,4 @@
-// Parallel loops; the only use of threads.
+// Parallel loops, the only place that uses threads.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// Calls work(0) to work(count - 1) on `jobs` threads. Passes an exception on to the caller.
+/// Calls work(0) to work(count - 1) on `jobs` threads. An exception is passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 }  // namespace nearmiss

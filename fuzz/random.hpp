@@ -1,4 +1,4 @@
-// The only source of random numbers: a counter and a key, without state that outlives a query.
+// The only source of random numbers. It needs a counter and a key, and no state that outlives a query.
 #pragma once
 
 #include <Random123/philox.h>
@@ -26,11 +26,11 @@ class Random {
     return block_[used_++];
   }
 
-  /// In [0, 1), a multiple of 2^-53.
+  /// A uniform multiple of 2^-53 in [0, 1).
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// Log-uniform in [lo, hi), both positive. The last bit depends on the C library's exp and log, which differ on
-  /// processors without fused multiply-add.
+  /// A log-uniform number in [lo, hi), for positive lo and hi. The last bit depends on the C library's exp
+  /// and log, which differ on processors without fused multiply-add.
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
   /// An integer in [lo, hi]; the bias is below 2^-32 for ranges below 2^32.
   int integer(int lo, int hi) {
@@ -40,14 +40,14 @@ class Random {
   /// True with probability 1 / n.
   bool one_in(int n) { return integer(1, n) == 1; }
 
-  /// Components uniform in [-size, size).
+  /// A vector with components uniform in [-size, size).
   Vector3<double> vector(double size) {
     const double x = uniform(-size, size);
     const double y = uniform(-size, size);
     const double z = uniform(-size, size);
     return {x, y, z};
   }
-  /// Components are integers in [-size, size].
+  /// A vector whose components are integers in [-size, size].
   Vector3<double> integer_vector(int size) {
     const int x = integer(-size, size);
     const int y = integer(-size, size);

@@ -8,7 +8,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Who says no and who says yes.
+/// The methods that answer no and those that answer yes.
 class Votes {
  public:
   void add(std::string_view name, std::optional<bool> said) {

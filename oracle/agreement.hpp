@@ -1,4 +1,4 @@
-// The answers of several exact methods side by side.
+// Compares the answers of several exact methods.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// The answers of some methods to a query. The methods must outlive this.
+/// The answers of some methods to a query. The methods must outlive this object.
 class Answers {
  public:
   Answers(std::span<const Method> methods, std::vector<Answer> answers);
@@ -29,7 +29,7 @@ class Answers {
   /// if its answer is given.
   [[nodiscard]] std::string disagreement(std::optional<bool> by_filter = {}) const;
 
-  /// Whether there is a collision that a root-parity method does not see: an even number of roots.
+  /// Whether there is a collision that root parity cannot detect, because the number of roots is even.
   [[nodiscard]] bool missed_by_parity() const;
 
  private:
@@ -40,7 +40,7 @@ class Answers {
 /// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// The same if the answer of the first method, a complete one, is known already.
+/// The same if the answer of the first method, a complete method, is already known.
 Answers ask_others(const Query& query, bool first, std::span<const Method> asked = methods());
 
 /// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its coordinates.

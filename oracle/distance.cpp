@@ -1,4 +1,4 @@
-// Certified bounds in floating-point arithmetic, and exact comparisons if these do not resolve the distance.
+// Certified bounds in floating-point arithmetic, then exact comparisons if these do not resolve the distance.
 #include "oracle/distance.hpp"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return x > 0 ? std::nextafter(x, 0.0) : 0; }
 
-/// Distances in the unit of VertexDifferences as multiples of `unit`, and back.
+/// Converts distances from the unit of VertexDifferences to multiples of `unit`, and back.
 class Conversion {
  public:
-  /// unit > 0.
+  /// Requires unit > 0.
   Conversion(double unit, int exponent) {
     int of_unit = 0;
     mantissa_ = std::frexp(unit, &of_unit);
@@ -33,13 +33,13 @@ class Conversion {
 
   [[nodiscard]] double lower(double distance) const { return divided(distance, below); }
   [[nodiscard]] double upper(double distance) const { return divided(distance, above); }
-  /// The smallest distance, but for rounding upward, that is at least `multiple` units; 0 for 0.
+  /// The smallest distance, up to rounding upward, that is at least `multiple` units; 0 for 0.
   [[nodiscard]] double at_least(double multiple) const {
     return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
   }
 
  private:
-  /// Rounded by `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
+  /// Applies `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
   template <class Next>
   [[nodiscard]] double divided(double distance, const Next& next) const {
     int exponent = 0;
@@ -51,8 +51,8 @@ class Conversion {
   int shift_;
 };
 
-/// Halves an enclosure exactly, by the number of doubles in it, and so about in proportion. False if no double is
-/// left between its ends.
+/// Halves an enclosure by an exact comparison. The halves contain equally many doubles, so the ratio of the
+/// ends shrinks evenly. Returns false if no double is left between the ends.
 bool halve(const Query& query, Enclosure& distance) {
   const auto lo = std::bit_cast<std::uint64_t>(distance.lo);
   const auto hi = std::bit_cast<std::uint64_t>(distance.hi);
@@ -66,7 +66,7 @@ bool halve(const Query& query, Enclosure& distance) {
 
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed_of) {
   const PlainArithmetic guard;
-  // No double is nearer to infinity than the largest one.
+  // The largest double is as near to infinity as a double can be.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };
   const certified::VertexDifferences differences(query);
   const Conversion ratio(unit, differences.exponent());
@@ -98,7 +98,7 @@ double closest_ratio(const Query& query, double unit) {
   const PlainArithmetic guard;
   if (!(unit > 0)) return infinity;
   const auto measured = [&](double width) {
-    // The smallest doubles are farther apart than that.
+    // Subnormal doubles are farther apart than the relative width allows.
     constexpr double apart = 4 * std::numeric_limits<double>::denorm_min();
     const auto needed = [&](double hi) { return std::max(hi * (1 - width) - apart, 0.0); };
     return distance_in_units(query, unit, needed).hi;
@@ -120,7 +120,7 @@ bool distance_exceeds(const Query& query, double bound) {
   if (bound == 0) return !collides(query);
   const certified::VertexDifferences differences(query);
   const Conversion to_distance(1, differences.exponent());
-  // Enough: an upper end that is not above the bound, or a lower one that is.
+  // Either an upper end that is not above the bound, or a lower end that is above it, decides the comparison.
   const auto needed = [&](double upper) {
     return to_distance.upper(upper) <= bound ? 0 : to_distance.at_least(above(bound));
   };

@@ -13,20 +13,21 @@ struct Enclosure {
 };
 
 /// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
-/// or they are as near to each other as doubles can be.
+/// or lo and hi are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query that is no collision, with
-/// lo >= needed(hi), or as near to that as doubles of the distance can be.
+/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query without a collision.
+/// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of this ratio, to a relative 1e-3, and near 1 to 1e-9; infinite if the unit is 0.
+/// An upper bound of this ratio, with a relative accuracy of 1e-3, and of 1e-9 near 1; infinite if the unit
+/// is 0.
 double closest_ratio(const Query& query, double unit);
 
-/// A time in [0, 1] at which the primitives are about as near to each other as they come, for pictures.
+/// A time in [0, 1] at which the distance of the primitives is about smallest, for pictures.
 double closest_time(const Query& query);
 
-/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0: exactly, always.
+/// Whether the smallest distance over [0, 1] is above the bound, a number >= 0. The answer is always exact.
 bool distance_exceeds(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-// The exact methods that decide a query: one table, which the comparison of their answers, the command line and
-// README.md read or repeat. README.md says how to add one.
+// The table of exact methods that decide a query. The comparison of answers and the command line use it, and
+// README.md repeats it and says how to add a method.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,33 @@
 
 namespace nearmiss {
 
-/// A method's answer to a query; a member without a value is unknown to it.
+/// A method's answer to a query; the method does not know a member without a value.
 struct Answer {
   std::optional<bool> collision{};    ///< whether the primitives meet
-  std::optional<bool> on_boundary{};  ///< whether they do at an end of the step or at a border of a primitive
-  std::optional<bool> odd{};  ///< whether the number of roots is odd, with multiplicity; not on the boundary
-  std::size_t detail = 0;  ///< what else it saw, a number below 32: a query with a new one is new to a fuzzer
+  std::optional<bool> on_boundary{};  ///< whether they meet at an end of the step or at a border
+  std::optional<bool> odd{};  ///< whether the number of roots with multiplicity is odd; unset on the boundary
+  std::size_t detail = 0;     ///< further results as a number below 32, feedback for a fuzzer
 };
 
-/// The promise of a method.
+/// What a method promises.
 enum class Claim {
-  complete,  ///< it always knows whether there is a collision
-  parity,    ///< it knows one on the boundary, or by an odd number of roots
+  complete,  ///< the method always knows whether there is a collision
+  parity,    ///< it detects collisions on the boundary and odd numbers of roots
 };
 
 /// "complete" or "parity".
 std::string_view name(Claim claim);
 
-/// A method that decides every finite query exactly, as far as it claims to.
+/// A method that decides every finite query exactly, within its claim.
 struct Method {
   std::string_view name;
-  std::string_view about;  ///< how it decides, in a line
+  std::string_view about;  ///< how it decides, in one line
   Claim claim;
   std::function<Answer(const Query&)> ask;
 };
 
-/// All of them; they share no code. The first one is complete, and the one that decides what the filter cannot.
+/// All methods; they share no code. The first one is complete, and decides the queries that the filter leaves
+/// undecided.
 std::span<const Method> methods();
 
 }  // namespace nearmiss

@@ -16,7 +16,7 @@ namespace {
 using exact::Number;
 using exact::Root;
 
-/// The largest double that is not above x, x in [0, 1].
+/// The largest double that is not above x, for x in [0, 1].
 double rounded_down(const Number& x) {
   double d = CGAL::to_double(x);
   while (Number(d) > x) d = std::nextafter(d, -1.0);
@@ -24,14 +24,15 @@ double rounded_down(const Number& x) {
   return d;
 }
 
-/// Doubles around a time in [0, 1], at most `width` apart or as near as there are; the time itself if it is a double.
+/// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow; both are the
+/// time itself if it is a double.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());
     const double last = rounded_down(t.hi());
     const double hi = Number(last) < t.hi() ? std::nextafter(last, 2.0) : last;
     const double next = std::nextafter(lo, 2.0);
-    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;  // two doubles between them
+    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;  // a double is left between them
     for (const double each : {lo, next, hi})
       if (t.is(Number(each))) return {each, each};
     if (next >= hi || hi - lo <= width) return {lo, hi};

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// The answer to a query, and how it was found.
+/// The answer to a query, and the stage that found it.
 struct Decision {
   bool collision = false;
   FilterStage stage{};  ///< `undecided`: by exact arithmetic
@@ -22,31 +22,31 @@ struct Decision {
   }
 };
 
-/// The answer that a stage of the filter means; by exact arithmetic if it is `undecided`.
+/// The answer that a stage of the filter means; if the stage is `undecided`, exact arithmetic decides.
 bool settle(const Query& query, FilterStage stage);
 
 /// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact arithmetic.
 Decision decide(const Query& query);
 
-/// The same for many queries of both kinds, which the filter takes side by side. A stage may differ from that
-/// for a query alone; an answer may not.
+/// The same for many queries of both kinds, which the filter processes side by side. The answers are the same
+/// as for single queries; the stages may differ.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
-/// Whether the two closed primitives share a point at some t in [0, 1], exactly, for every finite query:
-/// degenerate, planar, huge and subnormal ones included.
+/// Whether the two closed primitives share a point at some t in [0, 1]. The answer is exact for every finite
+/// query, including degenerate, planar, huge and subnormal ones.
 bool collides(const Query& query);
 
-/// The same by exact arithmetic alone, without the filters in front.
+/// The same by exact arithmetic only, without the filters.
 bool collides_exactly(const Query& query);
 
-/// When two primitives first share a point.
+/// The time at which two primitives first share a point.
 struct ContactTime {
   Enclosure enclosure;   ///< one number if the time is a double and `width` is 0
   std::string rational;  ///< the time itself, "p/q" or "p" in lowest terms, if it is rational; else empty
 };
 
-/// The earliest time at which they do; nothing if they never do. Its enclosure is at most `width` wide, or
-/// as narrow as doubles can be.
+/// The earliest time at which the primitives share a point; nothing if they never do. Its enclosure is at
+/// most `width` wide, or as narrow as doubles allow.
 std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
 
 }  // namespace nearmiss

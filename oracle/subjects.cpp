@@ -12,11 +12,11 @@ namespace nearmiss {
 namespace {
 
 constexpr std::array infos{
-    SubjectInfo{"exact", "the oracle itself: certified filter, exact arithmetic for what it leaves"},
+    SubjectInfo{"exact", "the oracle itself: the certified filter, then exact arithmetic"},
     SubjectInfo{"exact-scalar", "the same, one query at a time"},
 };
 
-/// The oracle as a subject, without the box test: subjects are asked about pairs whose boxes meet.
+/// The oracle as a subject. It omits the box test, because subjects only get pairs whose boxes meet.
 class ExactSubject : public Subject {
  public:
   explicit ExactSubject(std::string_view name) : name_(name) {}
@@ -41,7 +41,7 @@ class ExactSubject : public Subject {
   std::string name_;
 };
 
-/// The same, which decides many queries side by side.
+/// The same, but decides many queries side by side.
 class BatchedExactSubject final : public ExactSubject {
  public:
   using ExactSubject::ExactSubject;

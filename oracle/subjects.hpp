@@ -9,12 +9,12 @@
 
 namespace nearmiss {
 
-/// `exact` and `exact-scalar`: the certified filter and exact arithmetic for what it leaves, many queries
-/// side by side or one at a time. They claim that there is no false positive at all: their distance bound is
-/// 0.
+/// The subjects `exact` and `exact-scalar`: the certified filter, then exact arithmetic for the queries that
+/// it leaves undecided. `exact` decides many queries side by side, `exact-scalar` one at a time. Both claim
+/// to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
-/// One of these by its name; nothing for another name.
+/// Makes the one of these with the given name; nothing for any other name.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -14,7 +14,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using certified::DoubleWord;
 
-/// end - start, exactly, if `hi` is finite: then no step of the sum overflows.
+/// end - start; exact if `hi` is finite, because then no step of the sum overflows.
 DoubleWord velocity(const Query& query, std::size_t point, std::size_t k) {
   return certified::two_sum(query.x[12 + 3 * point + k], -query.x[3 * point + k]);
 }
@@ -34,7 +34,8 @@ Point start(const Query& query, int i) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// The position of point i at t = 1 in the frame in which point j rests; nothing if that is not a double.
+/// The position of point i at t = 1 in the frame in which point j is at rest; nothing if its coordinates are
+/// not doubles.
 std::optional<Point> relative_end(const Query& query, int i, int j) {
   std::array<double, 3> end{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -47,7 +48,8 @@ std::optional<Point> relative_end(const Query& query, int i, int j) {
   return Point(end[0], end[1], end[2]);
 }
 
-/// Whether a segment, or a point if its ends are equal, meets a triangle; nothing if that has no area.
+/// Whether a segment, or a point if its ends are equal, meets a triangle; nothing if the triangle has no
+/// area.
 std::optional<bool> meets(const Point& p, const Point& q, const Kernel::Triangle_3& triangle) {
   if (triangle.is_degenerate()) return std::nullopt;
   if (p == q) return CGAL::do_intersect(p, triangle);

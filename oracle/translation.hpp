@@ -1,4 +1,4 @@
-// Decisions without a polynomial, for primitives that only translate against each other.
+// Decisions without polynomials, for primitives that only translate relative to each other.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@ enum class RelativeMotion : std::uint8_t {
   other,
 };
 
-/// Exactly: velocities are compared as the differences of the given coordinates, not as rounded. `other` if a
+/// Exact: it compares the differences of the given coordinates without rounding. The result is `other` if a
 /// difference overflows.
 RelativeMotion relative_motion(const Query& query);
 
-/// Whether the primitives of a query at relative rest or translation meet, by exact static predicates: of rest
-/// the primitives at t = 0 themselves; of translation the segment along which x0 moves and the triangle, or one
-/// edge and the parallelogram that the other one sweeps. Nothing if these predicates do not
-/// decide it: the end of the relative path is not a double, or a primitive has no length or area.
+/// Whether the primitives of a query at relative rest or in relative translation meet, by exact static
+/// predicates. At rest, these test the primitives at t = 0. In translation, they test the segment along which
+/// x0 moves and the triangle, or one edge and the parallelogram that the other edge sweeps. Nothing if these
+/// predicates do not decide: the end of the relative path is not a double, or a primitive has no length or
+/// area.
 std::optional<bool> meets_by_translation(const Query& query);
 
 }  // namespace nearmiss

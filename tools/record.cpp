@@ -82,19 +82,11 @@ void Record::go_on() {
   };
   for (const RunInfo* each : {&info_, &run.info})
     for (const auto& [name, value] : *each)
-<<<<<<< HEAD
-      if (name != "again") expect(name, run.info[name], info_[name]);  // repeats the others
+      if (name != "again") expect(name, run.info[name], info_[name]);  // "again" repeats the other facts
   const auto name = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
   expect("shard", name(run.shards.at(0)), name(shard_));
   shard_ = run.shards.at(0);
   seconds_before_ = shard_.seconds;
-=======
-      if (name != "again") expect(name, run.info[name], info_[name]);  // "again" repeats the other facts
-  const auto shard = [](const Shard& part) { return fmt::format("{}/{}", part.index, part.count); };
-  expect("shard", shard(run.shards.at(0)), shard(part_));
-  part_ = run.shards.at(0);
-  seconds_before_ = part_.seconds;
->>>>>>> english-b
   statistics_ = std::move(before.statistics);
   findings_ = std::move(run.findings);
   saved_findings_ = findings_.size();

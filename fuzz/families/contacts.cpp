@@ -86,7 +86,7 @@ Aim ContactSampler::aim(Kind kind) {
   aim.alpha = weight();
   aim.beta = weight();
   aim.time = weight();
-  if (kind == Kind::vertex_triangle && aim.alpha + aim.beta > 1) {  // the other half of the parallelogram
+  if (kind == Kind::vertex_triangle && aim.alpha + aim.beta > 1) {  // in the other half of the parallelogram
     aim.alpha = 1 - aim.alpha;
     aim.beta = 1 - aim.beta;
   }
@@ -113,8 +113,8 @@ void move_to_origin(Kind kind, Contact& contact, const Vector& velocity) {
   contact.base = passing(-contact.place(kind), velocity, contact.time);
 }
 
-// A sum of at most three products of a number below 2^20 and two multiples of 1/16 has at most 20 + 8 + 3 bits, far
-// below 53.
+// Each product has a factor below 2^20 and two multiples of 1/16. A sum of at most three products has at most
+// 20 + 8 + 3 bits, far below 53.
 Contact integer_contact(Random& random, Kind kind) {
   const auto path = [&](int bits, int velocity_bits) {
     const Vector start = random.integer_vector((1 << bits) - 1);

@@ -1,4 +1,4 @@
-// Primitives that touch at a chosen time and place. Most families are made of these.
+// Primitives that touch at a chosen time and place. Most families are built from these.
 #pragma once
 
 #include <cmath>
@@ -16,19 +16,19 @@ struct Path {
   [[nodiscard]] Vector3<double> velocity() const { return end - start; }
 };
 
-/// The path that passes `place` at a time.
+/// The path that passes `place` at `time`.
 Path passing(const Vector3<double>& place, const Vector3<double>& velocity, double time);
 Path scaled(const Path& path, double factor);
 
-/// The weights of the point of contact, as in Contact, and the time.
+/// The weights of the point of contact, as in Contact, and the time of contact.
 struct Aim {
   double alpha, beta;
   double time;
 };
 
-/// Two primitives and the place at which they are to touch. Vertex-triangle: `base` and the sides q = x2 - x1, r =
-/// x3 - x1 with x1 = base; the contact is at base + α q + β r. Edge-edge: q = x1 - x0 and r = x3 - x2 with x2
-/// = base; the contact is at base + β r, and at weight α of the first edge.
+/// Two primitives and the place at which they will touch. Vertex-triangle: `base` and the sides q = x2 - x1,
+/// r = x3 - x1 with x1 = base; the contact is at base + α q + β r. Edge-edge: q = x1 - x0 and r = x3 - x2
+/// with x2 = base; the contact is at base + β r, and at weight α of the first edge.
 struct Contact {
   Path base, q, r;
   double alpha, beta;
@@ -45,27 +45,28 @@ struct Contact {
 /// every operation here is exact in double, and the query touches exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
-/// Draws the parts of a contact, of size 1. Half of the samplers draw multiples of 1/16, so that short sums and
-/// products stay exact in double; the others draw any numbers.
+/// Draws the parts of a contact, of size 1. Half of the samplers draw multiples of 1/16, so that short sums
+/// and products stay exact in double; the others draw arbitrary numbers.
 class ContactSampler {
  public:
   explicit ContactSampler(Random& random) : random_(random), exact_(random.one_in(2)) {}
 
-  /// Components in [-1, 1].
+  /// A vector with components in [-1, 1].
   Vector3<double> vector();
   /// A vector of length about 1; half of them are along an axis.
   Vector3<double> direction();
   /// A power of two from 2^-bits to 1.
   double fraction(int bits) { return std::ldexp(1.0, -random_.integer(0, bits)); }
-  /// The speed of primitives of size 1: 0, or from 2^-12 to 1 a step.
+  /// The speed of primitives of size 1: 0, or between 2^-12 and 1 per step.
   double speed() { return random_.one_in(3) ? 0 : fraction(12); }
-  /// A velocity with a `fraction` as its size.
+  /// A velocity whose size is drawn by `fraction`.
   Vector3<double> velocity();
-  /// A weight or time in [0, 1], often 0 or 1; one in eight is outside, by a power of two down to ε.
+  /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval by a power of two, down
+  /// to ε.
   double weight();
-  /// Places inside, on edges, in vertices or a little outside, and likewise times.
+  /// A place inside, on an edge, at a vertex or slightly outside; the time is drawn in the same way.
   Aim aim(Kind kind);
-  /// Primitives of size 1 with an aim. Their sides change at the speed; base stays at 0.
+  /// Primitives of size 1 with an aim. Their sides change at the given speed, and base stays at 0.
   Contact contact(Kind kind, double speed);
 
  private:
@@ -73,20 +74,23 @@ class ContactSampler {
   bool exact_;
 };
 
-/// Gives base a velocity, and the place for which the point of contact is the origin. Doubles are densest there.
+/// Gives base the velocity, and moves it so that the point of contact is the origin, where doubles are
+/// densest.
 void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity);
 
-/// Primitives of any size on an integer grid, with multiples of 1/16 as weights and time. The query that meet() makes
-/// of them with an integer velocity below 2^17 touches exactly.
+/// Primitives of any size on an integer grid, with multiples of 1/16 as weights and time. With an integer
+/// velocity below 2^17, meet() makes a query of them that touches exactly.
 Contact integer_contact(Random& random, Kind kind);
 
-/// Moves one query of integers in four by an integer vector, scales it by a power of two, and shuffles it; all exactly.
+/// Scales and shuffles a query of integers, after moving one in four by an integer vector. The scale is a
+/// power of two, so all of this is exact.
 Query placed(Random& random, Query query);
 
 /// The same query with the vertices of each primitive in a random order.
 Query shuffled(Random& random, const Query& query);
 
-/// The double that is `ulps` doubles above c, or below it if `ulps` is negative; the last finite one at most.
+/// The double that is `ulps` doubles above c, or below it if `ulps` is negative, but never beyond the last
+/// finite double.
 double moved_by_ulps(double c, int ulps);
 
 /// Moves `count` random coordinates by 1 to `most` ulps each, up or down.

@@ -1,5 +1,5 @@
-// Sizes, speeds, angles and places at the limits of double. Factors are powers of two, so that exact contacts stay
-// exact.
+// Families with sizes, speeds, angles and places at the limits of double. Factors are powers of two, so exact
+// contacts stay exact.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,7 +16,8 @@ using Vector = Vector3<double>;
 
 // --- sizes and speeds -------------------------------------------------------------------------------
 
-/// The first primitive has the speed 10^x. In some queries so does the second, or the change of the shapes.
+/// The first primitive has the speed 10^x. In some queries the second primitive or the change of the shapes
+/// has this speed too.
 Query stiff(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -27,8 +28,8 @@ Query stiff(Random& random, Kind kind, double x) {
   return finished(random, meet(kind, contact, speed * sampler.direction()));
 }
 
-/// One of the sides q and r is shorter. The contact is anywhere; or its distance from the corner x1 of a triangle, or
-/// from an end of the long edge, is the length of the short side.
+/// One of the sides q and r is shorter. The contact is at a random place, or its distance from the corner x1
+/// of the triangle, or from an end of the long edge, is the length of the short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -65,12 +66,13 @@ Query scale(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// Small integers, times 2^1022 along one axis or some: about half of the differences of coordinates overflow there.
-/// Most primitives start in a plane normal to that axis, and half of the coordinates are at rest.
+/// Small integers, multiplied by 2^1022 along one or more axes, so that about half of the differences of
+/// coordinates overflow there. Most primitives start in a plane normal to such an axis, and half of the
+/// coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
-  const int only = random.integer(0, 5);  // an axis; from 3 on each axis is drawn
+  const int only = random.integer(0, 5);  // an axis, or every axis at random if it is 3 or more
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -86,8 +88,8 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has its own exponent. The primitives touch at the origin, and still do when a vertex or
-/// an axis is multiplied.
+/// Each vertex and each axis has its own exponent. The primitives touch at the origin, so multiplying a
+/// vertex or an axis keeps the contact.
 Query mixed_scale(Random& random, Kind kind, double x) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -105,7 +107,7 @@ Query mixed_scale(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// One primitive rests exactly; the other has the speed 10^x.
+/// One primitive is exactly at rest; the other has the speed 10^x.
 Query static_pair(Random& random, Kind kind, double x) {
   const double speed = power_of_ten(x);
   ContactSampler sampler(random);
@@ -148,7 +150,7 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// Everything, or everything except the motion, is long along one axis alone. One query in three is rotated.
+/// The primitives are long along one axis only, with or without their motion. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);
@@ -170,8 +172,8 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Linear interpolation between two placements of a rigid body is affine: primitives that touch in one placement stay
-/// in contact, and only their relative motion separates them.
+/// Linear interpolation between two placements of a rigid body is affine. So primitives that touch in one
+/// placement stay in contact, and only their relative motion separates them.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };
@@ -179,7 +181,7 @@ Query rigid(Random& random, Kind kind, double x) {
   Contact contact = sampler.contact(kind, 0);
   contact.q = turned(contact.q.start);
   contact.r = turned(contact.r.start);
-  const double away = std::ldexp(1.0, random.integer(0, 6));  // from the axis
+  const double away = std::ldexp(1.0, random.integer(0, 6));  // distance from the axis of rotation
   contact.base = turned(away * sampler.vector());
   if (random.one_in(2)) contact.base.end += sampler.vector();
   const double speed = sampler.fraction(52);
@@ -206,7 +208,7 @@ std::vector<Family> extreme_families() {
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",
-                     "an edge beside the other edge, or the motion beside an edge of the triangle",
+                     "an edge nearly parallel to the other, or motion nearly parallel to a triangle's edge",
                      {"angle = 10^x", -16, 0, false, near_parallel}),
       with_parameter("needle", "long thin primitives", {"height / length = 10^x", -16, 0, false, needle}),
       with_parameter("static-pair", "one primitive rests",

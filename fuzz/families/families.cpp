@@ -25,7 +25,7 @@ const Parameter& parameter_of(const Family& family) {
   return *family.parameter;
 }
 
-/// Without "@VALUE".
+/// The name without "@VALUE".
 std::string_view base_name(std::string_view name) { return name.substr(0, name.find('@')); }
 
 }  // namespace
@@ -45,7 +45,7 @@ Family at_value(const Family& family, double value) {
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", name,
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
-    draw(random, parameter);  // later draws are then the same as without a fixed value
+    draw(random, parameter);  // so that later draws are the same as without a fixed value
     return parameter.make(random, kind, value);
   };
   Family fixed = family;

@@ -1,4 +1,4 @@
-// Families of queries to hunt with: each query is a pure function of (family, seed, index).
+// Families of queries for the hunt. Each query is a pure function of (family, seed, index).
 #pragma once
 
 #include <cstdint>
@@ -16,39 +16,40 @@ namespace nearmiss {
 
 /// The parameter of a family: a number x from lo to hi, which a sweep varies.
 struct Parameter {
-  std::string about;  ///< the meaning of x: "speed / size of the primitives = 10^x"
+  std::string about;  ///< the meaning of x, such as "speed / size of the primitives = 10^x"
   double lo, hi;
-  bool whole = false;  ///< only whole numbers
+  bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
 };
 
 /// A way of making queries.
 struct Family {
-  std::string name;  ///< NAME@VALUE if the parameter has a fixed value
+  std::string name;  ///< NAME, or NAME@VALUE if the parameter has a fixed value
   std::string about;
-  bool planted = false;  ///< every query is a collision, by construction
+  bool planted = false;  ///< whether every query is a collision by construction
   std::function<Query(Random&, Kind)> make;
   std::optional<Parameter> parameter{};  ///< each query draws its own value, uniformly
-  std::uint64_t block_cases = 100;       ///< queries in a round of a campaign; fewer if they are slow
+  std::uint64_t block_cases = 100;       ///< queries per round of a campaign; fewer if they are slow
   bool timed = true;                     ///< whether the subjects' times count
-  bool compare_all = false;              ///< every query is decided by all methods of the oracle
+  bool compare_all = false;              ///< whether all methods of the oracle decide every query
 };
 
 /// A family with a parameter.
 Family with_parameter(std::string name, std::string about, Parameter parameter);
 
-/// The family NAME@VALUE. Its query is the one that NAME makes when it draws VALUE, so that along a sweep
-/// nothing but the parameter changes. Throws Error if the family has no parameter or not this value.
+/// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
+/// changes along a sweep. Throws Error if the family has no parameter, or not this value.
 Family at_value(const Family& family, double value);
 
-/// The family at `steps` values of its parameter, evenly from the lowest to the highest; each whole number once
-/// if there are fewer of these. Throws Error if the family has no parameter.
+/// The family at `steps` evenly spaced values of its parameter, from the lowest to the highest. If there are
+/// fewer whole numbers than steps, each occurs once. Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
 /// All families, in the order in which they are listed.
 std::span<const Family> families();
 
-/// A family by its name, NAME or NAME@VALUE. Throws Error, which lists the known ones.
+/// A family by its name, NAME or NAME@VALUE. For an unknown name, throws an Error that lists the known
+/// families.
 Family find_family(std::string_view name, std::span<const Family> known = families());
 
 /// The kind of a family's query by its index: vertex-triangle if it is even, edge-edge if it is odd.

@@ -29,7 +29,7 @@ double size_of(const Query& query) {
   return size == 0 ? 1 : size;
 }
 
-/// Vertices first .. last: a random one, or all of a primitive.
+/// The vertices first .. last: one random vertex, or all vertices of a primitive.
 struct VertexRange {
   int first, last;
 };
@@ -51,7 +51,7 @@ void set_position(Query& query, int point, const Vector& x) {
     query.set_end(point - 4, x);
 }
 
-/// Which of the positions at t = 0 and t = 1 are changed: one of them, or both.
+/// Whether the position at t = 0, that at t = 1, or both are changed.
 struct Moments {
   bool start, end;
 };
@@ -67,7 +67,7 @@ Query by_ulps(Random& random, const Query& query) {
   return nudged(random, query, random.integer(1, 4), random.one_in(4) ? 64 : 4);
 }
 
-/// A position, or all coordinates a little, by a fraction of the distance between two positions.
+/// Moves a position, or all coordinates slightly, by a fraction of the distance between two positions.
 Query by_a_fraction(Random& random, const Query& query) {
   const Vector from = position(query, random.integer(0, 7));
   const Vector to = position(query, random.integer(0, 7));
@@ -109,7 +109,8 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Rounds to multiples of a power of two near the largest coordinate: to small integers in that unit.
+/// Rounds to multiples of a power of two near the largest coordinate, that is, to small integers in that
+/// unit.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -150,7 +151,8 @@ Query coplanar_once(Random& random, const Query& query) {
   return joined_somehow(random, query, place);
 }
 
-/// A vertex stays at one place of the plane or line of the others, or all stay in a plane normal to an axis.
+/// Keeps a vertex at one place of the plane or line of the others, or keeps all vertices in a plane normal to
+/// an axis.
 Query coplanar_always(Random& random, const Query& query) {
   if (random.one_in(2)) {
     Query result = query;
@@ -169,7 +171,7 @@ Query coplanar_always(Random& random, const Query& query) {
 
 // --- primitives and motion -----------------------------------------------------------------------------
 
-/// Moves a vertex towards another by a factor, or onto it.
+/// Moves a vertex towards another vertex by a factor, or onto it.
 Query edge_shrunk(Random& random, const Query& query) {
   const int fixed = random.integer(0, 3);
   const int moving = (fixed + random.integer(1, 3)) % 4;
@@ -182,7 +184,7 @@ Query edge_shrunk(Random& random, const Query& query) {
   return result;
 }
 
-/// Zero, that of a vertex, or a sum of multiples of the edges from a vertex.
+/// A velocity that is zero, that of a vertex, or a sum of multiples of the edges from a vertex.
 Vector aligned_velocity(Random& random, const Query& query) {
   const int base = random.integer(0, 3);
   switch (random.integer(0, 3)) {
@@ -245,7 +247,7 @@ Query scaled(Random& random, const Query& query) {
   return result;
 }
 
-/// By any multiple of the extent, or so that a position comes to the origin.
+/// Translates by a random multiple of the extent, or moves a position to the origin.
 Query translated(Random& random, const Query& query) {
   const Vector offset = random.one_in(4)
                             ? Vector(-position(query, random.integer(0, 7)))

@@ -1,4 +1,4 @@
-// Mutations of queries that know what a query is, for coverage-guided fuzzers.
+// Mutations that know the structure of a query, for coverage-guided fuzzers.
 #pragma once
 
 #include <span>
@@ -9,24 +9,24 @@
 
 namespace nearmiss {
 
-/// A sort of small change.
+/// A kind of small change to a query.
 struct Mutation {
   std::string_view name;
   std::string_view about;
-  /// The changed query; the same one if there is nothing to change. An overflow leaves coordinates that are not
-  /// finite.
+  /// Returns the changed query, or the same query if there is nothing to change. An overflow results in
+  /// coordinates that are not finite.
   Query (*apply)(Random& random, const Query& query);
 };
 
-/// All sorts, in the order in which they are listed.
+/// All kinds, in the order in which they are listed.
 std::span<const Mutation> mutations();
 
-/// Another query, by one to three mutations. Half of these move something by a fraction, which climbs; the others are
-/// of random sorts, which explores. Then half of the time contact is restored where the primitives nearly touch, so
-/// that chains of mutations keep to collisions. Finite if `query` is.
+/// Applies one to three mutations. Half of them move something by a fraction, to climb; the others are of
+/// random kinds, to explore. In half of the cases contact is then restored where the primitives nearly touch,
+/// so that chains of mutations stay near collisions. The result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Takes some vertices, axes, moments or single coordinates from one query, and the rest from the other.
+/// Takes some vertices, axes, times or single coordinates from one query, and the rest from the other.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

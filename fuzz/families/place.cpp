@@ -15,7 +15,8 @@ namespace {
 
 using certified::DoubleWord;
 
-/// The vector between the two points of a place is the sum of the eight positions, each times its share.
+/// The shares of the eight positions: the vector between the two points of a place is the sum of all
+/// positions, each times its share.
 std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   const DoubleWord one = 1;
   const DoubleWord alpha = place.alpha;
@@ -31,7 +32,7 @@ std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   return shares;
 }
 
-/// In [0, 1]: an end, next to an end, a few bits, or any.
+/// A number in [0, 1]: an end, a number next to an end, one of few bits, or an arbitrary one.
 double random_fraction(Random& random) {
   const double tiny = random.log_uniform(0x1p-53, 0x1p-4);
   switch (random.integer(0, 5)) {
@@ -78,7 +79,7 @@ Query joined(const Query& query, const Place& place, int point) {
   const auto share = shares(query.kind, place);
   const auto p = static_cast<std::size_t>(point);
   Query result = query;
-  for (int pass = 0; pass < 2; ++pass)  // the second one corrects the rounding of the first
+  for (int pass = 0; pass < 2; ++pass)  // the second pass corrects the rounding of the first
     for (std::size_t k = 0; k < 3; ++k) {
       DoubleWord gap;
       for (std::size_t i = 0; i < 8; ++i) gap = gap + share[i] * result.x[3 * i + k];

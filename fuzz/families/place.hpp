@@ -9,25 +9,27 @@
 namespace nearmiss {
 
 /// A point of each primitive, and a time. Vertex-triangle: x0, and x1 + α (x2 - x1) + β (x3 - x1). Edge-edge:
-/// x0 + α (x1 - x0), and x2 + β (x3 - x2). Weights outside of a primitive give a point of its plane or line.
+/// x0 + α (x1 - x0), and x2 + β (x3 - x2). Weights outside [0, 1] give a point of the primitive's plane or
+/// line.
 struct Place {
   double alpha, beta, time;
 };
 
 /// The query with the position `point` (0 .. 3 are the vertices at t = 0, 4 .. 7 at t = 1) moved so that the
-/// place's two points coincide at its time; except for a rare ulp, to the nearest double. An overflow leaves
-/// coordinates that are not finite.
+/// two points of the place coincide at its time. Coordinates are rounded to the nearest double or, in rare
+/// cases, to its neighbour. An overflow results in coordinates that are not finite.
 Query joined(const Query& query, const Place& place, int point);
 
-/// The positions that joined() moves at most 64 times as far as the two points are apart. There is always one.
+/// The positions that joined() moves by at most 64 times the distance of the two points. There is always at
+/// least one.
 std::vector<int> movable_points(Kind kind, const Place& place);
 
-/// A place inside of both primitives, or in vertices, on edges, at t = 0 and t = 1, or next to these.
+/// A random place: inside both primitives, at vertices, on edges, at t = 0 or t = 1, or next to these.
 Place random_place(Random& random, Kind kind);
 
-/// The place at which the primitives touch or nearly do, in double arithmetic: at a root of F, or at a random time if
-/// F has none, with the weights at that time. Weights outside are moved to the border, or a little further inside. If
-/// the primitives have no area, or are too far apart, the place is random.
+/// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F, or
+/// random if F has no root; the weights are those at that time. Weights outside [0, 1] are moved to the
+/// border, or slightly inside. If the primitives have no area or are too far apart, the place is random.
 Place own_place(Random& random, const Query& query);
 
 }  // namespace nearmiss

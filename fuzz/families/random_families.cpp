@@ -1,4 +1,5 @@
-// Queries at random, exact collisions, and what the paper names: parallel, small, thin and planar primitives.
+// Random queries, exact collisions, and the cases that the paper names: parallel, small, thin and planar
+// primitives.
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
@@ -39,7 +40,8 @@ Query planted_ulp(Random& random, Kind kind) {
   return nudged(random, query, random.integer(1, 4), most);
 }
 
-/// A contact at which F' vanishes too: the relative velocity of the touching points lies in the common plane.
+/// A contact at which F' vanishes too, because the relative velocity of the touching points lies in the
+/// common plane.
 Query grazing(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const Vector along_r = random.integer(-4, 4) / 4.0 * contact.r.at(contact.time);
@@ -50,7 +52,8 @@ Query grazing(Random& random, Kind kind) {
 
 // --- nearly degenerate contact, in floating point ---------------------------------------------------
 
-/// Unit primitives aimed at each other; in half of the queries the place may be outside of them.
+/// Unit primitives aimed at each other; in half of the queries the place of contact may be outside the
+/// primitives.
 Contact aimed_contact(Random& random, Kind kind) {
   const auto path = [&](double size, double speed) {
     const Vector start = random.vector(size);
@@ -123,7 +126,7 @@ Query planar(Random& random, Kind kind) {
 
 // --- coincidences -----------------------------------------------------------------------------------
 
-/// Small integers, with points copied from each other and points that rest.
+/// Small integers, with coincident points and points at rest.
 Query degenerate(Random& random, Kind kind) {
   const int size = random.integer(1, 3);
   Query query{.kind = kind};
@@ -176,7 +179,7 @@ std::vector<Family> random_families() {
       plain("planted", "exact collisions by construction: inside, on edges, in vertices, at t = 0 and t = 1",
             planted, true),
       plain("planted-ulp", "planted collisions with a few coordinates moved by ulps", planted_ulp),
-      plain("grazing", "tangential contact: a double root, exactly or but for ulps", grazing),
+      plain("grazing", "tangential contact: a double root, exact or up to a few ulps", grazing),
       plain("parallel", "relative motion nearly in the plane of the primitives", parallel),
       plain("small", "primitives down to 1e-12 of their motion", small),
       plain("sliver", "thin triangles and nearly parallel edges", sliver),

@@ -1,7 +1,8 @@
-// Products of coordinates at the ends of double's range: no coordinate overflows or underflows, but products of two,
-// three, four or six differences of coordinates do, or the sums of these. The components of the weights' W are
-// sums of products of two, F of three; their squares are of four and six. A query is first made of small
-// numbers, and then its vertices and axes are scaled by powers of two, which is exact.
+// Products of coordinates at the ends of the range of double. No coordinate overflows or underflows, but
+// products of two, three, four or six differences of coordinates do, or sums of such products. The components
+// of W, from which the weights come, are sums of products of two differences, and F is one of products of
+// three; their squares have products of four and six. A query first consists of small numbers; then its
+// vertices and axes are scaled by powers of two, which is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,11 +22,11 @@ using Vector = Vector3<double>;
 /// A query before it is scaled.
 struct Draft {
   Query query;
-  bool scales_vertices = false;  ///< scaling a vertex keeps a contact, which is at the origin
+  bool scales_vertices = false;  ///< whether contact is at the origin, so that scaling a vertex keeps it
 };
 
-/// Exact contact: in the face, on an edge or in a vertex, at any time of the step, its ends included. One contact in
-/// three is tangential.
+/// Exact contact inside the triangle, on an edge or at a vertex, at any time of the step including its ends.
+/// One contact in three is tangential.
 Draft touching(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const bool at_origin = random.one_in(2);
@@ -39,8 +40,8 @@ Draft touching(Random& random, Kind kind) {
   return {meet(kind, contact, w), at_origin};
 }
 
-/// Exact contact of small integers, at the origin and inside the step. Speeds are like sizes, so that a wrong root of
-/// F is a time without contact.
+/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so a
+/// wrong root of F is a time without contact.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);
@@ -58,7 +59,7 @@ Draft small_touching(Random& random, Kind kind) {
   return {meet(kind, contact, random.integer_vector(random.integer(1, 4))), true};
 }
 
-/// Small integers; in one of four queries one primitive rests.
+/// Small integers; in one of four queries, one primitive is at rest.
 Query lattice(Random& random, Kind kind) {
   const int size = random.integer(1, 4);
   Query query{.kind = kind};
@@ -95,7 +96,7 @@ Query cube(Random& random, Kind kind) {
   return query;
 }
 
-/// Contact at the origin, or a near miss: a weight or the time is outside [0, 1] by a power of two down to ε.
+/// Contact at the origin, or nearly so: a weight or the time is outside [0, 1] by a power of two, down to ε.
 Draft aimed(Random& random, Kind kind) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -124,7 +125,7 @@ Draft any_draft(Random& random, Kind kind) {
 
 // --- sizes ------------------------------------------------------------------------------------------
 
-/// The larger magnitudes, of both times, of x_v - x_0, v = 1, 2, 3, along each axis.
+/// The magnitudes of x_v - x_0 for v = 1, 2, 3 along each axis, the larger one of both times.
 using Differences = std::array<std::array<double, 3>, 3>;
 
 Differences differences(const Query& query) {
@@ -139,10 +140,10 @@ Differences differences(const Query& query) {
   return larger;
 }
 
-constexpr std::size_t none = 3;  ///< of the axes
+constexpr std::size_t none = 3;  ///< instead of an axis: no axis
 
-/// The sum of F's products of three differences, one along each axis. With an axis left out: the sum of the products
-/// of two in the component of the weights along that axis.
+/// The sum of the products of three differences in F, one along each axis. If an axis is left out, the sum of
+/// the products of two differences in the weights' component along that axis.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -159,16 +160,16 @@ void scale_axis(Query& query, std::size_t axis, int exponent) {
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
 }
 
-/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. A value two or
-/// three times as large then likely overflows.
+/// Multiplies an axis by the largest multiple of 1/8 that keeps the exponent of the sum of products. A value
+/// that is two or three times larger is then likely to overflow.
 void fill_binade(Query& query, std::size_t axis, double sum) {
   const double mantissa = std::ldexp(sum, -std::ilogb(sum));
   const double factor = (std::ceil(16 / mantissa) - 1) / 8;
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] *= factor;
 }
 
-/// Scales the axes that are not left out, so that the sum of products is in [2^x, 2^(x + 1)), unless it is zero. All
-/// have the same power of two, as far as x allows, or each its own, up to a factor of 2^spread.
+/// Scales the axes that are not left out, so that the sum of products is in [2^x, 2^(x + 1)), unless it is
+/// zero. All axes get the same power of two, as far as x allows, or powers that differ by up to 2^spread.
 void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
   const double sum = sum_of_products(query, left_out);
   int exponent = x;
@@ -188,7 +189,7 @@ void scale_products(Random& random, Query& query, std::size_t left_out, int x, i
   }
 }
 
-/// Makes two of the vertices up to 2^512 times larger or smaller than the others, or gives each its own size.
+/// Makes two vertices up to 2^512 times larger or smaller than the others, or gives each vertex its own size.
 void scale_vertices(Random& random, Query& query) {
   const int half = random.integer(-256, 256);
   std::array<int, 4> exponents{-half, -half, half, half};
@@ -198,8 +199,8 @@ void scale_vertices(Random& random, Query& query) {
   for (std::size_t i = 0; i < 24; ++i) query.x[i] = std::ldexp(query.x[i], exponents[i / 3 % 4]);
 }
 
-/// Scales products of two. The other axis is scaled likewise, so that F overflows or underflows too, or so that F
-/// stays inside the range, by up to 2^60.
+/// Scales products of two differences. The third axis is scaled either in the same way, so that F overflows
+/// or underflows too, or so that F stays inside the range by a factor of up to 2^60.
 void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   const auto left_out = static_cast<std::size_t>(random.integer(0, 2));
   scale_products(random, query, left_out, x, spread);
@@ -207,7 +208,7 @@ void scale_products_of_two(Random& random, Query& query, int x, int spread) {
   scale_axis(query, left_out, random.one_in(4) ? x / 2 : x > 0 ? -inward : inward);
 }
 
-/// Half of the queries have coordinates of one size; in the others vertices or axes have sizes of their own.
+/// Half of the queries have coordinates of one size; in the others, vertices or axes have different sizes.
 Query scaled_to(Random& random, const Draft& draft, int x) {
   Query query = shuffled(random, draft.query);
   const bool mixed = random.one_in(2);

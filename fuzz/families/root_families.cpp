@@ -1,4 +1,4 @@
-// Roots of F that are hard to find: at the ends of the step, two close to each other, three in one.
+// Roots of F that are hard to find: at the ends of the step, two roots close to each other, and triple roots.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// At the contact x0 - base = β r + sign α q.
+/// The sign with which x0 - base = β r + sign α q at the contact.
 double sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
 
 /// An exact contact at t = 0 or t = 1. One coordinate of that time is then moved by x ulps.
@@ -25,11 +25,12 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// If the weights change at the rates α' and β', the place of contact takes a curved path. The first primitive moves
-/// along a tangent of it, which is a double root. The path leaves its tangent by (β' r' + sign α' q') (t - time)².
-/// Moved by that vector at time ± h, the first primitive meets the path at both times; moved to the other side, never.
-/// Half of the primitives lie in a coordinate plane at their time and leave it along its normal, so that the smallest
-/// move is exact.
+/// If the weights change at the rates α' and β', the place of contact moves along a curve. The first
+/// primitive moves along a tangent of this curve, which makes a double root. The curve departs from its
+/// tangent by (β' r' + sign α' q') (t - time)². If the first primitive is moved by the value of this vector
+/// at time ± h, it meets the curve at both times; if it is moved to the other side, it never does. Half of
+/// the primitives lie in a coordinate plane at the contact time and leave it along its normal, so that the
+/// smallest move is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   ContactSampler sampler(random);
@@ -47,7 +48,7 @@ Query even_roots(Random& random, Kind kind, double x) {
   const Vector stay = flat ? contact.velocity(kind) : Vector(Vector::Zero());
   move_to_origin(kind, contact, within(sampler.vector()) - stay);
 
-  const Vector rates = sampler.vector();  // of the weights
+  const Vector rates = sampler.vector();  // rates of the weights
   const double alpha_rate = sign(kind) * rates[0];
   const double beta_rate = rates[1];
   const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
@@ -62,9 +63,9 @@ Query even_roots(Random& random, Kind kind, double x) {
 }
 
 /// F(t) = det(M0 + s M1) with s = t - time and the columns x0 - base, q and r. With M1 = G C and M0 = G J C
-/// it is det(G) det(C) det(J + s) = det(G) det(C) s³ for a nilpotent J. The primitives touch if M0 maps the vector
-/// (1, -sign α, -β) to 0: all rows of C except the first are orthogonal to it, and J ignores the first. Then q and r
-/// are moved a little, and the contact with them.
+/// for a nilpotent J, it is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives touch if M0 maps the
+/// vector (1, -sign α, -β) to 0. It does, because all rows of C except the first are orthogonal to this
+/// vector, and J ignores the first. Finally, q and r are moved slightly, and the contact with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   ContactSampler sampler(random);
@@ -93,8 +94,8 @@ Query triple_root(Random& random, Kind kind, double x) {
 
 std::vector<Family> root_families() {
   return {
-      with_parameter("end-contact", "contact at t = 0 or t = 1, exactly but for one coordinate",
-                     {"ulps by which that is moved = x", 0, 64, true, end_contact}),
+      with_parameter("end-contact", "exact contact at t = 0 or t = 1, with one coordinate moved",
+                     {"ulps by which the coordinate is moved = x", 0, 64, true, end_contact}),
       with_parameter("even-roots", "touching, passing and coming back; or coming near and turning back",
                      {"time between the roots = 10^x", -16, 0, false, even_roots}),
       with_parameter("triple-root", "a triple root of F, or nearly so",

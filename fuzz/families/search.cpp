@@ -18,17 +18,17 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr double usually_smallest = 1e-5;  // lower end of the sizes and speeds that are drawn
+constexpr double usually_smallest = 1e-5;  // lower end of the range of sizes and speeds
 
-/// A point of the space that is searched: a contact, in the frame in which `base` rests at the origin, and a gap
+/// A point of the search space: a contact, in the frame in which `base` is at rest at the origin, and a gap
 /// between the primitives.
 struct SearchPoint {
   Path q, r;
-  Vector w;      ///< velocity of the first primitive's point
+  Vector w;      ///< velocity of the first primitive's point of contact
   Vector place;  ///< α, β, time
   Vector gap;
 
-  /// Visits all vectors; not the gap if the primitives are to touch.
+  /// Visits all vectors, without the gap if the primitives must touch.
   template <class Visit>
   void visit(bool touching, const Visit& visit_vector) {
     for (Vector* v : {&q.start, &q.end, &r.start, &r.end, &w, &place}) visit_vector(*v);
@@ -48,8 +48,8 @@ Contact contact_of(Kind kind, const SearchPoint& m) {
   return contact;
 }
 
-/// Rounds to a grid on which `meet` is exact: vectors within 2^3 are multiples of 2^-22, weights and times multiples
-/// of 2^-10. No sum of products then has more than 3 + 3 + 22 + 20 = 48 bits.
+/// Rounds to a grid on which `meet` is exact: vectors within 2^3 to multiples of 2^-22, weights and times to
+/// multiples of 2^-10. Then no sum of products has more than 3 + 3 + 22 + 20 = 48 bits.
 SearchPoint on_grid(SearchPoint m) {
   const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
   m.visit(true, [&](Vector& v) {
@@ -68,8 +68,8 @@ Query query_of(Kind kind, const SearchPoint& m) {
   return query;
 }
 
-/// Draws primitives with sizes and speeds from `smallest` to 1: also thin ones, motion in their plane, everything near
-/// one plane, and contact on borders and at the ends of the step.
+/// Draws primitives with sizes and speeds from `smallest` to 1. Some are thin, move in their plane, or stay
+/// near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw(Random& random, double smallest) {
   const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
@@ -97,7 +97,7 @@ SearchPoint draw(Random& random, double smallest) {
   return m;
 }
 
-/// log2 of six ratios; a contact is the harder, the smaller one of these is.
+/// log2 of six ratios. A contact is harder if one of them is smaller.
 std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& w) {
   const Vector q = contact.q.at(contact.time);
   const Vector r = contact.r.at(contact.time);
@@ -113,15 +113,15 @@ std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& 
           ratio(std::max(q.norm(), r.norm()), relative.norm())};
 }
 
-constexpr double nothing = -1e3;  ///< the objective of a query that is not looked for, far below all others
+constexpr double nothing = -1e3;  ///< the objective of an unwanted query, far below all others
 
-/// Maximises an objective from drawn starts on.
+/// Maximises an objective from random starting points.
 class Maximiser {
  public:
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// Sizes of steps are drawn between `finest_step` and 0.5.
+  /// Step sizes are drawn between `finest_step` and 0.5.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective)
       : random_(random), touching_(touching), finest_step_(finest_step), objective_(std::move(objective)) {}
 
@@ -147,7 +147,7 @@ class Maximiser {
     return value;
   }
 
-  /// Starts at the best point so far, or beside it, with steps of a random size.
+  /// Starts at the best point so far, or near it, with steps of a random size.
   void optimise(bool beside) {
     constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
     constexpr int evaluations = 300;
@@ -166,7 +166,7 @@ class Maximiser {
           try {
             value = maximiser.show(maximiser.point_at(x));
           } catch (...) {
-            maximiser.error_ = std::current_exception();  // the optimiser would take it for one of its own
+            maximiser.error_ = std::current_exception();  // the optimiser would mistake it for its own
           }
           if (maximiser.over()) maximiser.optimiser_->force_stop();
           return std::min(value, 1e3);  // finite, because optimisers compute with it
@@ -208,13 +208,14 @@ class Maximiser {
   std::exception_ptr error_;  ///< thrown by the objective
 };
 
-/// The distance that a subject's false positives may have: what the subject claims, or else what wang does.
+/// The largest distance of a subject's false positives: the bound that the subject claims, or wang's if it
+/// claims none.
 double reach(const Subject& subject, const Query& query) {
   const double claimed = subject.distance_bound(query);
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The size from which primitives are drawn: smaller than usual for a subject with a small reach.
+/// The smallest size of primitives; it is smaller than usual for a subject with a small reach.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   const SearchPoint typical = draw(random, usually_smallest);
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
@@ -266,8 +267,8 @@ Query search_far(const Subject& subject, Random& random, Kind kind) {
   }));
 }
 
-/// Each query takes as long as some thousand others. The subjects' times do not count: batches are small, and the
-/// search leaves caches cold, or warm for the one subject that it is for.
+/// A query of directed search takes as long as some thousand others. The subjects' times do not count,
+/// because batches are small, and the search leaves the caches warm only for the subject that it searches.
 Family search(std::string name, std::string about, std::function<Query(Random&, Kind)> make) {
   return {.name = std::move(name),
           .about = std::move(about),

@@ -1,4 +1,4 @@
-// The families by theme, one file each; families() lists them all.
+// The tables of families, one file for each theme; families() lists all families.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// libFuzzer: a collision that the subject misses.
+// libFuzzer target: a collision that the subject misses.
 #include "fuzz/libfuzzer/query_target.hpp"
 #include "fuzz/libfuzzer/untraced.hpp"
 #include "oracle/oracle.hpp"

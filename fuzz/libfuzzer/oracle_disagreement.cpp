@@ -1,4 +1,4 @@
-// libFuzzer: a query on which the oracle's methods, or its filter's instruction sets, disagree.
+// libFuzzer target: a query on which the oracle's methods or the filter's instruction sets disagree.
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@ namespace nearmiss::libfuzzer {
 
 namespace {
 
-/// Whether the filter agrees with exact arithmetic, by every instruction set of this machine.
+/// Whether the filter agrees with exact arithmetic for every instruction set of this machine.
 bool filter_agrees(const Query& query, bool collision) {
   const std::span<const Query> queries(&query, 1);
   const auto contradicts = [&](FilterStage stage) {
@@ -27,7 +27,7 @@ bool filter_agrees(const Query& query, bool collision) {
   return !contradicts(first) && !contradicts(filter(query));
 }
 
-/// Shows each method's answers as numbers, in a range of their own.
+/// Shows the answers of each method as numbers, with a separate range for each method.
 void show_all(Kind kind, std::span<const Answer> answers) {
   const auto number = [](std::optional<bool> said) { return said ? (*said ? 2U : 1U) : 0U; };
   std::size_t before = 0;

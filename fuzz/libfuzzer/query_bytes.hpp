@@ -10,10 +10,10 @@
 
 namespace nearmiss::libfuzzer {
 
-/// A byte for the kind, then the 24 coordinates as they are in memory.
+/// The size of an input: one byte for the kind, then the 24 coordinates as they are in memory.
 inline constexpr std::size_t query_bytes = 1 + sizeof(Query::x);
 
-/// Nothing if the size is wrong or a coordinate is not finite.
+/// The query in an input; nothing if the size is wrong or a coordinate is not finite.
 inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t size) {
   if (size != query_bytes) return std::nullopt;
   Query query{.kind = kinds[data[0] % kinds.size()]};

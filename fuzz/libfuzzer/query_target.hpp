@@ -1,4 +1,5 @@
-// Common parts of the libFuzzer targets on queries: mutation, feedback beyond coverage, and failures.
+// Common parts of the libFuzzer targets for queries: mutation, feedback in addition to coverage, and
+// failures.
 #pragma once
 
 #include <cstddef>
@@ -19,22 +20,23 @@ const Subject& subject();
 /// further.
 enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
-  true_stage,    ///< the stage by which the subject accepted a collision, or that it missed it
-  false_stage,   ///< the stage by which it accepted a false positive
+  true_stage,    ///< the stage at which the subject accepted a collision, or that it missed it
+  false_stage,   ///< the stage at which the subject accepted a false positive
   margin,        ///< how much less tolerance a collision needs than the subject has
-  distance,      ///< of a false positive, divided by its bound
-  answers,       ///< what each exact method of the oracle says
+  distance,      ///< distance of a false positive, divided by its bound
+  answers,       ///< the answer of each exact method of the oracle
   details,       ///< other properties that each method reports
 };
 
-/// Shows a value, separately for each kind of query; values from 127 on count as one.
+/// Shows a value, separately for each kind of query. All values from 127 on count as the same value.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows how near a factor is to 1, from below. Steps become finer towards 1, so that there is always a next one to
-/// reward. NaN shows nothing.
+/// Shows how near a factor is to 1, from below. Steps become finer towards 1, so that there is always a next
+/// step to reward. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
-/// Writes the finding as a case into the folder NEARMISS_CASES, or the current one, prints a line, and aborts.
+/// Writes the finding as a case into the folder NEARMISS_CASES, or the current folder, prints a line, and
+/// aborts.
 [[noreturn]] void fail(Finding::What what, const Query& query, double ratio = 0);
 
 }  // namespace nearmiss::libfuzzer

@@ -1,4 +1,4 @@
-// libFuzzer: *.case files.
+// libFuzzer target: the reader of *.case files.
 #include "corpus/case.hpp"
 
 #include "fuzz/libfuzzer/reader_target.hpp"

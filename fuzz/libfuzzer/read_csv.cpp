@@ -1,4 +1,4 @@
-// libFuzzer: sample queries, *.csv.
+// libFuzzer target: the reader of sample queries, *.csv.
 #include "corpus/sample_csv.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
 

@@ -1,4 +1,4 @@
-// libFuzzer: OFF, PLY and STL files. Every reader is given every file.
+// libFuzzer target: the readers of OFF, PLY and STL files. Every reader gets every file.
 #include <istream>
 
 #include "ccd/error.hpp"

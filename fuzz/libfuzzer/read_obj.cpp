@@ -1,4 +1,4 @@
-// libFuzzer: OBJ files.
+// libFuzzer target: the reader of OBJ files.
 #include "fuzz/libfuzzer/reader_target.hpp"
 #include "fuzz/meshes/formats.hpp"
 

@@ -1,4 +1,4 @@
-// libFuzzer: query files, *.vt and *.ee.
+// libFuzzer target: the reader of query files, *.vt and *.ee.
 #include "corpus/readers.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
 

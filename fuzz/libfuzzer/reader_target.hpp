@@ -1,5 +1,5 @@
-// Common parts of the libFuzzer targets on readers. A reader must accept any file or throw Error; what it accepted must
-// survive writing and reading.
+// Common parts of the libFuzzer targets for readers. A reader must accept a file or throw Error, and writing
+// and reading again must not change an accepted file's content.
 #pragma once
 
 #include <iosfwd>
@@ -15,10 +15,11 @@ void read(std::istream& in);
 /// Aborts with a line on stderr if the condition does not hold.
 void expect(bool condition, const char* what);
 
-/// Checks that a case, written as text and read again, is the same to the last bit.
+/// Checks that a case is the same to the last bit after it is written as text and read again.
 void expect_round_trip(const Case& each);
 
-/// Checks that a mesh has a point, finite coordinates, and primitives of existing points.
+/// Checks that a mesh has at least one point, finite coordinates, and primitives that only join existing
+/// points.
 void expect_sound(const Mesh& mesh);
 
 }  // namespace nearmiss::libfuzzer

@@ -1,4 +1,4 @@
-// libFuzzer: a false positive that is farther away than the subject claims.
+// libFuzzer target: a false positive whose distance exceeds the bound that the subject claims.
 #include <cmath>
 
 #include "fuzz/libfuzzer/query_target.hpp"
@@ -14,7 +14,7 @@ void nearmiss::libfuzzer::examine(const Query& query) {
        static_cast<std::size_t>(verdict.stage));
   if (truth.collision) return;
   const double bound = subject().distance_bound(query);
-  if (!std::isfinite(bound)) return;  // nothing is claimed
+  if (!std::isfinite(bound)) return;  // the subject claims no bound
   const double ratio = untraced([&] { return closest_ratio(query, bound); });
   if (ratio >= 1 && untraced([&] { return distance_exceeds(query, bound); }))
     fail(Finding::What::refuted_bound, query, ratio);

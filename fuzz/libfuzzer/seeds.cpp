@@ -1,5 +1,5 @@
-// Writes the inputs that libFuzzer starts from: fuzz_seeds FOLDER CASES... makes FOLDER/TARGET/... for every target, from
-// the cases in these files and folders, and from some queries of each family.
+// Writes the inputs that libFuzzer starts from. `fuzz_seeds FOLDER CASES...` makes FOLDER/TARGET/... for
+// every target, from the cases in the given files and folders and from some queries of each family.
 #include <fmt/format.h>
 #include <gmpxx.h>
 
@@ -66,7 +66,7 @@ std::string obj(const Query& query) {
   return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";
 }
 
-/// Two triangles, in the encoding that `numbers` writes.
+/// A PLY file of two triangles, with `numbers` as its text or bytes.
 std::string ply(const std::string& encoding, const std::string& numbers) {
   return "ply\nformat " + encoding +
          " 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nelement face 2\n"

@@ -1,5 +1,5 @@
-// Compiled without coverage, because the compiler names the ends of the section of counters itself in code with
-// coverage, and would take these names for others.
+// This file is compiled without coverage. With coverage, the compiler itself declares the names below, which
+// would conflict with these declarations.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>

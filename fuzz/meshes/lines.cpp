@@ -73,7 +73,7 @@ double parse_decimal(std::string_view word, const Lines& lines) {
 }
 
 std::string shown(std::string_view word) {
-  constexpr std::size_t most = 40;  // a binary file has long words
+  constexpr std::size_t most = 40;  // because a binary file may have long words
   if (word.empty()) return "the end of the file";
   if (word.size() > most) return fmt::format("'{}...'", word.substr(0, most));
   return fmt::format("'{}'", word);

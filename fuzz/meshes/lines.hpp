@@ -11,10 +11,11 @@
 
 namespace nearmiss {
 
-/// Everything that a stream holds. Throws Error if it cannot be read to its end.
+/// Reads the whole content of a stream. Throws Error if it cannot be read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// Goes through the lines of a text that hold a word, and splits each into words at blanks. The text must outlive this.
+/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. The text
+/// must outlive this object.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
@@ -43,7 +44,7 @@ class Lines {
   [[nodiscard]] std::string where() const { return where(number_); }
   [[nodiscard]] std::string where(long line) const;
 
-  /// The error of finding this at this line.
+  /// An error that reports what was found and expected at this line.
   [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
 
  private:
@@ -55,10 +56,10 @@ class Lines {
   std::size_t read_ = 0;  ///< number of words that next_word has returned
 };
 
-/// The finite decimal number that a word is. Throws Error if it is none.
+/// Parses a word as a finite decimal number. Throws Error if it is not one.
 double parse_decimal(std::string_view word, const Lines& lines);
 
-/// A word, or the lack of one, as messages show it.
+/// A word, or the end of the file if the word is empty, as messages show it.
 std::string shown(std::string_view word);
 
 }  // namespace nearmiss

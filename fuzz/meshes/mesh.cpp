@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Throws Error where two lists of primitives differ.
+/// Throws Error at the first difference of two lists of primitives.
 template <std::size_t n>
 void expect_same(const std::vector<std::array<int, n>>& first, const std::string& first_name,
                  const std::vector<std::array<int, n>>& other, const std::string& other_name,
@@ -56,8 +56,8 @@ void expect_same_primitives(const Mesh& first, const std::string& first_name, co
 }
 
 Bodies bodies(const Mesh& mesh) {
-  // parent[i] is a point of the same body with a smaller number, or i itself: the chain of parents ends at the
-  // smallest.
+  // parent[i] is a point of the same body with a smaller number, or i itself: the chain of parents ends at
+  // the smallest number.
   std::vector<int> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto at = [&](int point) -> int& { return parent[static_cast<std::size_t>(point)]; };

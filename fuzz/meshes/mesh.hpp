@@ -26,8 +26,8 @@ void add_polygon(Mesh& mesh, std::span<const long> polygon);
 /// Throws Error if a file has no point, or more than an int can count.
 void expect_points(std::size_t points, std::string_view name);
 
-/// Throws Error if the two meshes differ in the number of points or in a primitive; the names stand for the meshes
-/// in the message.
+/// Throws Error if the two meshes differ in the number of points or in a primitive. The message calls the
+/// meshes by the given names.
 void expect_same_primitives(const Mesh& first, const std::string& first_name, const Mesh& other,
                             const std::string& other_name);
 
@@ -37,8 +37,8 @@ struct Bodies {
   std::vector<int> of_point;  ///< the body of each point; bodies are numbered by their first points, from 0
 };
 
-/// The bodies of a mesh: points that a triangle or a line joins belong to the same one. A point in no primitive is
-/// a body.
+/// The bodies of a mesh. Points that a triangle or a line joins belong to the same body, and a point in no
+/// primitive is a body.
 Bodies bodies(const Mesh& mesh);
 
 /// A mesh whose points move linearly.
@@ -49,7 +49,7 @@ struct MovingMesh {
   std::vector<std::array<int, 2>> edges;
 };
 
-/// A moving mesh from its parts; `mesh` gives the start.
+/// Makes a moving mesh; `mesh` is the mesh at the start, `end` has the points at the end.
 MovingMesh make_moving_mesh(Mesh mesh, std::vector<Vector3<double>> end);
 
 }  // namespace nearmiss

@@ -16,12 +16,12 @@ namespace {
 struct FaceOrPolyline {
   bool is_face;
   long line;
-  std::size_t begin, end;  ///< its vertices, in the list of the vertices of all
+  std::size_t begin, end;  ///< range of its vertices in the common list
 };
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }
 
-/// The number of a vertex as the file has it: "v", "v/vt", "v//vn" or "v/vt/vn".
+/// The number of a vertex as written in the file: "v", "v/vt", "v//vn" or "v/vt/vn".
 long parse_vertex(std::string_view word, bool is_face, const Lines& lines) {
   const auto vertex = parse_integer<long>(word.substr(0, word.find('/')));
   if (!vertex)
@@ -36,7 +36,8 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline to a list; there they count from 0. `points` were defined before it.
+/// Adds the vertices of a face or polyline to a list, in which they count from 0. `points` is the number of
+/// points defined before.
 void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();
   const std::size_t least = is_face ? 3 : 2;
@@ -57,8 +58,8 @@ void add_polyline(Mesh& mesh, std::span<const long> polyline) {
     mesh.lines.push_back({static_cast<int>(polyline[i - 1]), static_cast<int>(polyline[i])});
 }
 
-/// Adds the triangles and lines. Throws Error if a vertex does not exist: faces may come before their vertices, so
-/// this is known only at the end of the file.
+/// Adds the triangles and lines. Throws Error if a vertex does not exist; since faces may come before their
+/// vertices, this is only known at the end of the file.
 void add_primitives(Mesh& mesh, const std::vector<FaceOrPolyline>& primitives, std::span<const long> vertices,
                     const Lines& lines) {
   const auto points = static_cast<long>(mesh.points.size());
@@ -75,7 +76,7 @@ void add_primitives(Mesh& mesh, const std::vector<FaceOrPolyline>& primitives, s
   }
 }
 
-/// Whether a line with this first word is of the format, but not needed for a mesh.
+/// Whether a line with this first word is valid in the format, but not needed for a mesh.
 bool is_skipped(std::string_view keyword) {
   static const std::set<std::string_view> keywords{
       "vt",     "vn",         "vp",        "cstype", "deg",      "bmat",     "step",   "p",      "curv",

@@ -16,7 +16,7 @@ using Words = std::span<const std::string_view>;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
-/// A number of vertices, faces or edges, or of a vertex: from 0 to `largest`.
+/// Parses the number of vertices, faces or edges, or the index of a vertex: from 0 to `largest`.
 int parse_count(std::string_view word, int largest, std::string_view what, const Lines& lines) {
   const auto count = parse_integer<int>(word);
   if (!count || *count < 0 || *count > largest)
@@ -24,12 +24,12 @@ int parse_count(std::string_view word, int largest, std::string_view what, const
   return *count;
 }
 
-/// The words after the keyword; or those of the next line, if there are none.
+/// The words after the keyword, or those of the next line if none follow it.
 Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();
   std::string_view kind = keyword;
-  for (const std::string_view extra : {"ST", "C", "N"})  // what a vertex has beside its coordinates
+  for (const std::string_view extra : {"ST", "C", "N"})  // further data of a vertex
     if (kind.starts_with(extra)) kind.remove_prefix(extra.size());
   if (kind != "OFF") throw lines.error(shown(keyword), "OFF, or with ST, C or N before it");
   if (lines.words().size() > 1) return Words(lines.words()).subspan(1);

@@ -88,7 +88,7 @@ class BinaryNumbers {
   }
 
  private:
-  /// The value of two's complement, from that of an unsigned integer of as many bits.
+  /// The two's complement value of an unsigned integer with the same bits.
   static long signed_value(long value, const ply::NumberType& type) {
     return value <= type.largest ? value : value + 2 * type.smallest;
   }
@@ -100,11 +100,11 @@ class BinaryNumbers {
 
 // --- mesh -------------------------------------------------------------------------------------------------
 
-/// Points and polygons as the file has them. Polygons may come before their points.
+/// Points and polygons in the order of the file. Polygons may come before their points.
 struct PolygonSoup {
   std::vector<Vector3<double>> points;
-  std::vector<long> vertices;      ///< of all polygons, one after the other
-  std::vector<std::size_t> sizes;  ///< of each polygon
+  std::vector<long> vertices;      ///< vertices of all polygons, one polygon after the other
+  std::vector<std::size_t> sizes;  ///< number of vertices of each polygon
 };
 
 void expect_finite(const std::vector<Vector3<double>>& points, std::string_view name) {
@@ -114,7 +114,7 @@ void expect_finite(const std::vector<Vector3<double>>& points, std::string_view 
         throw Error(fmt::format("{}: found {} in vertex {}, expected a finite number", name, c, i + 1));
 }
 
-/// Throws Error unless a polygon has three vertices or more, all among `points`.
+/// Throws Error unless a polygon has at least three vertices, all of which exist among `points` points.
 void expect_polygon(std::span<const long> polygon, std::size_t points, std::size_t number,
                     std::string_view name) {
   if (polygon.size() < 3)
@@ -141,7 +141,7 @@ Mesh to_mesh(PolygonSoup soup, std::string_view name) {
   return mesh;
 }
 
-/// Reads the items of all elements, and keeps what a mesh needs.
+/// Reads the items of all elements, and keeps those that a mesh needs.
 template <class Numbers>
 class ItemReader {
  public:
@@ -150,7 +150,7 @@ class ItemReader {
 
   PolygonSoup read(const std::vector<ply::Element>& elements) && {
     for (const ply::Element& element : elements) {
-      if (element.properties.empty() && element.items > 0)  // they would be there without a byte
+      if (element.properties.empty() && element.items > 0)  // items without a byte
         throw Error(fmt::format("{}: found no property of {}, expected one", name_, element.name));
       for (std::uint64_t item = 1; item <= element.items; ++item) read_item(element, item);
     }

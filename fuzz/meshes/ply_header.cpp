@@ -55,7 +55,7 @@ Property parse_property(const Lines& lines) {
   return {length, parse_type(words[3], lines), std::string(words[4])};
 }
 
-/// Goes on to the next line that is no comment; its first word.
+/// Goes to the next line that is not a comment, and returns its first word.
 std::string_view next_keyword(Lines& lines, std::string_view expected) {
   do {
     if (!lines.next()) throw lines.error(shown({}), expected);
@@ -65,7 +65,7 @@ std::string_view next_keyword(Lines& lines, std::string_view expected) {
 
 // --- properties -------------------------------------------------------------------------------------------
 
-/// The one with this name; null if there is none. Throws Error if there are several.
+/// The element or property with this name; null if there is none. Throws Error if there are several.
 template <class Named>
 const Named* find(const std::vector<Named>& all, std::string_view wanted, std::string_view name) {
   const auto has_name = [&](const Named& each) { return each.name == wanted; };

@@ -1,4 +1,4 @@
-// The header of a PLY file: which numbers the file holds, and in which order.
+// The header of a PLY file, which lists the numbers in the file and their order.
 #pragma once
 
 #include <array>
@@ -12,22 +12,22 @@
 
 namespace nearmiss::ply {
 
-/// A type of numbers. A double can be each of its values.
+/// A type of numbers. A double can represent each of its values.
 struct NumberType {
   std::string_view name, other_name;
   std::size_t bytes;
-  long smallest, largest;  ///< of integers; both 0 for a floating-point type
+  long smallest, largest;  ///< range of an integer type; both 0 for a floating-point type
 
   [[nodiscard]] bool is_integer() const { return smallest != largest; }
 };
 
 struct Property {
-  const NumberType* length;  ///< the type of a list's length; null if the property is no list
+  const NumberType* length;  ///< the type of a list's length; null if the property is not a list
   const NumberType* type;
   std::string name;
 };
 
-/// Items that each have the same properties.
+/// A list of items that have the same properties.
 struct Element {
   std::string name;
   std::uint64_t items;
@@ -41,18 +41,18 @@ struct Header {
   std::vector<Element> elements;
 };
 
-/// Reads all lines of the header. Throws Error with the line.
+/// Reads all lines of the header. Throws an Error that names the line.
 Header parse_header(Lines& lines);
 
-/// The properties that a mesh needs. Points into the header.
+/// The properties that a mesh needs, as pointers into the header.
 struct MeshProperties {
   const Element* vertex;
-  std::array<const Property*, 3> coordinates;  ///< of vertex
-  const Property* face_vertices;               ///< a list of the vertices of a face; null if there is no face
+  std::array<const Property*, 3> coordinates;  ///< x, y and z of a vertex
+  const Property* face_vertices;               ///< list of the vertices of a face; null if there is no face
 };
 
-/// Throws Error if something is missing, is there twice or has another type than parse_ply promises, and for
-/// primitives that a mesh would lack.
+/// Finds these properties. Throws Error if one is missing, occurs twice or has a type that parse_ply does not
+/// accept, and for primitives that the mesh would lack.
 MeshProperties mesh_properties(const Header& header, std::string_view name);
 
 }  // namespace nearmiss::ply

@@ -15,7 +15,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The mesh of triangles that come as three points each. Equal points become one.
+/// Builds a mesh of triangles that are given by three points each. Equal points become one.
 class TriangleSoup {
  public:
   using Corner = std::array<double, 3>;
@@ -61,7 +61,8 @@ double read_coordinate(Lines& lines) {
   return parse_decimal(word, lines);
 }
 
-/// Reads a facet after the word "facet". The normal may be anything: exporters write nan for a degenerate facet.
+/// Reads a facet after the word "facet". The normal may be any words, because exporters write nan for a
+/// degenerate facet.
 std::array<TriangleSoup::Corner, 3> read_facet(Lines& lines) {
   expect_words(lines, {"normal"});
   for (int i = 0; i < 3; ++i) lines.next_word();
@@ -80,7 +81,7 @@ Mesh parse_text(std::string_view text, std::string_view name) {
   TriangleSoup soup;
   while (lines.next()) {  // several solids become one
     expect_words(lines, {"solid"});
-    lines.skip_line();  // its name
+    lines.skip_line();  // the name of the solid
     std::string_view word = lines.next_word();
     for (; lower_case(word) == "facet"; word = lines.next_word()) soup.add(read_facet(lines));
     if (lower_case(word) != "endsolid") throw lines.error(shown(word), "'facet' or 'endsolid'");
@@ -91,9 +92,9 @@ Mesh parse_text(std::string_view text, std::string_view name) {
 // --- bytes ------------------------------------------------------------------------------------------------
 
 constexpr std::size_t header_bytes = 80;
-constexpr std::size_t facet_bytes = 50;  ///< normal and three vertices, each of three floats; two bytes
+constexpr std::size_t facet_bytes = 50;  ///< normal and three vertices of three floats each, and two bytes
 
-/// The size of a binary file that starts with these bytes.
+/// The size that the header of a binary file promises.
 std::size_t promised_size(std::string_view bytes) {
   std::uint32_t facets = 0;
   if (bytes.size() < header_bytes + sizeof facets) return header_bytes + sizeof facets;

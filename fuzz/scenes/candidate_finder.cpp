@@ -1,4 +1,4 @@
-// Candidates by CGAL's box intersection.
+// Finds candidates by CGAL's box intersection.
 #include <CGAL/Bbox_3.h>
 #include <CGAL/box_intersection_d.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
-/// The swept boxes of primitives; the info of a box is the number of its primitive.
+/// The swept boxes of primitives; `info` of a box is the number of its primitive.
 template <class VerticesOf>
 std::vector<Box> swept_boxes(const MovingMesh& mesh, std::size_t count, const VerticesOf& vertices_of) {
   std::vector<Box> boxes;
@@ -31,7 +31,8 @@ std::vector<Box> swept_boxes(const MovingMesh& mesh, std::size_t count, const Ve
   return boxes;
 }
 
-/// Orders boxes so that those of a part are near each other. Part i goes from borders[i] to borders[i + 1].
+/// Orders boxes so that the boxes of a part are near each other. Part i goes from borders[i] to borders[i +
+/// 1].
 class BoxPartition {
  public:
   explicit BoxPartition(std::vector<Box>& boxes)
@@ -42,7 +43,7 @@ class BoxPartition {
   std::vector<std::size_t> borders() && { return std::move(borders_); }
 
  private:
-  // Each part looks at all boxes once, so a large mesh must not have many parts.
+  // Searching a part goes through all boxes once, so a large mesh must not have many parts.
   static constexpr std::size_t smallest = 256;
   static constexpr std::size_t largest = 16384;
 
@@ -78,7 +79,7 @@ class BoxPartition {
 
 }  // namespace
 
-/// The boxes of triangles or edges, divided into parts, and those of the vertices.
+/// The boxes of triangles or edges, divided into parts, and the boxes of the vertices.
 class CandidateFinder::Boxes {
  public:
   Boxes(const MovingMesh& mesh, Kind kind) : mesh_(mesh), kind_(kind) {
@@ -108,8 +109,8 @@ class CandidateFinder::Boxes {
     else
       std::copy_if(vertices_.begin(), vertices_.end(), std::back_inserter(near), is_near);
 
-    // Up to this number of boxes are compared one by one. CGAL's default, 10, takes twice as long on meshes of
-    // 64,000 triangles.
+    // Up to this number of boxes, all pairs are compared. CGAL's default, 10, takes twice as long on meshes
+    // of 64,000 triangles.
     constexpr std::ptrdiff_t scanned = 200;
     CandidatePasser passer(mesh_, kind_, sink, stop);
     const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };

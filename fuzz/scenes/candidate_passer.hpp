@@ -1,4 +1,4 @@
-// The step that all searches for candidates share: from two primitives to a candidate.
+// The step that all searches for candidates share: it makes a candidate of two primitives.
 #pragma once
 
 #include "fuzz/scenes/candidates.hpp"
@@ -11,13 +11,14 @@ class CandidatePasser {
   CandidatePasser(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop)
       : mesh_(mesh), kind_(kind), sink_(sink), stop_(stop) {}
 
-  /// The pair of vertex i and triangle j, or of edges i and j. Throws Stopped if the search is to end.
+  /// Passes on the pair of vertex i and triangle j, or of edges i and j. Throws Stopped if the search must
+  /// end.
   void pass(std::size_t i, std::size_t j);
 
   /// The number of pairs with a common vertex.
   [[nodiscard]] std::uint64_t sharing() const { return sharing_; }
 
-  /// Ends a search: libraries' enumerations cannot be left in another way.
+  /// Thrown to end a search, because the enumerations of libraries cannot be left in another way.
   struct Stopped {};
 
  private:

@@ -1,4 +1,4 @@
-// Candidates by a sweep along the x axis.
+// Finds candidates by a sweep along the x axis.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,12 +11,12 @@ namespace nearmiss {
 
 namespace {
 
-/// Vertices are tested against triangles, edges against edges.
+/// The sort of a primitive: vertices are tested against triangles, and edges against edges.
 enum class Side : std::uint8_t { vertex, triangle, edge };
 
 struct SweptBox {
   std::array<double, 3> lo, hi;
-  std::size_t primitive;  ///< its number
+  std::size_t primitive;  ///< number of the primitive
   Side side;
 };
 

@@ -27,12 +27,12 @@ Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 /// Takes a pair of primitives without a common vertex.
 using CandidateSink = std::function<void(const Candidate&)>;
 
-/// Says whether to end early.
+/// Returns whether to end early.
 using Stop = std::function<bool()>;
 
-/// Finds the pairs of a kind whose swept boxes meet (closed boxes: touching counts). The search is divided into
-/// parts, each of which can be searched alone, in any order and by any thread. The parts depend on nothing but the
-/// mesh, which must outlive this.
+/// Finds the pairs of a kind whose swept boxes meet (closed boxes: touching counts). The search is divided
+/// into parts, which can be searched in any order and by any thread. The parts only depend on the mesh, which
+/// must outlive this object.
 class CandidateFinder {
  public:
   CandidateFinder(const MovingMesh& mesh, Kind kind);
@@ -42,8 +42,9 @@ class CandidateFinder {
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes on each pair of a part without a common vertex once, and returns the number of pairs that have one.
-  /// Nothing is kept, so a scene of any size can be streamed. `stop` is asked now and then, and ends the search.
+  /// Passes on each pair of a part without a common vertex once, and returns the number of pairs with a
+  /// common vertex. Nothing is stored, so a scene of any size can be streamed. `stop` is called now and then,
+  /// and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const Stop& stop) const;
 
  private:
@@ -51,22 +52,24 @@ class CandidateFinder {
   std::unique_ptr<const Boxes> boxes_;
 };
 
-/// All candidates of a kind, part by part. Returns the number of pairs with a common vertex.
+/// Finds all candidates of a kind, part by part. Returns the number of pairs with a common vertex.
 std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop);
 
-/// All candidates of both kinds, vertex-triangle pairs first.
+/// Finds all candidates of both kinds, vertex-triangle pairs first.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
 
-/// Does the same as find_candidates by another search, which shares no code with it except the test for a common
-/// vertex: boxes are sorted along one axis, and each is compared with those that begin before it ends.
+/// Does the same as find_candidates by another search. It sorts the boxes along one axis and compares each
+/// box with those that begin before it ends. The two searches share no code except the test for a common
+/// vertex.
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
                                        const Stop& stop);
 
-/// All pairs of a kind, whether their boxes meet or not, come in rows: the pairs of one vertex with all triangles,
-/// or of one edge with all edges after it.
+/// The number of rows of all pairs of a kind, whether their boxes meet or not. A row has the pairs of one
+/// vertex with all triangles, or of one edge with all edges after it.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
-/// Passes on each pair of a row without a common vertex, and returns the number of pairs that have one.
+/// Passes on each pair of a row without a common vertex, and returns the number of pairs with a common
+/// vertex.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const Stop& stop);
 

@@ -12,20 +12,20 @@
 
 namespace nearmiss {
 
-/// A subject's claim for a scene, and its cost there.
+/// The precision that a subject claims for a scene, and its cost there.
 struct ClaimedPrecision {
   std::string subject;
-  /// The largest distance claimed for a false positive, over all pairs that are asked, in the scene's unit of
-  /// length; infinity if the subject claims nothing.
+  /// The largest distance of a false positive that the subject claims for any asked pair, in the scene's unit
+  /// of length; infinity if it claims nothing.
   double claimed = 0;
-  double ns_per_query = 0;  ///< measured over the first 20,000 pairs that are asked
+  double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };
 
-/// One for each subject, in the same order. `stop` ends the measurement early.
+/// The precisions of all subjects, in their order. `stop` ends the measurement early.
 std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
                                                  const Subjects& subjects, const std::function<bool()>& stop);
 
-/// The cheapest that claims no more than the thickness of contact; null if there is none.
+/// The cheapest subject whose claim is at most the thickness of contact; null if there is none.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
 
 }  // namespace nearmiss

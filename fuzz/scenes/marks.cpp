@@ -13,10 +13,10 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_primitives = 8000;  // with a mark, and as many without
+constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
 constexpr std::size_t most_subjects = 15;      // bits of a mark: 1 + 2 * 15
 
-/// The mark of a primitive, which is named by its vertices.
+/// The mark of a primitive, which is identified by its vertices.
 template <class Key>
 std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& primitive) {
   const auto found = marks.find(primitive);
@@ -25,7 +25,7 @@ std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& prim
 
 std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Numbers as text, separated by blanks.
+/// A list of numbers as text, separated by blanks.
 class NumberList {
  public:
   void add(std::int64_t number) {
@@ -46,7 +46,7 @@ class ShownPoints {
         lo_ = lo_.cwiseMin(p);
         hi_ = hi_.cwiseMax(p);
       }
-    // In halves, since a difference may overflow.
+    // Computed with halves, since a difference may overflow.
     scale_ = (hi_ / 2 - lo_ / 2).maxCoeff();
   }
 
@@ -121,7 +121,7 @@ void Marks::merge(const Marks& other) {
   for (const auto& [point, mark] : other.points_) points_[point] |= mark;
 }
 
-/// The primitives of a mesh with a mark, and those without.
+/// The primitives of a mesh with a mark, and those without a mark.
 struct Marks::Primitives {
   std::vector<Marked> marked, others;
 
@@ -170,7 +170,7 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
-  std::array<NumberList, 3> lists;  // of points, lines and triangles
+  std::array<NumberList, 3> lists;  // for points, lines and triangles
   ShownPoints points(mesh);
   for (const auto& some :
        {thinned(primitives.others, most_primitives), thinned(primitives.marked, most_primitives)})

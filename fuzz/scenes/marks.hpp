@@ -1,4 +1,4 @@
-// Marks on the primitives of a step, and a picture of them.
+// Marks on the primitives of a step, and a picture of the marked primitives.
 #pragma once
 
 #include <array>
@@ -14,20 +14,20 @@
 
 namespace nearmiss {
 
-/// Marks primitives of pairs that collide, that a subject reports falsely, or that a subject misses.
+/// Marks the primitives of pairs that collide, that a subject reports falsely, or that a subject misses.
 class Marks {
  public:
   void add_collision(const Candidate& candidate) { add(candidate, 1); }
-  /// Marks by the outcome of one subject, given by its place among the subjects. The 16th and later subjects leave no
-  /// mark.
+  /// Marks a pair by the outcome of one subject, which is given by its index. The 16th and later subjects
+  /// leave no mark.
   void add(const Candidate& candidate, std::size_t subject, const Outcome& outcome);
   void merge(const Marks& other);
 
   /// The number of marked primitives.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
-  /// The picture of a step; `subjects` are their names. Triangles also have the marks of their edges. At most 8,000
-  /// primitives with a mark are shown, and as many without.
+  /// The picture of a step; `subjects` has the names of the subjects. Triangles also show the marks of their
+  /// edges. The picture has at most 8,000 primitives with a mark, and at most 8,000 without.
   [[nodiscard]] ScenePicture picture(const std::string& step, const MovingMesh& mesh,
                                      const std::vector<std::string>& subjects) const;
 

@@ -17,8 +17,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A sample of candidates: those with the smallest random numbers. The number is a function of the vertices alone,
-/// so the order in which candidates come does not matter.
+/// A sample of candidates: those with the smallest random numbers. The number only depends on the vertices,
+/// so the order of the candidates does not matter.
 class CandidateSample {
  public:
   explicit CandidateSample(std::size_t most) : most_(most) {}

@@ -15,14 +15,14 @@ std::uint64_t since(Clock::time_point start) {
       std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count());
 }
 
-/// All pairs of a kind, with a common vertex or not.
+/// The number of all pairs of a kind, with or without a common vertex.
 std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   const std::uint64_t edges = mesh.edges.size();
   if (kind == Kind::vertex_triangle) return std::uint64_t{mesh.start.size()} * mesh.triangles.size();
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 
-/// Takes the pairs of one part, and decides their fates batch by batch.
+/// Receives the pairs of one part, and decides their fates batch by batch.
 class FateTeller {
  public:
   FateTeller(const MovingMesh& mesh, Kind kind, LeaveOut leave_out, const AskSink& ask,
@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The time that this took, with that of `ask`.
+  /// The time that this took, including that of `ask`.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

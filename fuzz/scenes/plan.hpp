@@ -1,4 +1,4 @@
-// The plan of a step: which pairs subjects are asked about, and which need no subject.
+// The plan of a step: about which pairs subjects are asked, and which pairs need no subject.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace nearmiss {
 
 /// Which pairs are left out.
 enum class LeaveOut : std::uint8_t {
-  nothing,  ///< none: all pairs without a common vertex are asked
+  nothing,  ///< all pairs without a common vertex are asked
   boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< these, and pairs at relative rest or in relative translation
+  all,      ///< also pairs at relative rest or in relative translation
 };
 
 using Funnels = std::map<Kind, Funnel>;
@@ -29,39 +29,39 @@ std::pair<PairFate, bool> fate(const Query& query);
 struct AskedPairs {
   Kind kind{};
   std::vector<Candidate> candidates;
-  std::vector<Query> queries;  ///< of each candidate
+  std::vector<Query> queries;  ///< the query of each candidate
 };
 
-/// Takes some pairs at a time, at least one.
+/// Receives some pairs at a time, at least one.
 using AskSink = std::function<void(const AskedPairs&)>;
 
-/// Takes a pair that is left out although its boxes meet, and whether it collides.
+/// Receives a pair that is left out although its boxes meet, and whether it collides.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
-/// Divides the pairs of a step into parts, each of which can be followed alone, in any order and by any thread.
-/// The parts do not depend on the number of threads.
+/// Divides the pairs of a step into parts, which can be processed in any order and by any thread. The parts
+/// do not depend on the number of threads.
 class Plan {
  public:
-  /// The mesh must outlive this.
+  /// The mesh must outlive this object.
   Plan(const MovingMesh& mesh, LeaveOut leave_out);
   Plan(MovingMesh&& mesh, LeaveOut leave_out) = delete;
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
-  /// Passes on the pairs of a part: to `ask` those that a subject must decide, at most 1,000 at a time; to
-  /// `decided`, if it is given, those that are decided without a subject. Nothing is kept. Pairs whose boxes do not
-  /// meet are in no part. `stop` is asked now and then, and ends the part.
+  /// Passes on the pairs of a part. `ask` gets the pairs that a subject must decide, at most 1,000 at a time.
+  /// `decided`, if given, gets the pairs that are decided without a subject. Nothing is stored. Pairs whose
+  /// boxes do not meet are in no part. `stop` is called now and then, and ends the part.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided, const Stop& stop) const;
 
-  /// The rest that is in no part, from the sum of all parts: the pairs whose boxes do not meet, and the time that it took
-  /// to make the parts.
+  /// The funnels of everything that is in no part: the pairs whose boxes do not meet, and the time that
+  /// making the parts took. `parts` is the sum of all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:
   const MovingMesh& mesh_;
   LeaveOut leave_out_;
   std::map<Kind, CandidateFinder> finders_;          ///< empty if nothing is left out
-  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that it took to make them
+  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that making the finders took
   std::vector<std::pair<Kind, std::size_t>> parts_;  ///< a part of a finder, or a row of all pairs
 };
 

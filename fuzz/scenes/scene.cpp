@@ -21,14 +21,15 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// Cuts the number off the front of a text; the result has no leading zeros.
+/// Removes a number from the front of a text and returns it without leading zeros.
 std::string_view cut_number(std::string_view& text) {
   const std::string_view all = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
   text.remove_prefix(all.size());
   return all.substr(std::min(all.find_first_not_of('0'), all.size()));
 }
 
-/// Whether a name comes before another one. Numbers are compared by their values, everything else by characters.
+/// Whether a name comes before another name. Numbers are compared by their values, everything else by
+/// characters.
 bool comes_before(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a;
   const std::string_view whole_b = b;
@@ -45,7 +46,7 @@ bool comes_before(std::string_view a, std::string_view b) {
     }
   }
   if (a.empty() != b.empty()) return a.empty();
-  return whole_a < whole_b;  // 1 and 01
+  return whole_a < whole_b;  // such as 1 and 01
 }
 
 /// The mesh files of a folder, in the order of their names.
@@ -72,7 +73,7 @@ std::string folder_name(const fs::path& folder) {
   return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
 }
 
-/// For each point the first one in the same place.
+/// For each point, the first point in the same place.
 std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
   const auto in_order = [&](std::size_t a, std::size_t b) {
     for (int i = 0; i < 3; ++i)
@@ -90,7 +91,8 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
   return first;
 }
 
-/// The points that are the first ones in their places. Throws Error if another point has left its first one.
+/// The points that were the first in their places. Throws Error if a merged point is no longer in the place
+/// of its first point.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

@@ -1,4 +1,4 @@
-// Scenes: meshes that move from frame to frame, from files or made by a formula.
+// Scenes: meshes that move from frame to frame, read from files or computed by a formula.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct Scene {
   std::string name;        ///< without folder and ending
   std::size_t frames = 2;  ///< at least 2
   Mesh mesh;               ///< at frame 0
-  /// The points of a frame, read or computed on demand. Throws Error if the frame does not have the same
-  /// primitives as the others.
+  /// The points of a frame, which are read or computed on demand. Throws Error if the frame does not have the
+  /// same primitives as the other frames.
   std::function<std::vector<Vector3<double>>(std::size_t frame)> points;
 
   [[nodiscard]] std::size_t steps() const { return frames - 1; }
@@ -32,15 +32,16 @@ std::string step_name(const Scene& scene, std::size_t step);
 /// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error.
 Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::path& end);
 
-/// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are compared
-/// by their values: frame 2 comes before frame 10. Files without an ending of a mesh (pictures, notes), hidden files
-/// (".frame.obj") and folders are skipped. Throws Error if there are fewer than two meshes, or meshes with several
-/// endings, since nobody knows which are meant.
+/// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are
+/// compared by their values: frame 2 comes before frame 10. Files without the ending of a mesh format
+/// (pictures, notes), hidden files (".frame.obj") and folders are skipped. Throws Error if there are fewer
+/// than two meshes, or meshes with several endings, since it is unclear which are meant.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene with points that coincide at frame 0 (0 and -0 are equal) merged, and the primitives renumbered. Files
-/// repeat points at seams, and neighbours that share no vertex would be tested for collision. A triangle may become
-/// one that has a vertex twice. `points` throws Error for a frame in which merged points are apart.
+/// The scene with points that coincide at frame 0 (0 and -0 are equal) merged, and the primitives renumbered.
+/// Files repeat points at seams, so that neighbours without a common vertex would be tested for collision.
+/// After merging, a triangle may have a vertex twice. `points` throws Error for a frame in which merged
+/// points are apart.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

@@ -14,15 +14,15 @@
 
 namespace nearmiss {
 
-/// Holds trials over the steps of a scene and passes the results on as they come. It holds the results of only a
-/// few parts of a step at a time.
+/// Runs trials over the steps of a scene and passes on the results as they come. It stores the results of
+/// only a few parts of a step at a time.
 class SceneTrial {
  public:
   SceneTrial(const Scene& scene, SiftedTrials& trials, TrialSink sink)
       : scene_(scene), trials_(trials), sink_(std::move(sink)) {}
 
-  /// Asks about all pairs of a step that its plan leaves. `mesh` is that of the step; `progress` takes the share
-  /// that is done, from 0 to 1.
+  /// Asks the subjects about all pairs of a step for which its plan requires that. `mesh` is the mesh of the
+  /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
             const std::function<void(double)>& progress);
 
@@ -30,13 +30,13 @@ class SceneTrial {
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 
  private:
-  /// The funnels and marks of a part, beside the result of its trials.
+  /// The funnels and marks of a part, in addition to the result of its trials.
   struct PartResult {
     Funnels funnels;
     Marks marks;
   };
 
-  /// Asks about one part of a plan, and counts and marks its pairs in `part`.
+  /// Runs the trials of one part of a plan, and counts and marks its pairs in `part`.
   TrialResult hold_part(const std::string& name, const Plan& plan, std::size_t number,
                         PartResult& part) const;
 

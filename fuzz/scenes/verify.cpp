@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Identifies a set of pairs in any order: their number, and the sum of their hashes.
+/// Identifies a set of pairs, independent of their order, by their number and the sum of their hashes.
 struct Fingerprint {
   std::uint64_t count = 0;
   std::uint64_t sum = 0;
@@ -34,7 +34,7 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks about the pairs that a plan leaves out.
+/// Asks the oracle and the subjects about pairs that a plan leaves out.
 Verification verify(const AskedPairs& pairs, const Subjects& subjects) {
   std::vector<Query> queries;
   std::vector<bool> expected;
@@ -105,13 +105,13 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
 
 std::string describe(const Verification& verification) {
   std::string text =
-      fmt::format("{}: {} pairs are left out, of {} the oracle says otherwise; {}\n",
+      fmt::format("{}: {} pairs are left out, the oracle contradicts {} of them; {}\n",
                   verification.fine() ? "plan verified" : "THE PLAN IS WRONG",
                   with_separators(verification.left_out), with_separators(verification.wrong),
                   verification.different_searches == 0 ? "box intersection and sweep find the same pairs"
                                                        : "BOX INTERSECTION AND SWEEP DIFFER");
   for (const auto& [subject, count] : verification.spared)
-    text += fmt::format("false positives of {} that the plan spares: {}\n", subject, with_separators(count));
+    text += fmt::format("false positives of {} that the plan avoids: {}\n", subject, with_separators(count));
   return text;
 }
 

@@ -1,4 +1,4 @@
-// The power of detection: how soon a hunt finds a known defect.
+// The power of a hunt: how soon it finds a known defect.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,12 @@ namespace nearmiss {
 /// The first failure that a campaign found, in the order of its cases.
 struct FirstFailure {
   Finding finding;
-  double seconds = 0;       ///< until then; interpolated within a wave, in proportion to the cases
-  std::uint64_t cases = 0;  ///< until then, including the failure's own
+  double seconds = 0;       ///< time until the failure, interpolated within a wave by the number of cases
+  std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// Runs a campaign until a subject misses a collision or its distance bound is refuted. Nothing if the campaign ends
-/// before.
+/// Runs a campaign until a subject misses a collision or its distance bound is refuted; nothing if the
+/// campaign ends before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const std::atomic<bool>& stop);
 

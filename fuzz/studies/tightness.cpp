@@ -20,7 +20,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// wang without the tests that accept from farther away than these.
+/// Some of the accepting tests, and the subject that is wang without the tests that accept from farther away.
 struct Tests {
   std::string_view name, subject;
 };
@@ -30,12 +30,13 @@ constexpr std::array tests_table{
     Tests{"vertex-vertex", "wang"},
 };
 
-/// The way to measure one name.
+/// How to measure one tolerance or group of tests.
 struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
   Family search;
-  /// The value of a query, `nothing.value` if it has none; nothing if the query does not count.
+  /// The value of a query. It is `nothing.value` if the query has no value, and nothing if the query does not
+  /// count.
   std::function<std::optional<double>(const Query&)> read;
 };
 
@@ -47,8 +48,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance) {
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // The needed factor is known to a few bits, from above. A slightly smaller one misses; otherwise the query gives
-    // no value.
+    // The needed factor is known to a few bits, from above. A slightly smaller factor must make the subject
+    // miss; otherwise the query gives no value.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
@@ -77,7 +78,7 @@ Gauge gauge_of(std::string_view name) {
       fmt::format("unknown tolerance '{}', expected some of {}", name, fmt::join(tightness_names(), ", ")));
 }
 
-/// The extreme among some queries of a family.
+/// The extreme value among some queries of a family.
 Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed, std::uint64_t first,
                    std::uint64_t count) {
   Extreme sum = gauge.nothing;
@@ -113,7 +114,7 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
     for (std::uint64_t round = 0; !stop && steady_clock::now() - start < plan.time; ++round) {
       std::vector<Extreme> parts(wave, gauge.nothing);
       in_parallel(plan.jobs, wave, [&](std::size_t i) {
-        const std::uint64_t number = round * (wave / 2) + i / 2;  // among the blocks of its sort
+        const std::uint64_t number = round * (wave / 2) + i / 2;  // index among the blocks of its sort
         const std::uint64_t families = plan.families.size();
         parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4)
                               : read_block(gauge, plan.families[number % families], plan.seed,

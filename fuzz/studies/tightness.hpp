@@ -1,4 +1,4 @@
-// How much slack the constants of the paper have.
+// Measures how much slack the constants of the paper have.
 #pragma once
 
 #include <atomic>
@@ -16,8 +16,8 @@ namespace nearmiss {
 /// The measurements, and the time for each.
 struct TightnessPlan {
   std::vector<std::string> names;        ///< some of `tightness_names()`
-  std::vector<Family> families;          ///< to draw queries from, in addition to the directed search
-  std::chrono::duration<double> time{};  ///< for each name
+  std::vector<Family> families;          ///< sources of queries in addition to directed search
+  std::chrono::duration<double> time{};  ///< time for each name
   std::uint64_t seed = 1;
   int jobs = 1;
 };
@@ -25,13 +25,13 @@ struct TightnessPlan {
 /// The names of the tolerances, and of the tests that accept: "proximity", "vertex-edge", "vertex-vertex".
 std::vector<std::string> tightness_names();
 
-/// Takes the result of a name: so far, or `done` when its time is over.
+/// Receives the result for a name so far; `done` is set when its time is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
-/// For a tolerance, half of the queries are drawn from all families, and directed search finds the other half, looking
-/// for collisions that need most of the tolerance. Each collision has a factor on the tolerance below (or above) which
-/// it is missed. For tests, likewise with false positives of wang without the tests that accept from farther away.
-/// Throws Error for an unknown name.
+/// For a tolerance, half of the queries are drawn from all families, and directed search finds the other
+/// half, which are collisions that need most of the tolerance. Each collision has a factor of the tolerance
+/// below (or above) which the subject misses it. For tests, the same is done with false positives of wang
+/// without the tests that accept from farther away. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

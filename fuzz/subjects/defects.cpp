@@ -34,13 +34,14 @@ constexpr std::array tolerance_table{
     NamedTolerance{"eta", &Tolerances<double>::eta, 1, false},
 };
 
-/// The steps of the algorithm without those left out, and multiples of the paper's tolerances for double.
+/// Steps with some left out, and with multiples of the paper's tolerances for double.
 struct DefectiveSteps {
   std::uint64_t left_out = 0;  ///< one bit for each step
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if it does
+  const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// The same with the changed tolerance loosened by s; or else with the lengths of all that accept.
+  /// The same steps with the changed tolerance loosened by s. If none is changed, all accepting tolerances
+  /// are loosened, as lengths.
   [[nodiscard]] DefectiveSteps loosened(double s) const {
     DefectiveSteps steps = *this;
     if (changed != nullptr) {
@@ -107,7 +108,7 @@ class DefectiveSubject final : public Subject {
 
 struct LeftOut {
   std::string_view name, about;
-  std::array<Step, 3> steps;  ///< one repeated if there are fewer
+  std::array<Step, 3> steps;  ///< the left-out steps; one is repeated if there are fewer than three
 };
 
 constexpr LeftOut left_out(std::string_view name, Step step, std::string_view about) {
@@ -152,7 +153,7 @@ constexpr std::array left_out_table{
 
 constexpr std::string_view in_float_name = "float";
 
-/// Takes the factor of "TOLERANCE*FACTOR" into `steps`; false if `name` has another form.
+/// Applies the factor in "TOLERANCE*FACTOR" to `steps`; false if `name` has another form.
 bool take_factor(std::string_view name, DefectiveSteps& steps) {
   const std::size_t star = name.find('*');
   if (star == std::string_view::npos) return false;

@@ -1,4 +1,4 @@
-// CCDs with one known defect each, to measure whether a hunt finds it.
+// CCDs with one known defect each, to measure whether a hunt finds the defect.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ struct Defect {
   std::string about;
 };
 
-/// All defects: every tolerance times 1/2, 1/10, 1/100 and 0; those that keep degenerate primitives out also times 10
-/// and 100; every step left out; and float in place of double.
+/// All defects: every tolerance times 1/2, 1/10, 1/100 and 0; tolerances that exclude degenerate primitives
+/// also times 10 and 100; every step left out; and float in place of double.
 std::span<const Defect> defects();
 
 /// The tolerances by name.
@@ -27,16 +27,17 @@ struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
   int dimension;  ///< the tolerance is a length to this power
-  bool accepts;   ///< a larger one accepts more; the others keep degenerate primitives out
+  bool accepts;   ///< a larger value accepts more; the other tolerances exclude degenerate primitives
 };
 std::span<const NamedTolerance> named_tolerances();
 
 /// The name of the defect that multiplies a tolerance: "defect:mu*0.5".
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
-/// A defect by its name; a tolerance may have any factor >= 0. The subject claims wang's distance bound. If a tolerance
-/// is changed, needed_tolerance() is about that one: the factor that loosens it (multiplies one that accepts, divides
-/// another). Nothing for a name that does not start with "defect:". Throws Error for an unknown defect.
+/// Makes a defect from its name; a tolerance may have any factor >= 0. The subject claims wang's distance
+/// bound. If the defect changes a tolerance, needed_tolerance() gives the factor that loosens this tolerance:
+/// it multiplies an accepting tolerance and divides any other. Nothing for a name that does not start with
+/// "defect:". Throws Error for an unknown defect.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

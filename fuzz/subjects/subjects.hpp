@@ -1,4 +1,4 @@
-// All subjects by name: the CCDs under test, the oracle, and the defective ones.
+// All subjects by name: the CCDs under test, the oracle, and the CCDs with defects.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,12 @@
 
 namespace nearmiss {
 
-/// The built-in subjects: those of ccd/, the exact ones, `adaptive`. `defects()` lists the defects.
+/// The built-in subjects: those of ccd/, the exact subjects, and `adaptive`. `defects()` lists the defects.
 std::vector<SubjectInfo> all_subjects();
 
-/// A built-in subject, "NAME:SCALAR" (ladder/scalars.hpp), "defect:NAME" (defects.hpp) or the plug-in at a path in
-/// this process. `given_bound` as for make_subject. Throws Error for a name that is not known.
+/// Makes a built-in subject, "NAME:SCALAR" (ladder/scalars.hpp), "defect:NAME" (defects.hpp), or the plug-in
+/// at a path, which runs in this process. `given_bound` is as for make_subject. Throws Error for an unknown
+/// name.
 std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path,
                                           std::optional<double> given_bound = std::nullopt);
 

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The number of the plan's cases for family f, in proportion to its blocks.
+/// The number of the plan's cases for family f, in proportion to the size of its blocks.
 std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   std::uint64_t before = 0;
   std::uint64_t all = 0;
@@ -34,7 +34,7 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
   for (std::size_t f = 0; f < plan.families.size(); ++f) {
     const std::uint64_t share = share_of(plan, f);
     const std::uint64_t block_cases = plan.families[f].block_cases;
-    const std::uint64_t whole = share / block_cases;  // blocks 0 .. whole - 1, then the rest
+    const std::uint64_t whole = share / block_cases;  // number of whole blocks, before the rest
     const std::uint64_t own = whole / plan.shards + (plan.shard < whole % plan.shards ? 1 : 0);
     sum += own * block_cases + (whole % plan.shards == plan.shard ? share % block_cases : 0);
   }
@@ -157,7 +157,7 @@ CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects
     if (progress.complete) break;
     TrialResult sum =
         trials.hold(wave.size(), [&](std::size_t i) { return try_block(plan, wave[i], trials); });
-    if (stop) break;  // a wave counts completely or not at all
+    if (stop) break;  // an interrupted wave does not count
     progress.cases += Rounds::cases(wave);
     progress.rounds = rounds.done();
     progress.elapsed = Clock::now() - start;

@@ -14,37 +14,37 @@
 
 namespace nearmiss {
 
-/// The plan of a campaign. With `cases`, the queries and findings do not depend on `jobs`, nor on how often the campaign
-/// was stopped and resumed; the shards together give the result of the whole.
+/// The plan of a campaign. If `cases` is set, the queries and findings do not depend on `jobs`, or on how
+/// often the campaign was stopped and resumed. The shards together give the result of the whole campaign.
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< in total, divided in proportion to `block_cases`; 0: until the time is over
+  std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 if time ends the campaign
   std::optional<std::chrono::duration<double>> time;
   Comparison comparison;
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;
-  std::uint64_t rounds_before = 0;       ///< rounds of this shard that were done before
-  std::vector<Finding> findings_before;  ///< the findings that these kept
+  std::uint64_t rounds_before = 0;       ///< rounds of this shard that earlier runs completed
+  std::vector<Finding> findings_before;  ///< findings that these rounds kept
 };
 
 /// The progress of a campaign.
 struct CampaignProgress {
-  std::uint64_t cases = 0;         ///< done in this shard
-  std::uint64_t cases_before = 0;  ///< those done before the campaign was resumed
-  std::uint64_t of = 0;            ///< all cases of this shard; 0 if the time decides
-  std::uint64_t rounds = 0;        ///< done in this shard
-  bool complete = false;           ///< nothing is left to be done in this shard
+  std::uint64_t cases = 0;         ///< completed in this shard
+  std::uint64_t cases_before = 0;  ///< cases completed before the campaign was resumed
+  std::uint64_t of = 0;            ///< all cases of this shard; 0 if time ends the campaign
+  std::uint64_t rounds = 0;        ///< completed in this shard
+  bool complete = false;           ///< whether this shard is completed
   std::chrono::duration<double> elapsed{};
 };
 
-/// Receives the results of some more blocks, in order, with findings sifted (sieve.hpp), about every second. Returns
-/// false to end the campaign.
+/// Receives the results of further blocks about every second, in order and with sifted findings (sieve.hpp).
+/// Returns false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// The number of cases that an undivided campaign has decided after case `index` of a family, if it decides them in
-/// order: round by round, family by family.
+/// The number of cases up to and including case `index` of a family in a campaign without shards that decides
+/// its cases in order: round by round, family by family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// Runs a plan until it is done, its time is over, the sink ends it or `stop` is set; returns the progress.

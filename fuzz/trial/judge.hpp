@@ -1,4 +1,4 @@
-// The judge: the one place that says whether an answer of a subject is a failure, and which.
+// The judge: the only place that decides whether an answer of a subject is a failure, and of which kind.
 #pragma once
 
 #include <memory>
@@ -20,19 +20,20 @@ struct Failure {
   bool operator==(const Failure&) const = default;
 };
 
-/// Judges the answers of one subject, which must outlive it.
+/// Judges the answers of one subject. The subject must outlive the judge.
 class Judge {
  public:
   explicit Judge(const Subject& subject);
 
-  /// The distance, in the query's unit of length, by which a false positive is measured: the bound that the subject
-  /// claims, or wang's for the same pair if the subject claims none. NaN if the subject fails to say.
+  /// The distance with which a false positive is compared, in the query's unit of length: the bound that the
+  /// subject claims, or wang's bound for the same pair if the subject claims none. NaN if the subject fails
+  /// to give its bound.
   [[nodiscard]] double unit(const Query& query) const;
 
-  /// An answer beside the truth about the query as the subject rounds it. A false positive for which the subject does
-  /// not give the bound that it claims, a number >= 0, is a fault. Its ratio is that of `Truth::distance`, to a part in
-  /// a thousand if `counts` is given and the finding or these counters keep it; 0 if the unit is beyond the largest
-  /// double, since nothing is farther away than that.
+  /// Compares an answer with the truth about the query as the subject rounds it. A subject that claims bounds
+  /// must give a number >= 0 for a false positive; anything else is a fault. The ratio of a false positive is
+  /// that of `Truth::distance`, accurate to 1/1000 if `counts` is given and the finding or these counters
+  /// store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, const Counts* counts = nullptr) const;
 
   /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
@@ -40,13 +41,13 @@ class Judge {
 
  private:
   const Subject& subject_;
-  std::unique_ptr<Subject> wang_;  // for a subject that claims no bound
+  std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound
 };
 
 /// How an outcome fails; nothing if it does not.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
-/// How the oracle fails on a query: its methods disagree. Nothing if they agree.
+/// How the oracle fails on a query, that is, how its methods disagree; nothing if they agree.
 std::optional<Failure> oracle_failure(const Query& query);
 
 }  // namespace nearmiss

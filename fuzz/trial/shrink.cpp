@@ -13,7 +13,8 @@ namespace {
 
 using Coordinates = std::array<double, 24>;
 
-/// The path of a vertex along axis k is two coordinates: this one at t = 0, and 12 later that at t = 1.
+/// The path of a vertex along axis k consists of two coordinates: that at t = 0 has this index, and that at
+/// t = 1 has this index plus 12.
 constexpr std::size_t path(std::size_t vertex, std::size_t k) { return 3 * vertex + k; }
 constexpr std::size_t paths = 12;
 constexpr std::array<std::size_t, 2> times{0, paths};
@@ -26,7 +27,7 @@ constexpr Set axis_set(std::size_t k) { return 0x249249U << k; }
 constexpr Set vertex_set(std::size_t vertex) { return 0x7007U << path(vertex, 0); }
 constexpr Set everything = 0xffffffU;
 
-/// The magnitudes in a set other than 0, sorted, without repetition.
+/// The nonzero magnitudes of the coordinates in a set, sorted and without repetition.
 std::vector<double> magnitudes(const Coordinates& x, Set set = everything) {
   std::vector<double> all;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -36,7 +37,7 @@ std::vector<double> magnitudes(const Coordinates& x, Set set = everything) {
   return all;
 }
 
-/// The number of bits from the first to the last one that is set.
+/// The number of bits from the first to the last set bit.
 int significant_bits(double magnitude) {
   int exponent = 0;
   const double significand = std::ldexp(std::frexp(magnitude, &exponent), 53);
@@ -76,8 +77,8 @@ class Shrinker {
   }
 
  private:
-  /// Changes the best query so far, if the changed one is simpler and fails. Of two queries of equal complexity, the one
-  /// with smaller coordinates counts as simpler, so that no step undoes another.
+  /// Replaces the best query so far if the changed query is simpler and fails. Of two queries of equal
+  /// complexity, the one with smaller coordinates counts as simpler, so that no step undoes another.
   template <class Change>
   bool take(const Change& change) {
     Query candidate = best_;
@@ -93,8 +94,8 @@ class Shrinker {
     return true;
   }
 
-  /// Sets all coordinates of an axis to 0, or subtracts those of one point, at t = 0, at t = 1 or both, or of a moving
-  /// point. If that is exact, no contact is lost.
+  /// Sets all coordinates of an axis to 0, or subtracts the coordinates of one point at t = 0, at t = 1 or
+  /// both, or those of a moving point. If the subtraction is exact, no contact is lost.
   void move_axes() {
     for (std::size_t k = 0; k < 3; ++k) {
       take([&](Coordinates& x) { replace(x, axis_set(k), [](double) { return 0.0; }); });
@@ -139,8 +140,8 @@ class Shrinker {
         });
   }
 
-  /// Moves a vertex by the vector between two others, or by half or twice that vector. Vertices of a triangle or of two
-  /// edges in one plane stay in it.
+  /// Moves a vertex by the vector between two other vertices, or by half or twice that vector. Vertices of a
+  /// triangle or of coplanar edges stay in their plane.
   void combine_vertices() {
     for (std::size_t vertex = 0; vertex < 4; ++vertex)
       for (std::size_t from = 0; from < 4; ++from)
@@ -154,7 +155,7 @@ class Shrinker {
             });
   }
 
-  /// Lets the motion start or end sooner or later.
+  /// Makes the motion start or end earlier or later.
   void change_times() {
     for (const double t : {-1.0, 0.25, 0.5, 0.75, 2.0})
       for (const std::size_t end : times)
@@ -164,8 +165,8 @@ class Shrinker {
         });
   }
 
-  /// Divides all coordinates, or those of an axis, a vertex or a path, by one of them, by a power of two near one, or by
-  /// a small number.
+  /// Divides all coordinates, or those of an axis, a vertex or a path, by one of these coordinates, by a
+  /// power of two near one of them, or by a small number.
   void scale() {
     std::vector<Set> sets{everything};
     for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -182,7 +183,7 @@ class Shrinker {
     }
   }
 
-  /// Simplifies numbers of one magnitude: everywhere, in an axis, in a path, and one alone.
+  /// Simplifies numbers of one magnitude: all of them, those of an axis, those of a path, and single numbers.
   void change_numbers() {
     for (std::size_t i = 0; i < best_.x.size(); ++i) {
       Set last = 0;
@@ -202,8 +203,9 @@ class Shrinker {
     return set;
   }
 
-  /// Tries in turn, up to the first that still fails: 0; a small number; another number of the query; one so small or so
-  /// large that rounding loses it, or 1, in their sum; one with fewer bits.
+  /// Tries these replacements until the query still fails with one: 0; a small number; another number of the
+  /// query; a number so small, or so large, that it, or 1, is lost by rounding in their sum; a number with
+  /// fewer bits.
   void change_number(Set set) {
     const double magnitude = std::abs(best_.x[static_cast<std::size_t>(std::countr_zero(set))]);
     if (magnitude == 0) return;

@@ -10,12 +10,12 @@ namespace nearmiss {
 
 /// The complexity of a query. Two queries are compared by the members in this order.
 struct Complexity {
-  int numbers = 0;    ///< coordinates that are not 0; one that is at rest counts once
+  int numbers = 0;    ///< nonzero coordinates; a coordinate at rest counts once
   int moving = 0;     ///< coordinates that are not at rest
   int distinct = 0;   ///< magnitudes other than 0
-  int bits = 0;       ///< their significant bits, added up
-  int exponents = 0;  ///< the magnitudes of their exponents, added up
-  int negative = 0;   ///< coordinates with a sign
+  int bits = 0;       ///< sum of the significant bits of these magnitudes
+  int exponents = 0;  ///< sum of the absolute values of their exponents
+  int negative = 0;   ///< negative coordinates
 
   bool operator==(const Complexity&) const = default;
   bool operator<(const Complexity& other) const {
@@ -28,10 +28,11 @@ struct Complexity {
 
 Complexity complexity(const Query& query);
 
-/// Simplifies a failing query step by step, as long as it still `fails`: numbers become 0, small, short or equal to
-/// others; vertices come to rest or coincide; the query is moved, sheared and scaled. Greedy, until no step makes it
-/// simpler: shrinking the result again changes nothing. A pure function of both arguments that takes at most some seconds.
-/// A query that does not fail is returned unchanged. One more step: a method of Shrinker (shrink.cpp), called in run().
+/// Simplifies a failing query step by step, as long as it still `fails`. Numbers become 0, small, short or
+/// equal to others; vertices come to rest or coincide; the query is moved, sheared and scaled. The search is
+/// greedy and ends when no step makes the query simpler, so shrinking the result again changes nothing. This
+/// is a pure function of both arguments and takes at most some seconds. A query that does not fail is
+/// returned unchanged. To add a step, write a method of Shrinker (shrink.cpp) and call it in run().
 Query shrunk(const Query& query, const std::function<bool(const Query&)>& fails);
 
 }  // namespace nearmiss

@@ -9,7 +9,7 @@ namespace nearmiss {
 namespace {
 
 Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject) {
-  constexpr int most_late = 8;  // a query over its time limit takes that long each time
+  constexpr int most_late = 8;  // each query over its time limit takes the full limit
   int late = 0;
   const Judge judge(subject);
   const Query shrunk_query = shrunk(finding.query, [&](const Query& query) {

@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-/// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure of the
-/// oracle. A query that the subject refuses does not fail; nor does any by a recorded truth, which is known for one query
-/// alone.
+/// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure
+/// of the oracle. A query that the subject refuses does not fail. A contradiction to a recorded truth cannot
+/// be shrunk, because the truth is known for one query only.
 Query shrunk_query(const Finding& finding, const Subject* subject);
 
 }  // namespace nearmiss

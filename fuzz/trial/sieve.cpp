@@ -10,7 +10,7 @@ namespace nearmiss {
 const Subject* Sieve::subject_of(const Finding& finding) const {
   const auto same = [&](const auto& subject) { return subject->name() == finding.subject; };
   const auto subject = std::find_if(subjects_.begin(), subjects_.end(), same);
-  return subject == subjects_.end() ? nullptr : subject->get();  // the oracle's own findings have none
+  return subject == subjects_.end() ? nullptr : subject->get();  // findings of the oracle have no subject
 }
 
 void Sieve::know(std::span<const Finding> kept) {

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Keeps the first findings of each signature and shrinks them, on all cores; all findings are counted in
-/// Statistics::seen. The result depends only on the findings and their order.
+/// Keeps the first findings of each signature and shrinks them on all cores. Statistics::seen counts all
+/// findings. The result depends only on the findings and their order.
 class Sieve {
  public:
   /// Stops shrinking once `stop` is set.
@@ -21,7 +21,7 @@ class Sieve {
   /// Counts findings that an earlier sieve kept.
   void know(std::span<const Finding> kept);
 
-  /// Removes from the findings of the next trials those that are not kept.
+  /// Removes the findings that are not kept from those of the next trials.
   void sift(std::vector<Finding>& findings);
 
  private:

@@ -1,4 +1,4 @@
-// Many trials on all cores, with their findings sifted.
+// Runs many trials on all cores and sifts their findings.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// Holds many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
+/// Runs many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
 class SiftedTrials {
  public:
   SiftedTrials(const Subjects& subjects, const Comparison& comparison, int jobs,
@@ -24,7 +24,7 @@ class SiftedTrials {
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
-  /// The number of trials to hold at once, so that no core waits long.
+  /// The number of trials to run at once so that no core waits long.
   [[nodiscard]] std::size_t at_once() const { return 4 * static_cast<std::size_t>(jobs_); }
 
   /// Counts findings that earlier trials kept.
@@ -35,8 +35,8 @@ class SiftedTrials {
     return hold_trial(subjects_, batch, comparison_);
   }
 
-  /// The results of trial(0) to trial(count - 1), in this order, with findings sifted (sieve.hpp). Trials that have not
-  /// begun when `stop` is set are left out.
+  /// The results of trial(0) to trial(count - 1), in this order and with sifted findings (sieve.hpp). Trials
+  /// that have not begun when `stop` is set are omitted.
   TrialResult hold(std::size_t count, const std::function<TrialResult(std::size_t)>& trial);
 
  private:

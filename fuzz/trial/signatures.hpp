@@ -10,18 +10,19 @@
 
 namespace nearmiss {
 
-/// A missed collision: the features of its first contact, such as "vt simple-root inside on-edge"; "vt no-contact"
-/// if exact arithmetic finds none.
+/// The signature of a missed collision: the features of its first contact, such as "vt simple-root inside
+/// on-edge"; "vt no-contact" if exact arithmetic finds no contact.
 std::string contact_signature(const Query& query);
 
-/// A report beyond the bound: the stage that accepted, such as "ee ve-minimum".
+/// The signature of a report beyond the bound: the stage that accepted, such as "ee ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
-/// A fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7" or "vt time".
+/// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7" or
+/// "vt time".
 std::string fault_signature(Kind kind, const Verdict& verdict);
 
-/// A disagreement between the exact methods, or between them and the filter where it decided: who says what, such as
-/// "vt collision (no: filter; yes: exact, sturm, parity)"; "" if they agree.
+/// The signature of a disagreement between the exact methods, or between them and the filter if it decided.
+/// It lists the answers, such as "vt collision (no: filter; yes: exact, sturm, parity)"; "" if they agree.
 std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter);
 
 }  // namespace nearmiss

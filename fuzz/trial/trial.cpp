@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The queries by which a subject that rounds coordinates is judged.
+/// The rounded queries on which a subject that rounds coordinates is judged.
 class Rounded {
  public:
   Rounded(const Subject& subject, const std::vector<Query>& queries) {
@@ -23,7 +23,7 @@ class Rounded {
     decide(queries_, decisions_);
   }
 
-  /// Nothing if the subject does not round.
+  /// The truth about rounded query i; nothing if the subject does not round.
   [[nodiscard]] std::optional<Truth> truth(std::size_t i) const {
     if (queries_.empty()) return std::nullopt;
     return Truth(queries_[i], decisions_[i]);
@@ -34,7 +34,7 @@ class Rounded {
   std::vector<Decision> decisions_;
 };
 
-/// Whether each query is decided near the filter's bounds.
+/// For each query, whether the filter decides it near its bounds.
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
   std::vector<FilterStage> cautious(batch.queries.size());
   filter_with_caution(batch.queries, Comparison::caution, cautious);
@@ -46,8 +46,8 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Decides a batch. If its time counts, the subject is timed over the whole batch, and in one batch of 16 also over each
-/// query that it answered.
+/// Decides a batch. If its time counts, the subject is timed over the whole batch and, in one batch of 16,
+/// also over each query that it answered.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
   if (!batch.timed || batch.queries.empty()) {
@@ -112,7 +112,8 @@ class Trial {
   }
 
  private:
-  /// Reads all queries, so that the first subject does not pay for fetching them from memory.
+  /// Checks all coordinates. This also fetches all queries from memory, which would otherwise count in the
+  /// time of the first subject.
   void check_coordinates() const {
     for (std::size_t i = 0; i < batch_.queries.size(); ++i)
       if (!is_finite(batch_.queries[i]))
@@ -120,7 +121,8 @@ class Trial {
                     "), expected finite numbers");
   }
 
-  /// Counts the oracle's decision, and compares it with a recorded truth and now and then with all methods.
+  /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
+  /// methods.
   void try_oracle(std::size_t i, Truth& truth) {
     OracleCounts& counts = result_.statistics.oracle[{batch_.kind, batch_.family}];
     ++counts.queries;
@@ -153,7 +155,7 @@ class Trial {
     keep(i, "", {Finding::What::oracle_disagreement, std::move(signature)}, truth.query());
   }
 
-  /// Judges, counts and keeps what subject s answered to query i.
+  /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
     const Outcome outcome = judges_[s].judge(answers_[s][i], truth, counts_[s]);
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });

@@ -1,4 +1,4 @@
-// A trial: subjects and the oracle decide the same queries; their answers become statistics.
+// A trial: subjects and the oracle decide the same queries, and their answers become statistics.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ using Subjects = std::vector<std::unique_ptr<Subject>>;
 /// Queries of one kind and family that are decided, timed and counted together.
 struct Batch {
   Kind kind{};
-  std::string family = {};  ///< the name under which they are counted
+  std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty if there are none
   bool timed = true;                             ///< whether run times count
-  bool compare_all = false;  ///< compares all methods of the oracle on every query, whatever Comparison says
-  /// The origin of query i of the batch; called only for queries that are kept.
+  bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
+  /// Returns the origin of query i of the batch; called only for queries that are kept.
   std::function<std::string(std::size_t)> provenance = {};
-  /// Receives every outcome, if set: that of query i and of the subject with this index.
+  /// If set, receives every outcome: that of query i for the subject with this index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 };
 
@@ -38,14 +38,15 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
-/// Takes results as they come, in an order that does not depend on threads.
+/// Receives results as they come, in an order that does not depend on threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
-/// The choice of queries on which all methods of the oracle are compared.
+/// Selects the queries on which all methods of the oracle are compared.
 struct Comparison {
-  /// Undecided by the filter: the hard queries, of which this many times as large a part is compared.
+  /// The sample of the hard queries, which the filter leaves undecided, is larger by this factor.
   static constexpr std::uint64_t more_of_undecided = 64;
-  /// Decided near its bounds: the filter decides the query, but not with error bounds this many times as large.
+  /// A query is decided near the filter's bounds if the filter does not decide it with error bounds larger by
+  /// this factor.
   static constexpr double caution = 16;
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by hash; at least 1
@@ -56,9 +57,9 @@ struct Comparison {
   }
 };
 
-/// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, separately from the oracle.
-/// Every answer is judged by `Judge`. A subject that rounds coordinates is judged by the rounded query, which is also
-/// the query that is kept. Throws Error for a coordinate that is not finite.
+/// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, separately from the
+/// oracle. Every answer is judged by `Judge`. A subject that rounds coordinates is judged on the rounded
+/// query, which is also the query that is kept. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
 
 }  // namespace nearmiss

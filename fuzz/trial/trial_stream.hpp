@@ -12,18 +12,18 @@
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind and family, holds the trials and passes the results on. Holds only a few
-/// batches at any time.
+/// Collects queries into batches by kind and family, runs the trials and passes on the results. It stores
+/// only a few batches at any time.
 class TrialStream {
  public:
   TrialStream(SiftedTrials& trials, TrialSink sink) : trials_(trials), sink_(std::move(sink)) {}
 
-  /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are kept, up to
-  /// finish(). Throws Error as hold_trial does.
+  /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are
+  /// kept, and at the latest in finish(). Throws Error as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Decides the queries that are still held. After a request to stop, they are left out.
+  /// Decides the remaining queries. After a request to stop, they are omitted.
   void finish();
 
  private:

@@ -11,7 +11,8 @@
 
 namespace nearmiss {
 
-/// The oracle's answers about one query; beyond its decision, each is computed at most once. The query must outlive it.
+/// The oracle's answers about one query. The decision is given; each further answer is computed at most once.
+/// The query must outlive this object.
 class Truth {
  public:
   explicit Truth(const Query& query);
@@ -30,14 +31,14 @@ class Truth {
   /// The signature of the first contact.
   const std::string& contact();
 
-  /// The distance of a false positive / a unit of length.
+  /// The distance of a false positive, divided by a unit of length.
   struct Distance {
-    double ratio;  ///< from above, in the right bin of a Histogram
-    bool exceeds;  ///< certainly above 1; otherwise certainly not
+    double ratio;  ///< an upper bound in the right bin of a Histogram
+    bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
 
-  /// The `ratio` of `distance` to a part in a thousand, unless it lies in the first bin of a Histogram.
+  /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:
@@ -46,7 +47,7 @@ class Truth {
   const Query& query_;
   Decision decision_;
   std::string contact_;
-  std::vector<std::pair<double, Distance>> distances_;  // by the unit
+  std::vector<std::pair<double, Distance>> distances_;  // computed distances by unit
 };
 
 }  // namespace nearmiss

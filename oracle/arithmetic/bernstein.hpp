@@ -1,4 +1,4 @@
-// Polynomials on [0, 1] in Bernstein form with a bound of their rounding errors.
+// Polynomials on [0, 1] in Bernstein form, with a bound of their rounding errors.
 #pragma once
 
 #include <algorithm>
@@ -11,31 +11,31 @@
 
 namespace nearmiss::certified {
 
-/// The relative error of one sum, difference or product, rounding to nearest: u = 2^-53 for double, 2^-103 >=
-/// 5u² for a double word.
+/// The largest relative error of one sum, difference or product that rounds to nearest: u = 2^-53 for double,
+/// 2^-103 >= 5u² for a double word.
 template <class Real>
 inline constexpr double roundoff = 0x1p-53;
 template <>
 inline constexpr double roundoff<DoubleWord> = 0x1p-103;
 
-/// The smallest positive double; what is below 2^-1022 is a multiple of it.
+/// The smallest positive double; every double below 2^-1022 is a multiple of it.
 inline constexpr double smallest = 0x1p-1074;
 
-/// The most that underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of that
-/// unit costs at most a half.
+/// The most that underflow adds to the error of a product, in units of `smallest`. Rounding to a multiple of
+/// that unit adds at most 1/2.
 ///
-/// A product of double words has four products in its lower half, and two more beside it. Its lower half is
-/// summed up exactly if nothing underflows. If something does, the product is below 2^107 units, so its
-/// lower half is below 2^54, and the sums that lead to it are below 2^81, 2^81 and 2^56. A sum of multiples of
-/// the unit is exact below 2^53, and far above that it rounds the error away; in between it may double it. That
-/// can happen to the first two sums or to the third, not to all: 3 + 1/2 + 1/2 at most, and 1 for the products
-/// beside it.
+/// A product of double words has four products in its lower half, and two further products. The lower half is
+/// summed up exactly if nothing underflows. If something underflows, the product is below 2^107 units, so its
+/// lower half is below 2^54, and the partial sums are below 2^81, 2^81 and 2^56. A sum of multiples of the
+/// unit is exact below 2^53; far above that, its rounding absorbs the error; in between, it may double the
+/// error. That can happen to the first two sums or to the third, but not to all. This gives at most 3 + 1/2 +
+/// 1/2, and 1 for the further products.
 template <class Real>
 inline constexpr double product_underflow = 0.5;
 template <>
 inline constexpr double product_underflow<DoubleWord> = 8;
 
-/// The type of bounds, magnitudes and times: double, or a double for each of many lanes.
+/// The type of bounds, magnitudes and times: double, or one double per lane.
 template <class Real>
 struct BoundOf {
   using Type = double;
@@ -43,13 +43,13 @@ struct BoundOf {
 template <class Real>
 using Bound = typename BoundOf<Real>::Type;
 
-/// A number as its bound's type has it.
+/// A number converted to the type of its bounds.
 inline double approximate(double x) { return x; }
 inline double approximate(const DoubleWord& x) { return x.hi; }
 
-/// The sign that numbers with an error of at most `error` certainly share: 1, -1, or 0 if that is not certain. With a
-/// NaN or an infinite error nothing is certain. (A double word's upper half is within a factor of 1 ± 2^-53 of it:
-/// `error` has room for that.)
+/// The sign, 1 or -1, that all numbers certainly have in spite of an error of at most `error`; 0 if none is
+/// certain, as with a NaN or an infinite error. (The upper half of a double word is within a factor of 1 ±
+/// 2^-53 of it, and `error` has room for that.)
 template <class Real, std::size_t n>
 int common_sign(const std::array<Real, n>& numbers, double error) {
   bool positive = true;
@@ -64,11 +64,12 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
 // Constants of Bernstein::error_near.
 inline constexpr double spread_growth = 1.01;
 inline constexpr double slope_errors = 3;
-inline constexpr double end_rounding = 0x1p-54;  ///< half the distance of doubles below 1
-inline constexpr double upper_halves = 0x1p-52;  ///< a difference of upper halves by that of double words
+inline constexpr double end_rounding = 0x1p-54;  ///< half the distance between doubles just below 1
+inline constexpr double upper_halves = 0x1p-52;  ///< relative error of a difference of upper halves
 
-/// A polynomial of degree n - 1 by its Bernstein coefficients, each within `error` of exact, and so is every
-/// value and every coefficient on a part of [0, 1] that the functions below compute.
+/// A polynomial of degree n - 1, given by its Bernstein coefficients. Each coefficient is within `error` of
+/// the exact one, and so is every value and every coefficient on a part of [0, 1] that the functions below
+/// compute.
 template <class Real, std::size_t n>
 struct Bernstein {
   std::array<Real, n> b;
@@ -81,8 +82,9 @@ struct Bernstein {
     return approximate(row[0]);
   }
 
-  /// The coefficients on [lo, hi]: the polynomial is in their convex hull there. Coefficient i is the value
-  /// of the polar form at n - 1 - i times lo and i times hi, so each is n - 1 levels of de Casteljau from b.
+  /// The coefficients on [lo, hi]; the polynomial is in their convex hull there. Coefficient i is the value
+  /// of the polar form at n - 1 - i arguments lo and i arguments hi, so n - 1 levels of de Casteljau's
+  /// algorithm compute it from b.
   [[nodiscard]] std::array<Real, n> on(const Bound<Real>& lo, const Bound<Real>& hi) const {
     if constexpr (std::is_same_v<Bound<Real>, double>) {
       if (lo == 0 && hi == 1) return b;
@@ -113,15 +115,15 @@ struct Bernstein {
   /// The sign that the polynomial certainly has on all of [lo, hi], or 0.
   [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
 
-  /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, each
-  /// b_i within `error`: quicker, and as good if h is small.
+  /// The same on [t - h, t + h], from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, with
+  /// each b_i within `error`. This is faster, and as good if h is small.
   [[nodiscard]] int sign_near(double t, double h) const {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// The magnitude that the value at t has to exceed for that. The ends of [t - h, t + h] within [0, 1] may have been
-  /// rounded, by at most `end_rounding`. The slope of exact coefficients exceeds that of computed ones by two of
-  /// their errors at most; `spread_growth` makes up for the roundings here.
+  /// The magnitude that the value at t must exceed for a certain sign. The ends of [t - h, t + h] within [0,
+  /// 1] may have been rounded, by at most `end_rounding`. The slope of the exact coefficients exceeds that of
+  /// the computed ones by at most two of their errors; `spread_growth` covers the roundings in this function.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
     using std::abs;
     using std::max;
@@ -142,13 +144,13 @@ struct Bernstein {
     return all;
   }
 
-  /// A step of de Casteljau at a time: s = 1 - t, products, sum.
+  /// A step of de Casteljau's algorithm at time t: s = 1 - t, products, sum.
   struct DeCasteljauStep {
     Real t, s;
 
     explicit DeCasteljauStep(const Bound<Real>& time) : t(time), s(Real(1) - t) {}
     [[nodiscard]] Real between(const Real& x, const Real& y) const { return s * x + t * y; }
-    /// Replaces row[0 .. count] by count values between neighbours.
+    /// Replaces the values in row[0 .. count] by `count` values, each between two neighbours.
     void take(std::array<Real, n>& row, std::size_t count) const {
       for (std::size_t i = 0; i < count; ++i) row[i] = between(row[i], row[i + 1]);
     }

@@ -7,8 +7,9 @@ namespace nearmiss::certified {
 
 /// A double-word number hi + lo with |lo| at most half an ulp of hi. The operations are Algorithms 6 (sum)
 /// and 10 (product) of Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building blocks
-/// of double-word arithmetic", ACM TOMS 2017: relative errors of at most 3u² + 13u³ and 5u², u = 2^-53,
-/// rounding to nearest, if nothing overflows (the result is then NaN) or underflows (see `product_underflow`).
+/// of double-word arithmetic", ACM TOMS 2017: their relative errors are at most 3u² + 13u³ and 5u² with u =
+/// 2^-53, for rounding to nearest. This holds unless something overflows (the result is then NaN) or
+/// underflows (see `product_underflow`).
 struct DoubleWord {
   double hi = 0;
   double lo = 0;
@@ -40,7 +41,7 @@ inline DoubleWord fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-// a b exactly (Dekker and Veltkamp; no fused operation is assumed).
+// a b exactly, by the method of Dekker and Veltkamp, which needs no fused operation.
 inline DoubleWord two_product(double a, double b) {
   constexpr double splitter = 0x1p27 + 1;
   const auto split = [](double x) {

@@ -1,4 +1,4 @@
-// Guesses about a cubic, in double or in lanes: nothing here is certified.
+// Estimates about a cubic, in double or in lanes; nothing here is certified.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct Powers {
   [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
 
-/// A root near 0 of a cubic that is not zero there, by Laguerre's method, which is quick at multiple roots too;
-/// nothing if a step says that there is none.
+/// A root near 0 of a cubic that is not zero at 0, by Laguerre's method, which also converges fast to
+/// multiple roots; nothing if a step shows that there is no root.
 inline std::optional<double> root_near_zero(const Powers<double>& F) {
   double t = 0;
   constexpr int most_steps = 10;
@@ -50,9 +50,9 @@ Powers<Real> in_powers(const std::array<Real, 4>& b) {
   return {{b[0], 3 * (b[1] - b[0]), 3 * (b[0] + b[2] - 2 * b[1]), b[3] - b[0] + 3 * (b[1] - b[2])}};
 }
 
-/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1, as good as |F| <= small or as doubles
-/// allow: Newton's method, and bisection after a step that leaves the bracket or is more than half as long as
-/// the one before.
+/// A root in [0, 1] of a cubic that has opposite signs at 0 and 1, up to |F| <= small or the precision of
+/// double. The method is Newton's, with bisection after a step that leaves the bracket or is more than half
+/// as long as the step before it.
 inline double root_between(const Powers<double>& F, double F_0, double F_1, double small) {
   double left = 0;
   double right = 1;
@@ -64,7 +64,7 @@ inline double root_between(const Powers<double>& F, double F_0, double F_1, doub
     if (!in_bracket()) {
       t = left + (right - left) / 2;
       last_step = right - left;
-      if (!in_bracket()) break;  // no double is left between
+      if (!in_bracket()) break;  // no double is left inside the bracket
     }
     const double value = F.at(t);
     if (std::abs(value) <= small) break;
@@ -77,8 +77,8 @@ inline double root_between(const Powers<double>& F, double F_0, double F_1, doub
   return std::clamp(t, 0.0, 1.0);
 }
 
-/// The first extremum in (0, 1) of the cubic with these Bernstein coefficients; any other number, or NaN, if there is
-/// none.
+/// The first extremum in (0, 1) of the cubic with these Bernstein coefficients; a number outside (0, 1), or
+/// NaN, if there is none.
 template <class Real>
 Real extremum(const std::array<Real, 4>& b) {
   using std::max;

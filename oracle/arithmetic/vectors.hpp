@@ -44,7 +44,7 @@ Vec<Real> cross(const Vec<Real>& v, const Vec<Real>& w) {
 
 inline double length(const Vec<double>& v) { return std::sqrt(dot(v, v)); }
 
-/// Within 2^-53 of a number; the double itself for double.
+/// A double within a relative 2^-53 of x; x itself if it is a double.
 template <class Real>
 double to_double(const Real& x) {
   return static_cast<double>(x);
@@ -53,7 +53,7 @@ template <class Real>
 Vec<double> to_double(const Vec<Real>& v) {
   return {to_double(v[0]), to_double(v[1]), to_double(v[2])};
 }
-/// The same numbers in another type.
+/// The same vector with another type of components.
 template <class Real>
 Vec<Real> of_double(const Vec<double>& v) {
   return {Real(v[0]), Real(v[1]), Real(v[2])};

@@ -12,7 +12,7 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// The search with times in one type of numbers, and positions too if they have to be precise.
+/// The search with times of type Real; positions are of this type too if they must be precise.
 template <class Real>
 class DistanceSearch {
  public:
@@ -37,11 +37,11 @@ class DistanceSearch {
   struct SampledTime {
     Real t;
     Moment moment;
-    bool is_covered = false;  ///< from here to the next time
+    bool is_covered = false;  ///< whether the step is covered from here to the next time
   };
 
-  /// A part of the step that no certified bound covers: between the end of what the time `before` covers and
-  /// the begin of what the next one does.
+  /// A part of the step that no certified bound covers. It lies between the range that the time `before`
+  /// covers and the range that the next time covers.
   struct Gap {
     std::size_t before;
     double width, covered_before, covered_behind;
@@ -58,19 +58,19 @@ class DistanceSearch {
     return time;
   }
 
-  /// In double if that is enough; then at the double nearest to t.
+  /// Looks at a time in double if that is precise enough, and then at the double nearest to t.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
     return resolves(time.moment) ? time : look_precisely(t);
   }
-  /// The same between two times, one of which may be the nearest double.
+  /// The same for a time between two others, either of which may be the double nearest to t.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether a moment's errors are small against its distance and against what is required.
+  /// Whether a moment's errors are small compared with its distance and with the required bound.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     const double error = separation.products[0].errors[0];
@@ -87,8 +87,8 @@ class DistanceSearch {
     required_ = needed_(upper_);
   }
 
-  /// Goes down to a minimum of the distance between a and b, if it falls behind a and grows before b: by each end's
-  /// guess of where the minimum is, or by halves if these do not help.
+  /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
+  /// The next time is where an end predicts the minimum, or the middle if the predictions do not help.
   void descend(SampledTime a, SampledTime b) {
     if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -108,7 +108,8 @@ class DistanceSearch {
     }
   }
 
-  /// The minimum as the end with the steeper slope predicts it; the middle if no prediction is between both ends.
+  /// The time of the minimum that the end with the steeper slope predicts; the middle if no prediction lies
+  /// between the ends.
   static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
     const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
     const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
@@ -135,7 +136,7 @@ class DistanceSearch {
 
   std::optional<Gap> first_gap() {
     for (std::size_t i = 0; i + 1 < times_.size(); ++i) {
-      if (times_[i].is_covered) continue;  // what is required only falls
+      if (times_[i].is_covered) continue;  // the required bound never rises
       const double width = to_double(times_[i + 1].t - times_[i].t) * (1 + 0x1p-48);
       const double before = covered(times_[i], 1, width);
       const double behind = before < width ? covered(times_[i + 1], -1, width) : 0;
@@ -145,10 +146,10 @@ class DistanceSearch {
     return std::nullopt;
   }
 
-  /// Whether a gap is so much wider than what is covered that nothing is known of most of it.
+  /// Whether a gap is so much wider than the covered range that most of it is unknown.
   static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
 
-  /// Whether anything could be done about a gap.
+  /// Looks into a gap; false if nothing more can be done about it.
   bool look_into(const Gap& gap) {
     SampledTime& a = times_[gap.before];
     SampledTime& b = times_[gap.before + 1];
@@ -159,7 +160,7 @@ class DistanceSearch {
 
     const Real t = guess_in(gap);
     if (!(a.t < t && t < b.t)) return false;
-    const SampledTime before = a;  // times_ grows
+    const SampledTime before = a;  // a copy, because times_ grows
     const SampledTime behind = b;
     const SampledTime next = look_between(before, t, behind);
     insert(next);
@@ -171,7 +172,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// A new minimum that an end of the gap predicts in it, if there is one; else some other time in it.
+  /// The time of a new minimum that an end of the gap predicts inside it; if there is none, some other time
+  /// in the gap.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -188,8 +190,8 @@ class DistanceSearch {
     return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
-  /// A time in a gap: behind the end that covers less, since that is where the distance is small, a few times as far
-  /// away as that covers; or its middle, if it is wide.
+  /// A time in a gap. It is near the end that covers less, since the distance is small there; its offset from
+  /// that end is a few times the time that the end covers. In a wide gap, it is the middle.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;
@@ -201,7 +203,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds separations to a time, or makes it precise if it covers nothing; false if both are done.
+  /// Adds separations to a time, or makes the time precise if it covers nothing; false if both are already
+  /// done.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -211,7 +214,7 @@ class DistanceSearch {
       return true;
     }
     if (time.moment.is_precise || covered > 0) return false;
-    time = look_precisely(time.t);  // and is_covered is found anew
+    time = look_precisely(time.t);  // is_covered is determined again
     return true;
   }
 

@@ -19,25 +19,25 @@ Real quotient(const Real& a, const Real& b) {
   return a / b;
 }
 
-/// The parts of the primitives in which closest points are.
+/// The parts of the primitives that contain the closest points.
 struct ClosestFeatures {
   enum class Combination : std::uint8_t {
-    vertices,         ///< of each primitive: `vertex` and `from`
+    vertices,         ///< one vertex of each primitive: `vertex` and `from`
     vertex_and_edge,  ///< `vertex` of one, and the edge `from`, `to` of the other or of its triangle
-    interiors,        ///< within vertex and triangle, or within both edges
+    interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
   };
   Combination combination{};
   std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// Points of the two primitives, and how far apart they are. That they are closest is a guess, but that they are
-/// points of the primitives is not: their weights are not negative and add up to 1, except for a triangle's, to which
-/// rounding may add 2 U (points_error in moment.hpp).
+/// Points of the two primitives, and their distance. It is not certain that they are the closest points, but
+/// it is certain that they belong to the primitives: their weights are not negative and add up to 1. Rounding
+/// may add 2 U to the sum for a triangle (points_error in moment.hpp).
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;
-  Vec<Real> difference;  ///< from the second primitive's point to the first one's
-  Vec<Real> velocity;    ///< its derivative, with these weights
+  Vec<Real> difference;  ///< from the point of the second primitive to that of the first one
+  Vec<Real> velocity;    ///< derivative of `difference` for constant weights
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
@@ -50,11 +50,11 @@ template <class Real>
 void take_closer(ClosestPoints<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
                  const Vec<Real>& velocity) {
   const double squared = to_double(dot(difference, difference));
-  // A tie goes to the later candidate: the interiors come last, and have the normal.
+  // A tie goes to the later candidate, because the interiors come last and have the normal.
   if (squared <= best.squared_distance) best = {features, difference, velocity, squared};
 }
 
-/// A vertex and the edge (from, to) of the other primitive.
+/// Considers a vertex and the edge (from, to) of the other primitive.
 template <class Real>
 void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t from, std::size_t to,
                    ClosestPoints<Real>& best) {
@@ -77,8 +77,8 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
   take_closer(best, features, in_first ? difference : -difference, in_first ? velocity : -velocity);
 }
 
-/// Within triangle or edges, where the normal N at p = q a + r b + N c has its foot: with the weights a, b >= 0,
-/// a + b <= 1 for a triangle, a, b <= 1 for edges.
+/// Considers the interiors of the triangle or the edges: the foot of the normal N, from p = q a + r b + N c.
+/// It counts if the weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
   const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;

@@ -1,4 +1,5 @@
-// The two primitives at one time of the step: how near they are, and bounds of how near they come around it.
+// The two primitives at one time of the step: their distance, and lower bounds of the distance around that
+// time.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +13,17 @@
 
 namespace nearmiss::certified {
 
-/// Everything about one time that the search for the smallest distance needs, in the unit of
-/// VertexDifferences.
+/// What the search for the smallest distance needs to know about one time, in the unit of VertexDifferences.
 struct Moment {
-  bool is_precise = false;   ///< computed in the search's type of time, else in double
-  ClosestFeatures features;  ///< of points that are closest, by guess
-  double upper = 0;          ///< the distance is certainly at most this
-  double slope = 0;          ///< whether it grows: its sign, by guess
-  double step = 0;           ///< how far away from here it is smallest, by guess
-  double predicted = 0;      ///< the distance there, by guess
-  Vec<double> direction{};   ///< from the second primitive's closest point to the first one's, or zero
+  bool is_precise = false;   ///< whether it was computed in the search's type of time, not in double
+  ClosestFeatures features;  ///< features of the closest points, uncertified
+  double upper = 0;          ///< a certified upper bound of the distance
+  double slope = 0;          ///< its sign is that of the change of the distance, uncertified
+  double step = 0;           ///< time from here to the minimum of the distance, estimated
+  double predicted = 0;      ///< the distance at that minimum, estimated
+  Vec<double> direction{};   ///< from the second primitive to the first, between closest points, or 0
 
-  /// The one that fits the features best; then others, if they were asked for.
+  /// The separation that fits the features best; then others, if requested.
   boost::container::small_vector<Separation, 1> separations;
   bool has_all = false;
 };
@@ -35,7 +35,8 @@ inline Vec<double> direction_of(const Vec<double>& v) {
   return size > 0 ? (1 / size) * v : Vec<double>{};
 }
 
-/// For features that move linearly, as d + s v, with a component of v along them left out.
+/// Predicts the minimum for features that move linearly, as d + s v; the component of v along the features is
+/// left out.
 inline void predict(Moment& moment, const Vec<double>& difference, const Vec<double>& velocity) {
   const double squared_speed = dot(velocity, velocity);
   const double squared_distance = dot(difference, difference);
@@ -44,9 +45,9 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
   moment.predicted = std::sqrt(std::max(0.0, squared_distance + moment.slope * moment.step));
 }
 
-/// For interiors: the distance is |F| / |N|, and N changes little while F goes to zero, or to its extremum. (The
-/// difference of the points says less: while they slide along each other, rounding is all of its component along
-/// the velocity.)
+/// Predicts the minimum for interiors. The distance is |F| / |N|, and N changes little while F goes to zero
+/// or to its extremum. (The difference of the points is less useful: if they slide along each other, its
+/// component along the velocity consists of rounding errors only.)
 inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
   if (!(F.c[0] > 0)) return;
@@ -62,9 +63,9 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 
 }  // namespace detail
 
-/// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences, which
-/// are rounded four times each, with exact weights up to 1: at most three more roundings. The weights of interiors may
-/// add up to 1 + 2 U.
+/// A bound of the error of the difference of closest points. It is a sum of at most three vertex differences,
+/// which are rounded four times each, with exact weights up to 1; this takes at most three more roundings.
+/// The weights of interiors may add up to 1 + 2 U.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();
@@ -100,15 +101,16 @@ Moment look(const VerticesAt<Real>& x) {
   return moment;
 }
 
-/// Adds the separations that fit the features less well at this time, but may do so for longer: if edges are nearly
-/// parallel, the normal turns much faster than the direction between the closest points.
+/// Adds the separations that fit the features less well at this time, but may hold for longer. If edges are
+/// nearly parallel, for example, the normal turns much faster than the direction between the closest points.
 template <class Real>
 void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   moment.has_all = true;
   const ClosestFeatures& features = moment.features;
   Vec<double> direction = moment.direction;
   if (features.combination == ClosestFeatures::Combination::interiors) {
-    // Rounding turns the normal less than the difference of points so near.
+    // Rounding changes the direction of the normal less than that of the difference of points that are so
+    // near.
     const NormalPairs pairs = normal_pairs(x.differences().kind());
     direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
     if (dot(direction, moment.direction) < 0) direction = -direction;

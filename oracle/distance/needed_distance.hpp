@@ -1,12 +1,12 @@
-// How narrow an enclosure of a distance has to be.
+// The required width of an enclosure of a distance.
 #pragma once
 
 #include <functional>
 
 namespace nearmiss {
 
-/// The smallest lower end that is enough beside an upper end; 0 if any is enough. It may not grow while the upper end
-/// falls.
+/// The smallest lower end that suffices for a given upper end; 0 if any lower end suffices. It must not grow
+/// when the upper end falls.
 using NeededDistance = std::function<double(double upper)>;
 
 }  // namespace nearmiss

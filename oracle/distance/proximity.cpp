@@ -1,16 +1,17 @@
 // The closed-set argument. The distance at a time is at most b if and only if one of finitely many statements
 // about a pair of features holds: a vertex of each, a vertex and an edge, the vertex and the triangle, or two
-// edges. Each says that the closest points of the lines or planes through them are in them, and within b:
-// polynomials in t that are not positive, and one that is positive, where the features are not degenerate
-// (others then say the same). Whichever pair is closest, its statement holds; and whichever holds, there are
-// points within b.
+// edges. Each statement says that the closest points of the lines or planes through the two features lie in
+// the features and are within b of each other. As a condition, some polynomials in t are not positive, and
+// one is positive unless the features are degenerate (then another statement says the same). The statement of
+// the closest pair holds, and if any statement holds, there are points within b.
 //
-// The times at which one holds are a closed set, for the distance is continuous. If it is not empty, it has a
-// least element t*. Either t* = 0, or the distance is b at t*, and more before. Then the closest pair's
-// polynomial "distance² - b²" (times what makes it one) is zero at t*: t* is one of its roots, or that
-// polynomial is zero identically. In that case the pair's statement, which holds at t* and not before,
-// changes because another polynomial that must not be positive was so before: t* is a root of that. (One that
-// must be positive and is so at t* was so before.)
+// The set of times at which some statement holds is closed, because the distance is continuous. If it is not
+// empty, it has a least element t*. Either t* = 0, or the distance is b at t* and larger before. In the
+// second case, the polynomial "distance² - b²" of the closest pair (times a denominator) is zero at t*. So t*
+// is one of its roots, or that polynomial is zero identically. If it is zero identically, the pair's
+// statement holds at t* and not before, because another polynomial that must not be positive was positive
+// before; then t* is a root of that polynomial. (A polynomial that must be positive and is positive at t* was
+// also positive just before.)
 #include "oracle/distance/proximity.hpp"
 
 #include <algorithm>
@@ -24,11 +25,11 @@ namespace nearmiss {
 namespace exact {
 namespace {
 
-/// The statement about a pair of features.
+/// The statement that two features come within b.
 struct Nearness {
-  Polynomial excess;  ///< of the squared distance over b², times something positive; degree 6 at most
-  std::vector<Polynomial> outside;  ///< each at most 0 if the closest points are in the features
-  std::vector<Polynomial> extents;  ///< each above 0 if they are not degenerate
+  Polynomial excess;                ///< (distance² - b²) times a positive factor; degree 6 at most
+  std::vector<Polynomial> outside;  ///< all are at most 0 if the closest points lie in the features
+  std::vector<Polynomial> extents;  ///< all are positive unless the features are degenerate
 
   [[nodiscard]] bool holds_at(Root& t) const {
     const auto is_in = [&](const Polynomial& p) { return t.sign_of(p) <= 0; };
@@ -80,7 +81,7 @@ class FeaturePairs {
         {dot(area, area) - squared_bound_ * length, {Polynomial() - along, along - length}, {length}});
   }
 
-  /// The distance of the planes or lines is |F| / |N|.
+  /// Adds a statement for which the distance of the planes or lines is |F| / |N|.
   void add_with_normal(const Polynomial& F, const Polynomial& squared_N, std::vector<Polynomial> outside) {
     statements_.push_back({F * F - squared_bound_ * squared_N, std::move(outside), {squared_N}});
   }
@@ -97,7 +98,7 @@ class FeaturePairs {
     const PolynomialVector v = x[3] - x[2];
     const PolynomialVector x20 = x[2] - x[0];
     const PolynomialVector N = cross(u, v);
-    const Polynomial whole = dot(N, N);  // α and β are these by the whole
+    const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by it
     const Polynomial alpha = dot(cross(x20, v), N);
     const Polynomial beta = dot(cross(x20, u), N);
     add_with_normal(dot(x20, N), whole,

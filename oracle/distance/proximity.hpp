@@ -1,12 +1,12 @@
-// Whether two primitives come as near as a bound, in exact arithmetic.
+// Decides whether two primitives come within a given distance, in exact arithmetic.
 #pragma once
 
 #include "ccd/query.hpp"
 
 namespace nearmiss {
 
-/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0: exactly, for every
-/// finite query.
+/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0. Exact for every finite
+/// query.
 bool comes_within(const Query& query, double bound);
 
 }  // namespace nearmiss

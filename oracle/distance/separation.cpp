@@ -6,8 +6,8 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// The Bernstein coefficients on [0, end] of a cubic that is not negative at 0, less what rounding may have added to
-/// each.
+/// The Bernstein coefficients on [0, end] of a cubic that is not negative at 0, each reduced by the bound of
+/// its rounding error.
 std::array<double, 4> on(const Powers<double>& cubic, double end) {
   const std::array<double, 4>& p = cubic.c;
   const double p1 = p[1] * end;
@@ -25,7 +25,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
   return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
 }
 
-/// An end in [0, most] up to which the cubic is certainly not negative: near the first root, but for speed.
+/// An end in [0, most] up to which the cubic is certainly not negative. It is usually near the first root;
+/// the search is kept short for speed.
 double not_negative_until(const Powers<double>& p, double most) {
   const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
   if (!(p.c[0] > 0)) return 0;

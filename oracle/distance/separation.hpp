@@ -9,22 +9,23 @@
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/distance/closest.hpp"
 
-// For any vector n(t) the distance of the primitives, which are the convex hulls of their vertices, is at least the
-// smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first one and j of the second. Around a
-// time t0, with s = t - t0, three kinds of n make these products polynomials that lose nothing at t0 if n(t0) is
-// the direction between closest points:
+// The primitives are the convex hulls of their vertices. So for any vector n(t), their distance is at least
+// the smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first primitive and j of the second.
+// Around a time t0, with s = t - t0, three kinds of n make these products polynomials in s. The bound is
+// sharp at t0 if n(t0) is the direction between the closest points:
 //
 // - constant: linear products;
-// - edge(t) × k with a constant k: quadratic; the products of both vertices of that edge are the same, so that
-//   the turning edge loses nothing;
+// - edge(t) × k with a constant k: quadratic products; both vertices of that edge have the same product, so
+//   the turning of the edge loses nothing;
 // - N(t), the normal of the triangle, or of both edges: all products are ±F, the coplanarity cubic.
 //
-// Errors of the coefficients. Each is a sum of products of one component of each of two or three vectors, and each such
-// product is rounded at most n times on its way into the coefficient, which leaves it within n U of itself (U =
-// roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the magnitudes of the
-// products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for two, to at most a b;
-// the components of a cross product make up a vector of at most 2/√3 a b. A vector x_i - x_j is within R = reach(i,
-// j), and its velocity within 2 R. So the errors, in units of U times the lengths, are:
+// Errors of the coefficients. Each coefficient is a sum of products of components of two or three vectors.
+// Each product is rounded at most n times on its way into the coefficient, which is a relative error of at
+// most n U (U = roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c
+// the magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents);
+// for two vectors, to at most a b. The sums of magnitudes in the components of a cross product form a vector
+// of length at most 2/√3 a b. A vector x_i - x_j has a length of at most R = reach(i, j), and its velocity
+// one of at most 2 R. So the errors, in units of U times the lengths, are:
 //
 //               n                lengths        error                       taken
 //   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
@@ -33,11 +34,12 @@
 //   F           17, 17, 15, 11   1, 6, 12, 8    19.7, 117.8, 207.9, 101.7   24, 144, 288, 192
 //   N           10, 9, 6         1, 4, 4        11.6, 41.6, 27.8            16, 64, 64
 //
-// tests/oracle/separation_test.cpp counts n, by a scalar that counts roundings in the templates below.
+// tests/oracle/separation_test.cpp determines n with a scalar that counts roundings in the templates below.
 //
-// The excess covers second orders in U and the rounding of the bounds themselves. Coefficients are rounded to
-// double: 2^-53 of each, taken 2^-52. Underflow, at most 2^-1018 for each of less than 100 operations, times 2^100
-// at most for the length of k, and 2^-536 for a length, is far below `least_distance`, which is added to each error.
+// The column "taken" exceeds the error to cover terms of second order in U and the rounding of the bounds
+// themselves. Rounding coefficients to double adds 2^-53 of each, taken as 2^-52. Underflow adds at most
+// 2^-1018 for each of less than 100 operations, times at most 2^100 for the length of k, and 2^-536 for a
+// length. This is far below `least_distance`, which is added to each error.
 
 namespace nearmiss::certified {
 
@@ -50,8 +52,8 @@ struct Product {
   std::array<double, 4> errors{};
 };
 
-/// One direction n(s) with its products: at every s the distance is at least the smallest product over |n|, which is
-/// at most length[0] + length[1] |s| + length[2] s².
+/// One direction n(s) with its products. At every s the distance is at least the smallest product divided by
+/// |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
   std::array<Product, 4> products{};
   std::size_t count = 0;
@@ -65,12 +67,13 @@ struct Separation {
   }
 };
 
-/// An upper bound of the length of a vector that is known to `error`, with each component rounded to double.
+/// An upper bound of the length of a vector whose components are rounded to double and which is known up to
+/// `error`.
 inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }
 
-/// With n = `direction`, from the second primitive to the first.
+/// The separation with n = `direction`, which points from the second primitive to the first.
 template <class Real>
 Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& direction) {
   const VertexDifferences& differences = x.differences();
@@ -87,7 +90,7 @@ Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& di
   return separation;
 }
 
-/// With n = (x_to - x_from) × k, as near to `direction` as such an n can be.
+/// The separation with n = (x_to - x_from) × k, with the k that brings n as near to `direction` as possible.
 template <class Real>
 Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::size_t to,
                             const Vec<double>& direction) {
@@ -95,7 +98,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   const Vec<Real> edge = x.position(to, from);
   const Vec<double> rough_edge = to_double(edge);
   const double squared_length = dot(rough_edge, rough_edge);
-  constexpr double too_short = 0x1p-200;  // k would be too large for underflow to be harmless
+  constexpr double too_short = 0x1p-200;  // below this, k is so large that underflow is not harmless
   if (!(squared_length > too_short)) return {};
   const Vec<double> key =
       (1 / squared_length) * cross(direction, rough_edge);  // e × (d × e) = |e|² d for d at right angles to e
@@ -121,7 +124,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   return separation;
 }
 
-/// With the normal.
+/// The separation with the normal, n = N(t).
 template <class Real>
 Separation separate_by_normal(const VerticesAt<Real>& x) {
   const VertexDifferences& differences = x.differences();
@@ -149,7 +152,8 @@ Separation separate_by_normal(const VerticesAt<Real>& x) {
   return separation;
 }
 
-/// How far from t0, forward (1) or backward (-1), the distance is certainly at least `distance`; `most` at most.
+/// The time from t0, forward (1) or backward (-1) and at most `most`, for which the distance is certainly at
+/// least `distance`.
 double certified_reach(const Separation& separation, double distance, int direction, double most);
 
 }  // namespace nearmiss::certified

@@ -1,4 +1,4 @@
-// Positions of a query's vertices relative to each other.
+// Positions of the vertices of a query relative to each other.
 #pragma once
 
 #include <array>
@@ -26,12 +26,12 @@ constexpr NormalPairs normal_pairs(Kind kind) {
   return {{0, 2}, {0, 1}, {3, 2}};
 }
 
-/// The differences x_i - x_j of all pairs of vertices at both ends of the step, in a unit of their own,
-/// 2^exponent, in which the largest component is between 1 and 2 (all are 0 if all vertices coincide).
+/// The differences x_i - x_j of all pairs of vertices at both ends of the step. Their unit, 2^exponent, is
+/// such that the largest component is between 1 and 2 (all are 0 if all vertices coincide).
 ///
-/// A difference of doubles is a double word exactly. Bringing it to the unit is exact too, but for underflow:
-/// by at most 2^-1073 of the unit, far below `least_distance`. Differences that would overflow are taken of
-/// halves; what halving loses is far below that as well.
+/// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
+/// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference would
+/// overflow, the coordinates are halved first; the error of halving is far below that as well.
 class VertexDifferences {
  public:
   explicit VertexDifferences(const Query& query);
@@ -41,7 +41,7 @@ class VertexDifferences {
   /// The largest distance of x_i and x_j over [0, 1] is at most this.
   [[nodiscard]] double reach(std::size_t i, std::size_t j) const { return pair_of(i, j).reach; }
   [[nodiscard]] double reach(VertexPair pair) const { return reach(pair.to, pair.from); }
-  /// The sum of all six.
+  /// The sum of the reaches of all six pairs.
   [[nodiscard]] double total_reach() const { return total_reach_; }
 
   /// A component of x_i - x_j at the start (0) or the end (1) of the step.
@@ -55,7 +55,7 @@ class VertexDifferences {
     std::array<Vec<DoubleWord>, 2> at;
     double reach;
   };
-  /// i != j.
+  /// Requires i != j.
   [[nodiscard]] const VertexDifference& pair_of(std::size_t i, std::size_t j) const {
     constexpr std::array<std::array<std::size_t, 4>, 4> numbers{
         {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
@@ -68,9 +68,10 @@ class VertexDifferences {
   double total_reach_;
 };
 
-/// The vertices at one time. Each component of a position is made of two products that are rounded at most four
-/// times: 1 - t, product and sum, and in double the difference itself, which with more than 106 bits is the
-/// rounded sum of a double word's halves. A velocity is rounded twice, and at most twice as large.
+/// The vertices at one time. Each component of a position is a sum of two products that are rounded at most
+/// four times: 1 - t, the product, the sum and, in double, the difference itself; with more than 106 bits the
+/// last rounding is that of summing the halves of a double word. A velocity is rounded twice, and is at most
+/// twice as large.
 template <class Real>
 class VerticesAt {
  public:
@@ -84,7 +85,7 @@ class VerticesAt {
     return of(i, j, [&](const Real& start, const Real& end) { return early_ * start + t_ * end; });
   }
   [[nodiscard]] Vec<Real> position(VertexPair pair) const { return position(pair.to, pair.from); }
-  /// Its derivative by t.
+  /// The derivative of x_i - x_j by t.
   [[nodiscard]] Vec<Real> velocity(std::size_t i, std::size_t j) const {
     return of(i, j, [](const Real& start, const Real& end) { return end - start; });
   }

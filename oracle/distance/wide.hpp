@@ -7,7 +7,8 @@
 
 namespace nearmiss::certified {
 
-/// Rounds to nearest; its exponents are far beyond those of double, so that nothing here overflows or underflows.
+/// Rounds to nearest. Its exponent range is far larger than that of double, so nothing here overflows or
+/// underflows.
 using Wide = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<384, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;

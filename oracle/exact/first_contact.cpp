@@ -1,4 +1,5 @@
-// At each root of a polynomial that all first contacts share, signs of polynomials decide whether the primitives meet.
+// Every first contact is at a root of a certain polynomial; at each root, signs of polynomials decide whether
+// the primitives meet.
 #include "oracle/exact/first_contact.hpp"
 
 #include <algorithm>
@@ -8,7 +9,8 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// How the primitives meet at a time at which all four points are in one plane (see Predicates), if they do.
+/// How the primitives meet at a time at which all four points are in one plane (see Predicates); nothing if
+/// they do not meet.
 std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int side = t.sign_of(predicates.N()[k]);
@@ -35,11 +37,12 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
 /// For an F that is identically zero: polynomials such that the earliest collision, if there is one, is at t = 0 or
 /// at one of their roots in [0, 1].
 ///
-/// If a component N_k of the normal is not identically zero, they are N_k and its weights: the set of colliding times
-/// is closed, so it has a least element t*; were t* neither 0 nor a root of one of them that is not identically zero,
-/// N_k would not be zero and none of them would change its sign in a neighbourhood of t*, and there would be
-/// collisions before t*. If N is identically zero, the same holds for the polynomials of the segments. One of several
-/// polynomials with the same roots is enough, such as the three components of a vector that stays in one plane.
+/// If a component N_k of the normal is not identically zero, the polynomials are N_k and its weights. Proof:
+/// the set of colliding times is closed, so it has a least element t*. Suppose that t* is neither 0 nor a
+/// root of one of the polynomials that are not identically zero. Then N_k is not zero and no polynomial
+/// changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction. If N is
+/// identically zero, the same holds for the polynomials of the segments. Of several polynomials with the same
+/// roots, such as the three components of a vector that stays in one plane, one is enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {

@@ -10,23 +10,24 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// How many weights vanish: none inside of triangle or edges, one on an edge or at one end, two in a vertex
-  /// or at two ends. Primitives without a common normal always meet at a border: one or two.
+  /// The number of weights that vanish: none for a contact inside the triangle or the edges, one on an edge
+  /// or at one end, two at a vertex or at two ends. Primitives without a common normal always meet at a
+  /// border, so the number is one or two.
   int vanishing_weights = 0;
-  /// No common normal: a triangle without an area, edges parallel or without a length.
+  /// There is no common normal: the triangle has no area, or the edges are parallel or have no length.
   bool degenerate = false;
 };
 
-/// The earliest time at which they meet, and how.
+/// The earliest time at which the primitives meet, and how they meet.
 struct FirstContact {
   Root time;
   Meeting meeting;
 };
 
-/// Nothing if they never meet in [0, 1].
+/// The first contact of the primitives; nothing if they never meet in [0, 1].
 std::optional<FirstContact> first_contact(Predicates& predicates);
 
-/// Whether they meet in [0, 1] at all.
+/// Whether the primitives meet in [0, 1] at all.
 bool any_collision(const Query& query);
 
 }  // namespace nearmiss::exact

@@ -27,7 +27,7 @@ Number unit(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   if (largest == 0) return 1;
-  const int exponent = -3 - std::ilogb(largest);  // in two factors: a double need not reach it
+  const int exponent = -3 - std::ilogb(largest);  // in two factors, since 2^exponent need not be a double
   return Number(std::ldexp(1.0, exponent / 2)) * Number(std::ldexp(1.0, exponent - exponent / 2));
 }
 

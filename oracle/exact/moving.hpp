@@ -9,7 +9,7 @@
 
 namespace nearmiss::exact {
 
-/// A vector that moves: each component a polynomial in t.
+/// A moving vector; each component is a polynomial in t.
 using PolynomialVector = std::array<Polynomial, 3>;
 
 PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b);
@@ -18,11 +18,11 @@ Polynomial dot(const PolynomialVector& a, const PolynomialVector& b);
 Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k);
 PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
 
-/// A power of two by which coordinates are below 1/4: differences of four are below 1 and, as most products,
-/// have no more limbs than they need.
+/// A power of two that scales all coordinates below 1/4. Differences of four coordinates are then below 1,
+/// and these and most products have no more limbs than necessary.
 Number unit(const Query& query);
 
-/// x0 .. x3 times `scale`: x(0) + t (x(1) - x(0)).
+/// The points x0 to x3, x(0) + t (x(1) - x(0)), multiplied by `scale`.
 std::array<PolynomialVector, 4> moving_points(const Query& query, const Number& scale);
 
 }  // namespace nearmiss::exact

@@ -26,7 +26,7 @@ Polynomial Polynomial::derivative() const {
 
 namespace {
 
-/// Coefficient by coefficient, 0 behind the last one.
+/// Combines two polynomials coefficient by coefficient; missing coefficients are 0.
 template <class Combine>
 Polynomial by_coefficients(const Polynomial& p, const Polynomial& q, const Combine& combine) {
   static const Number zero = 0;
@@ -101,8 +101,8 @@ Division divide(const Polynomial& p, const Polynomial& q) {
 }
 
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
-  // Subresultants, but for their signs: what they can be divided by is known, and they stay as short as
-  // determinants of p's and q's coefficients are.
+  // Subresultants, except for their signs. Their known common factors are divided out, so they stay as short
+  // as determinants of the coefficients of p and q.
   std::vector<Polynomial> sequence{p, q};
   Number g = 1;
   Number h = 1;

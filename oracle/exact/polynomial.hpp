@@ -11,17 +11,17 @@ namespace nearmiss::exact {
 /// A binary floating-point number of any length: sums, differences and products are exact.
 using Number = CGAL::Mpzf;
 
-/// -1, 0 or 1.
+/// The sign of x: -1, 0 or 1.
 int sign(const Number& x);
 
-/// a_0 + a_1 t + ... + a_n t^n, with a_n not zero; no coefficient at all is the zero polynomial.
+/// a_0 + a_1 t + ... + a_n t^n, with a_n not zero; the zero polynomial has no coefficients.
 class Polynomial {
  public:
   Polynomial() = default;
   explicit Polynomial(std::vector<Number> coefficients);
 
   [[nodiscard]] bool is_zero() const { return a_.empty(); }
-  /// -1 for the zero polynomial.
+  /// The degree; -1 for the zero polynomial.
   [[nodiscard]] int degree() const { return static_cast<int>(a_.size()) - 1; }
   [[nodiscard]] const std::vector<Number>& coefficients() const { return a_; }
   [[nodiscard]] const Number& leading() const { return a_.back(); }
@@ -38,27 +38,29 @@ class Polynomial {
   std::vector<Number> a_;
 };
 
-/// Whether one is a constant times the other; neither is zero.
+/// Whether one polynomial is a constant times the other; neither may be zero.
 bool are_proportional(const Polynomial& p, const Polynomial& q);
 
-/// The quotient and the remainder of c p by q, q not zero, for c = |the leading coefficient of q|^steps.
+/// The quotient and the remainder of c p divided by q, for c = |leading coefficient of q|^steps; q must not
+/// be zero.
 struct Division {
   Polynomial quotient, remainder;
   int steps;
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
-/// p, q, and on from them: each is the negative remainder of the two before it, times something positive. The
-/// last one is their greatest common divisor. p's degree is not below q's, q is not zero.
+/// The remainder sequence p, q, ...: each further polynomial is the negative remainder of the two before it,
+/// times a positive factor. The last one is the greatest common divisor of p and q. The degree of p must not
+/// be below that of q, and q must not be zero.
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 
-/// A greatest common divisor, not both zero; its factor means nothing.
+/// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
 Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
-/// p, not zero, without its multiple factors.
+/// p, which must not be zero, without its multiple factors.
 Polynomial square_free(const Polynomial& p);
 
-/// How often the sign changes along the numbers, zeros left out.
+/// The number of sign changes along the numbers, with zeros left out.
 int sign_changes(const std::vector<Number>& numbers);
 
 }  // namespace nearmiss::exact

@@ -12,14 +12,14 @@
 namespace nearmiss::exact {
 
 /// The point x lies on the closed segment (a, b) iff every component of `cross` = (x - a) × (b - a) is zero
-/// and `dot` = (x - a) · (x - b) is not positive; also if a = b.
+/// and `dot` = (x - a) · (x - b) is not positive. This also holds if a = b.
 struct OnSegment {
   PolynomialVector cross;
   Polynomial dot;
 };
 
-/// The polynomials that decide a query (degree 3 for F, 2 for others), made when they are first asked for.
-/// The coordinates are the query's, times one power of two (`unit`).
+/// The polynomials that decide a query (degree 3 for F, 2 for the others), computed on first use. The
+/// coordinates are those of the query times a power of two (`unit`).
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
 ///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and they meet iff

@@ -11,10 +11,10 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// How well double knows where something is in an interval, if it is well conditioned.
+/// The relative accuracy with which double locates a well-conditioned place in an interval.
 constexpr double around = 0x1p-44;
 
-/// The numbers, not all zero, in double, times a power of two that brings the largest near 1.
+/// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
 std::vector<double> in_proportion(const std::vector<Number>& numbers) {
   std::vector<double> result;
   result.reserve(numbers.size());
@@ -29,8 +29,8 @@ std::vector<double> in_proportion(const std::vector<Number>& numbers) {
   return in_proportion(scaled);
 }
 
-// Below, a polynomial in double is by its Bernstein coefficients times binomial coefficients, c_i of s^i (1 -
-// s)^(n - i), as OnInterval has it.
+// The functions below represent a polynomial in double as OnInterval does: by the c_i of s^i (1 - s)^(n - i),
+// its Bernstein coefficients times binomial coefficients.
 
 std::vector<double> derivative(const std::vector<double>& c) {
   const std::size_t n = c.size() - 1;
@@ -59,8 +59,8 @@ double ratio(const Number& x, const Number& y) {
 /// lo + part (hi - lo).
 Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
 
-/// Guesses which number between two positive ones has the fewest bits: the higher one without those behind
-/// the first in which they differ, of 53. Else it is the higher one.
+/// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
+/// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
 double simplest_between(const Number& lower, const Number& higher) {
   const double lo = CGAL::to_double(lower);
   const double hi = CGAL::to_double(higher);
@@ -72,8 +72,8 @@ double simplest_between(const Number& lower, const Number& higher) {
   return std::ldexp(static_cast<double>(b & kept), unit);
 }
 
-/// How many real roots a polynomial without multiple ones has in (0, 1), by Sturm's theorem; it is not zero
-/// at 0 and 1.
+/// The number of real roots in (0, 1) of a polynomial without multiple roots, by Sturm's theorem; it must not
+/// be zero at 0 or 1.
 int count_roots_inside(const Polynomial& p) {
   const std::vector<Polynomial> chain = remainders(p, p.derivative());
   const auto changes_at = [&](const Number& t) {
@@ -84,17 +84,18 @@ int count_roots_inside(const Polynomial& p) {
   return changes_at(0) - changes_at(1);
 }
 
-/// The roots in (0, 1) of a polynomial that is not zero at 0 and 1, ascending; or one of them that was found as a
-/// number; or neither, if the search gave up.
+/// The roots in (0, 1) of a polynomial that is not zero at 0 or 1, in ascending order; or one root that was
+/// found as a number; or neither, if the search gave up.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
   bool found = true;
 };
 
-/// Cuts the interval until every part has at most one root, a simple one: in turn beside a guess of an
-/// extremum, which two close roots have between them, and in the middle. Gives up after `most_cuts` cuts. A known
-/// number of roots saves the search for roots that do not exist, such as a pair of close complex roots.
+/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near a
+/// guessed extremum, since two close roots have one between them, and in the middle. It gives up after
+/// `most_cuts` cuts. If the number of roots is known, it does not search for roots that do not exist, such as
+/// a pair of close complex roots.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
                  std::optional<std::size_t> missing) {
   struct Subinterval {
@@ -102,7 +103,7 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
     bool guess;
   };
   Isolated isolated;
-  std::vector<Subinterval> parts{{0, 1, true}};  // the lowest one last
+  std::vector<Subinterval> parts{{0, 1, true}};  // a stack with the lowest part on top
   for (int cuts = 0; !parts.empty() && missing != 0;) {
     const Subinterval part = std::move(parts.back());
     parts.pop_back();
@@ -173,7 +174,7 @@ double OnInterval::guess_extremum() const {
   const std::vector<double> slope = derivative(in_proportion(c_));
   const std::vector<double> bend = derivative(slope);
   double s = 0.5;
-  // Newton's method, which converges only linearly if two roots are close.
+  // Newton's method; it converges only linearly if two roots are close.
   for (int i = 0; i < 60; ++i) {
     const double value = value_at(slope, s);
     if (value == 0) break;
@@ -189,7 +190,7 @@ double OnInterval::guess_extremum() const {
 Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)
     : p_(std::move(p)), lo_(lo), hi_(hi), sign_at_lo_(p_->sign_at(lo)) {}
 
-/// Keeps the part that has the root, `at` in the interval.
+/// Cuts the interval at `at`, which must be inside, and keeps the part with the root.
 void Root::cut(const Number& at) {
   const int side = p_->sign_at(at);
   if (side == 0)
@@ -204,7 +205,7 @@ void Root::refine() {
   const Number lo = lo_;
   const Number width = hi_ - lo_;
   const OnInterval on(*p_, lo_, hi_);
-  // In a small interval p is nearly linear: steps along the chord give the root's digits, some at a time.
+  // In a small interval p is nearly linear, so each step along the chord gives some more digits of the root.
   Number guess = lo + Number(on.guess_root(sign_at_lo_)) * width;
   Number unit = width;
   Number magnifier = 1;
@@ -216,7 +217,7 @@ void Root::refine() {
   const Number radius = unit * Number(8 * around);
   const Number below = guess - radius;
   const Number above = guess + radius;
-  // Roots that are numbers of few bits are frequent, and signs at them are quick.
+  // Roots are often numbers of few bits, and signs at such numbers are fast to compute.
   for (const Number& at : {Number(simplest_between(below, above)), below, above})
     if (!is_number() && lo_ < at && at < hi_) cut(at);
   const bool found = hi_ - lo_ <= Number(2) * radius;
@@ -224,7 +225,8 @@ void Root::refine() {
   if (Number(2) * (hi_ - lo_) > width) cut(between(lo_, hi_, 0.5));
 }
 
-/// A divisor of p has a root where p's only one is, a simple one, if and only if its sign changes there.
+/// p has only one root here, and it is simple; a divisor of p has the same root if and only if its sign
+/// changes there.
 bool Root::is_root_of(const Polynomial& q) const {
   const Polynomial common = greatest_common_divisor(*p_, q);
   return common.degree() > 0 && common.sign_at(lo_) != common.sign_at(hi_);
@@ -233,7 +235,7 @@ bool Root::is_root_of(const Polynomial& q) const {
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
   if (!is_number() && are_proportional(*p_, q)) return 0;
-  constexpr int patience = 2;  // of a sign that is not zero, twice 44 bits nearly always tell
+  constexpr int patience = 2;  // two times 44 bits nearly always show a nonzero sign
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
@@ -254,7 +256,8 @@ std::optional<CGAL::Gmpq> Root::as_rational() {
   using CGAL::Gmpq;
   using CGAL::Gmpz;
   if (is_number()) return Gmpq(lo_);
-  // With coefficients times a power of two that makes them integers, the denominator divides the leading one.
+  // Once a power of two has made all coefficients integers, the denominator of a rational root divides the
+  // leading coefficient.
   Gmpz multiple = 1;
   for (const Number& a : p_->coefficients()) multiple = std::max(multiple, Gmpq(a).denominator());
   const Gmpz denominator = (Gmpq(p_->leading()) * Gmpq(multiple)).numerator();
@@ -276,7 +279,8 @@ std::optional<CGAL::Gmpq> Root::as_rational() {
 bool Root::is_same(const Root& other) const {
   if (other.is_number()) return is(other.lo_);
   if (is_number()) return other.is(lo_);
-  // Each polynomial has at most one root where both intervals are, and none at the ends of its own.
+  // Each polynomial has at most one root in the intersection of both intervals, and none at the ends of its
+  // own interval.
   const Number& lo = std::max(lo_, other.lo_);
   const Number& hi = std::min(hi_, other.hi_);
   if (hi <= lo) return false;
@@ -300,7 +304,7 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   };
   for (const Number& end : {Number(0), Number(1)})
     if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
-  // First with a few cuts; if these do not separate the roots, some may be multiple ones.
+  // Tries a few cuts first. If these do not separate the roots, some may be multiple roots.
   constexpr int few = 12;
   std::vector<Root> roots;
   for (bool is_simple = false; rest->degree() > 0;) {

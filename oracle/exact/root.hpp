@@ -13,50 +13,51 @@
 
 namespace nearmiss::exact {
 
-/// A polynomial on an interval by its Bernstein coefficients, times binomial coefficients. In the open
-/// interval there are as many roots as signs change along them, or fewer by an even number.
+/// A polynomial on an interval, given by its Bernstein coefficients times binomial coefficients. The number
+/// of roots in the open interval is the number of sign changes of these, or smaller by an even number.
 class OnInterval {
  public:
-  /// Not the zero polynomial.
+  /// p must not be the zero polynomial.
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
 
   [[nodiscard]] int changes() const { return sign_changes(c_); }
   /// The sign on the open interval, if the coefficients show it; else 0.
   [[nodiscard]] int only_sign() const;
 
-  /// The value at the upper end less that at the lower one.
+  /// The value at the upper end minus the value at the lower end.
   [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
 
-  /// Guesses where in [0, 1] of the interval the only root is, given the sign at the lower end.
+  /// Guesses where the only root is, as a fraction of the interval, given the sign at the lower end.
   [[nodiscard]] double guess_root(int sign_at_lo) const;
-  /// Guesses where in [0, 1] of the interval there may be an extremum.
+  /// Guesses where an extremum may be, as a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
 
  private:
   std::vector<Number> c_;
 };
 
-/// A real root of a polynomial: a number itself, or the only root in an open interval.
+/// A real root of a polynomial: either an explicit number, or the only root in an open interval.
 class Root {
  public:
   explicit Root(const Number& number) : lo_(number), hi_(number) {}
-  /// The only root of p in (lo, hi), a simple one; p is not zero at the ends.
+  /// The only root of p in (lo, hi), which must be simple; p must not be zero at the ends.
   Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi);
 
-  /// lo <= the root <= hi; equal if the root is that number, else the root is neither.
+  /// lo <= the root <= hi. They are equal if the root is an explicit number; else the root lies strictly
+  /// between them.
   [[nodiscard]] const Number& lo() const { return lo_; }
   [[nodiscard]] const Number& hi() const { return hi_; }
 
-  /// The sign of another polynomial at the root; makes the interval smaller if necessary.
+  /// The sign of another polynomial at the root; shrinks the interval if necessary.
   int sign_of(const Polynomial& q);
-  /// Makes the interval smaller, to half at least.
+  /// Shrinks the interval to at most half its width.
   void refine();
   /// Whether the root is this number.
   [[nodiscard]] bool is(const Number& number) const;
-  /// The root, if it is rational: looks for it as far as a fraction with the leading coefficient as
-  /// denominator.
+  /// The root if it is rational, and nothing otherwise. The search refines the interval until the leading
+  /// coefficient, as the denominator, leaves one candidate.
   std::optional<CGAL::Gmpq> as_rational();
-  /// Whether this root is smaller than the other one.
+  /// Whether this root is smaller than the other root.
   bool is_below(Root& other);
 
  private:
@@ -72,10 +73,10 @@ class Root {
   int chord_steps_ = 1;
 };
 
-/// The distinct real roots of p in [0, 1], p not zero, ascending.
+/// The distinct real roots of p in [0, 1], in ascending order; p must not be zero.
 std::vector<Root> roots_in_step(const Polynomial& p);
 
-/// Whether `holds(t)` for one of them, a Root& t.
+/// Whether holds(t) is true for one of these roots, passed as Root& t.
 template <class Holds>
 bool holds_at_a_root(const Polynomial& p, const Holds& holds) {
   auto roots = roots_in_step(p);

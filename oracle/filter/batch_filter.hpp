@@ -18,16 +18,16 @@
 
 namespace nearmiss::certified {
 
-/// Goes through the queries stage by stage, each time with those that are left side by side in n lanes:
-/// moving planes; F of one sign; then parts of the step, as ContactSearch does, but with fewer means: what is hard
-/// is left undecided. The results of a lane depend on its query alone, so n changes no answer.
+/// Processes the queries stage by stage, with the undecided ones side by side in n lanes: moving planes; F of
+/// one sign; then parts of the step. The last stage is a simpler version of ContactSearch, which leaves
+/// difficult queries undecided. The results of a lane depend only on its query, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
   explicit BatchFilter(double caution) : caution_(caution) {}
 
-  /// Looks at those of the queries that are of its kind, at most batch_size; decides stages[i], which was
-  /// `undecided`, or leaves it so.
+  /// Processes those of the at most batch_size queries that are of its kind. It sets stages[i] if it decides
+  /// query i, and leaves it `undecided` otherwise.
   void run(const Query* queries, std::size_t count, FilterStage* stages, const Query* ahead) {
     queries_ = queries;
     ahead_ = ahead;
@@ -44,11 +44,11 @@ class BatchFilter {
   using Column = std::array<double, batch_size + n>;
   static constexpr std::size_t weight_count = kind == Kind::vertex_triangle ? 3 : 4;
 
-  /// Numbers of queries, taken n at a time.
+  /// A list of indices of queries, taken n at a time.
   class Rows {
    public:
     Rows() = default;
-    /// Those of the first `count` rows for which `wanted` holds.
+    /// Selects those of the first `count` rows for which `wanted` holds.
     template <class Wanted>
     Rows(std::size_t count, const Wanted& wanted) {
       std::size_t size = 0;
@@ -59,14 +59,14 @@ class BatchFilter {
       size_ = size;
     }
     void add(std::size_t row) { add_if(true, row); }
-    /// Without a branch, which no processor could predict.
+    /// Adds a row if it is wanted, without a branch, which would be unpredictable.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
     }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t operator[](std::size_t i) const { return rows_[i]; }
-    /// Rows first .. first + n - 1; behind the last one there are others, whose lanes mean nothing.
+    /// Rows first .. first + n - 1. Rows after the last one are arbitrary, and their lanes are ignored.
     [[nodiscard]] const std::uint8_t* pack(std::size_t first) const { return rows_.data() + first; }
 
    private:
@@ -74,7 +74,7 @@ class BatchFilter {
     std::size_t size_ = 0;
   };
 
-  /// Numbers of lanes as an array: `visit(lane, number)`.
+  /// Calls `visit(lane, number)` for each of the first `count` lanes.
   template <class Visit>
   static void for_lanes(const typename Real::IntegerLanes& bits, std::size_t count, const Visit& visit) {
     std::array<std::int64_t, n> numbers;
@@ -99,7 +99,7 @@ class BatchFilter {
     return points;
   }
 
-  /// Fetches a query into the nearest cache, line by line.
+  /// Prefetches a query into the nearest cache, line by line.
   static void fetch(const Query& query) {
     const auto* const bytes = reinterpret_cast<const char*>(&query);
     for (std::size_t line = 0; line < sizeof(Query); line += 64) __builtin_prefetch(bytes + line);
@@ -112,7 +112,8 @@ class BatchFilter {
       for (std::size_t l = 0; l < n; ++l) fetch(ahead_[rows[i + l]]);
       const PointLanes x = points(rows.pack(i));
       const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
-      // Four sums at a time, since additions wait for each other; the total is finite only if all coordinates are.
+      // Computes four sums at a time, since each addition depends on the one before. The total is finite only
+      // if all coordinates are.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
@@ -154,7 +155,7 @@ class BatchFilter {
     return left;
   }
 
-  /// Keeps the weights in the component in which the normal is largest at t = 1/2.
+  /// Stores the weights in the component in which the normal is largest at t = 1/2.
   void prepare_weights(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       const StepPart<Real> whole = whole_step<Real>(points(rows.pack(i)));
@@ -171,7 +172,8 @@ class BatchFilter {
             abs(kind == Kind::vertex_triangle ? cross_component(x21, x31, k) : cross_component(a, x32, k));
       const Mask first = !(normal[0] < max(normal[1], normal[2]));
       const Mask second = !(normal[1] < normal[2]);
-      // Component k is brought to the place of component 0, the other two behind it: only they are needed.
+      // Moves component k to the place of component 0, and the other two, which are the only ones needed,
+      // behind it.
       const auto choose = [&](const Vec<Real>& v) {
         return Vec<Real>{Real(0), select(first, v[1], select(second, v[2], v[0])),
                          select(first, v[2], select(second, v[0], v[1]))};
@@ -191,7 +193,7 @@ class BatchFilter {
   using Quadratics = std::array<Bernstein<Real, 3>, weight_count>;
   using Look = certified::Look<n>;
 
-  /// F and the weights of some queries, given how to take n numbers from a column.
+  /// F and the weights of some queries; `take` reads n numbers from a column.
   template <class Take>
   std::pair<Bernstein<Real, 4>, Quadratics> polynomials(const Take& take) const {
     const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
@@ -201,19 +203,20 @@ class BatchFilter {
     return {F, weights};
   }
 
-  /// A part of the step of a query; its place is that in the list of the queries that are searched.
+  /// A part of a query's step; `place` is the query's index in the list of searched queries.
   struct PendingPart {
     double lo, hi;
     std::uint8_t place;
     std::uint8_t depth;
   };
-  /// Parts that are still to be looked at.
+  /// Parts that still have to be examined.
   struct PendingParts {
     static constexpr std::size_t room = 4 * batch_size;
     std::array<PendingPart, room + n> parts;
     std::size_t count = 0;
 
-    /// Adds the part [lo, hi] of `whole`, if it is not empty; false if there is no room or it is too small.
+    /// Adds the part [lo, hi] of `whole` if it is not empty; false if there is no room or the part is too
+    /// small.
     bool push(const PendingPart& whole, double lo, double hi) {
       constexpr std::uint8_t deepest = 8;
       if (whole.depth == deepest || count == room) return false;
@@ -222,7 +225,7 @@ class BatchFilter {
     }
   };
 
-  /// Looks at the whole step of every query, then at the parts that are left, until none are.
+  /// Examines the whole step of every query, then the remaining parts until none remains.
   void search(const Rows& rows, FilterStage* stages) const {
     PendingParts parts;
     PendingParts next;
@@ -259,7 +262,7 @@ class BatchFilter {
     }
   }
 
-  /// Sets the stages by what was seen in a pack of parts, and adds what has to be looked at next.
+  /// Sets the stages from the results for a pack of parts, and adds the parts to examine next.
   template <class PartOfLane>
   static void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
                         FilterStage* stages, PendingParts& next) {
@@ -283,12 +286,12 @@ class BatchFilter {
     });
   }
 
-  double caution_;  ///< at least 1, the factor of all bounds
+  double caution_;  ///< factor of all bounds, at least 1
   const Query* queries_ = nullptr;
   const Query* ahead_ = nullptr;
-  // By place in the list of the queries that are searched; a pack of lanes may reach beyond its end.
+  // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
   std::array<Column, 5> F_;                 ///< Bernstein coefficients and error
-  std::array<Column, 4 * weight_count> W_;  ///< likewise, weight by weight
+  std::array<Column, 4 * weight_count> W_;  ///< the same for each weight
 };
 
 template <int n>

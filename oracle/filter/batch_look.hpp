@@ -1,4 +1,4 @@
-// The look at a part of the step, for many queries at once.
+// Examines a part of the step for many queries at once.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace nearmiss::certified {
 
-/// The lanes in which something is certainly positive, and in which it is certainly negative.
+/// The lanes in which a value is certainly positive, and those in which it is certainly negative.
 template <int n>
 struct Signs {
   typename Lanes<n>::Mask positive, negative;
 };
 
-/// The lanes in which all numbers certainly have that sign.
+/// The lanes in which all numbers are certainly positive, and those in which all are certainly negative.
 template <int n, std::size_t count>
 Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n>& error) {
   Signs<n> signs{numbers[0] > error, numbers[0] < -error};
@@ -28,13 +28,14 @@ Signs<n> certain_signs(const std::array<Lanes<n>, count>& numbers, const Lanes<n
   return signs;
 }
 
-/// The lanes in which all weights certainly have one sign, and in which two of them have opposite signs.
+/// The lanes in which all weights certainly have one sign, and those in which two weights certainly have
+/// opposite signs.
 template <int n>
 struct WeightSigns {
   typename Lanes<n>::Mask agree, opposed;
 };
 
-/// The same for some weights, given a function for the signs of one weight.
+/// Determines these for some weights with a function that gives the signs of one weight.
 template <int n, std::size_t count, class SignsOf>
 WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                             const SignsOf& signs_of) {
@@ -49,7 +50,7 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// The outcome for a part of the step, and which parts of it have to be looked at next: [lo, left], [left,
+/// The outcome for a part of the step, and which of its parts must be examined next: [lo, left], [left,
 /// right] and [right, hi].
 template <int n>
 struct Look {
@@ -58,7 +59,7 @@ struct Look {
   Lanes<n> left, right;
 };
 
-/// The lanes in which the sign of F is known at both ends of a part, and in which it differs.
+/// The lanes in which the signs of F at both ends of a part are known, and those in which they differ.
 template <int n>
 struct EndSigns {
   typename Lanes<n>::Mask rises, changes, known;
@@ -72,13 +73,14 @@ struct EndSigns {
   }
 };
 
-/// A guess of F's root in [lo, hi], t, and [before, behind] around it, within h of t.
+/// An estimate t of F's root in [lo, hi], and the bracket [before, behind] around it, within h of t.
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;
-  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes its sign in it
+  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes sign in it
 
-  /// By Newton's method from the secant's root, given F's Bernstein coefficients f on [lo, hi].
+  /// Finds the root by Newton's method from the root of the secant; f has the Bernstein coefficients of F on
+  /// [lo, hi].
   RootBracket(const Bernstein<Lanes<n>, 4>& F, const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends,
               const Lanes<n>& lo, const Lanes<n>& hi) {
     using Real = Lanes<n>;
@@ -100,7 +102,8 @@ struct RootBracket {
   }
 };
 
-/// About where F has an extremum in [lo, hi], which divides a part in which F keeps its sign; else the middle.
+/// Where to divide a part: near an extremum of F in [lo, hi] if F has one sign at both ends, else in the
+/// middle.
 template <int n>
 Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,
                   const Lanes<n>& hi) {

@@ -1,4 +1,4 @@
-// The exact axis-box test in front of everything else.
+// The exact test of axis-aligned boxes, which comes first.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,9 @@
 
 namespace nearmiss {
 
-/// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] meet. Closed boxes, and only
-/// comparisons of input coordinates: exact. If they do not meet, there is no collision.
+/// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] meet. The boxes are closed, and
+/// the test is exact because it only compares input coordinates. If the boxes do not meet, there is no
+/// collision.
 inline bool boxes_meet(const Query& query) {
   const auto range = [&](int first, int last, int k) {
     double lo = query.x[static_cast<std::size_t>(3 * first + k)];

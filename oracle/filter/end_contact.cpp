@@ -11,7 +11,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 
-/// The signs of twice the area of three points, seen along axis k.
+/// The sign of the area of three points, projected along axis k.
 int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
   const auto see = [&](int n) {
     const Point& p = x[static_cast<std::size_t>(n)];
@@ -20,7 +20,7 @@ int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
   return CGAL::orientation(see(i), see(j), see(l));
 }
 
-/// Whether two signs allow a point between: not opposite.
+/// Whether two signs are not opposite.
 bool agree(int first, int second) { return first * second >= 0; }
 
 }  // namespace
@@ -39,7 +39,7 @@ bool touch_at_end(const Query& query, int time) {
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&
              agree(side, orientation(x, 1, 2, 0, k));
     }
-    // Edges that are not parallel meet if each has its ends on both sides of the other's line.
+    // Edges that are not parallel meet if each edge has its ends on both sides of the line of the other.
     const int of_0 = orientation(x, 2, 3, 0, k);
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);

@@ -5,8 +5,8 @@
 
 namespace nearmiss::certified {
 
-/// Whether the primitives of a query certainly touch at t = `time`, 0 or 1: exact if the triangle, or both edges
-/// together, have an area; false if they have none.
+/// Whether the primitives of a query certainly touch at t = `time`, which is 0 or 1. The answer is exact if
+/// the triangle has an area, or if the two edges span one; otherwise it is false.
 bool touch_at_end(const Query& query, int time);
 
 }  // namespace nearmiss::certified

@@ -1,4 +1,4 @@
-// The certified filter in front of exact arithmetic: double arithmetic that never answers wrongly.
+// The certified filter that precedes exact arithmetic: double arithmetic that never gives a wrong answer.
 #pragma once
 
 #include <array>
@@ -23,33 +23,33 @@ enum class FilterStage : std::uint8_t {
 
 inline constexpr std::size_t filter_stage_count = 7;
 
-/// Names of the stages, in order, as they stand in files and reports.
+/// Names of the stages, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, filter_stage_count> filter_stage_names{
     "boxes", "planes", "one-sign", "weights", "sign-change", "at-an-end", "undecided"};
 
-/// Whether a stage means a collision; not for `undecided`.
+/// Whether a stage means a collision; the stage must not be `undecided`.
 constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
 }
 
-/// Decides a query, without the box test, in double arithmetic with certified bounds, or leaves it undecided. A query
-/// with a coordinate that is not finite is undecided.
+/// Decides a query in double arithmetic with certified bounds, or leaves it undecided; it does not include
+/// the box test. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
 
-/// Instruction sets of x86-64 processors by which many queries can be decided at once.
+/// The x86-64 instruction sets that can decide many queries at once.
 enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
 
-/// Whether this machine has them.
+/// Whether this machine has the instruction set.
 bool has(Instructions instructions);
-/// The widest ones that this machine has.
+/// The widest instruction set that this machine has.
 Instructions widest_instructions();
 
-/// Decides many queries, of both kinds; the same answers whatever the instructions.
+/// Decides many queries of both kinds. The instruction set does not affect the answers.
 void filter(std::span<const Query> queries, std::span<FilterStage> stages,
             Instructions instructions = widest_instructions());
 
-/// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic alone: the queries that it
-/// decides are not near their bounds.
+/// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries
+/// that it decides are not near their bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

@@ -8,16 +8,17 @@
 
 namespace nearmiss::certified {
 
-/// Number of queries per batch: the intermediate results of a batch stay in the nearest cache.
+/// Number of queries per batch. The intermediate results of a batch fit into the nearest cache.
 inline constexpr std::size_t batch_size = 128;
 
-/// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them `undecided`.
-/// All instruction sets give the same stages. Meanwhile `count` queries at `ahead` are fetched from memory.
+/// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them
+/// `undecided`. All instruction sets give the same stages. At the same time, `count` queries at `ahead` are
+/// prefetched.
 using FilterBatch = void(const Query* queries, std::size_t count, double caution, FilterStage* stages,
                          const Query* ahead);
 
 FilterBatch filter_with_sse2;
-FilterBatch filter_with_avx2;    ///< only where has(Instructions::avx2)
-FilterBatch filter_with_avx512;  ///< only where has(Instructions::avx512)
+FilterBatch filter_with_avx2;    ///< requires has(Instructions::avx2)
+FilterBatch filter_with_avx512;  ///< requires has(Instructions::avx512)
 
 }  // namespace nearmiss::certified

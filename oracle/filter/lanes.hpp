@@ -12,8 +12,9 @@
 
 namespace nearmiss::certified {
 
-/// n doubles; every operation does in each lane what it does to a double. The compiler's own vectors: with n
-/// = 2, 4, 8 they are SSE2, AVX and AVX-512 registers if the function that uses them is compiled for these.
+/// n doubles; every operation acts on each lane as on a double. They are the compiler's vector types: for n =
+/// 2, 4, 8 these are SSE2, AVX and AVX-512 registers if the function that uses them is compiled for that
+/// instruction set.
 template <int n>
 struct Lanes {
   using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
@@ -77,7 +78,7 @@ struct Lanes {
   static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
 
  private:
-  /// Exchanges the squares of s × s numbers beside the diagonal, then the smaller ones in all squares.
+  /// Exchanges the off-diagonal blocks of s × s numbers, then recursively the smaller ones within all blocks.
   template <int s>
   static void transpose(Lanes* rows) {
     for (int i = 0; i < n; ++i)

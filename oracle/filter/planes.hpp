@@ -1,4 +1,4 @@
-// Moving planes across the axes and the diagonals, by comparisons alone.
+// Separation by moving planes across the axes and the diagonals, which only needs comparisons.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// The range of some numbers; Real is a double, or a double for each of many lanes.
+/// The range of some numbers; Real is a double, or one double per lane.
 template <class Real>
 struct HeightRange {
   Real lo, hi;
@@ -17,7 +17,7 @@ struct HeightRange {
   HeightRange(const Real& x, const Real& y) : lo(lesser(x, y)), hi(greater(x, y)) {}
   HeightRange(const HeightRange& a, const Real& x) : lo(lesser(a.lo, x)), hi(greater(a.hi, x)) {}
 
-  /// Certainly above all of the other one; NaN is above nothing.
+  /// Whether this range is certainly above the other one; NaN is never above.
   [[nodiscard]] auto is_above(const HeightRange& other) const { return lo > other.hi; }
 
  private:
@@ -31,10 +31,10 @@ struct HeightRange {
   }
 };
 
-/// Whether the first primitive is above the second one in some direction at both ends of the step, or below it
-/// at both, given `height(time, vertex)` in that direction. All differences of heights between the primitives
-/// then have one sign at both ends and, being linear, at every time; so do their convex combinations, and the
-/// primitives never meet.
+/// Whether the first primitive is above the second one at both ends of the step, or below it at both, for the
+/// heights `height(time, vertex)` in some direction. If so, all differences of heights between the primitives
+/// have one sign at both ends and, because they are linear, at every time. Their convex combinations do too,
+/// so the primitives never meet.
 template <Kind kind, class Height>
 [[gnu::always_inline]] inline auto is_separated(const Height& height) {
   using Real = decltype(height(0, 0));
@@ -58,9 +58,9 @@ template <Kind kind, class Height>
   return (a0.is_above(b0) & a1.is_above(b1)) | (b0.is_above(a0) & b1.is_above(a1));
 }
 
-/// Whether a plane across an axis separates the primitives throughout the step, given finite points
-/// `x(time, vertex, k)`: then they do not collide. Heights along an axis are coordinates, and their comparisons
-/// exact.
+/// Whether a plane across an axis separates the primitives throughout the step, so that they do not collide.
+/// The points `x(time, vertex, k)` must be finite. Heights along an axis are coordinates, so comparing them
+/// is exact.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_axes(const Points& x) {
   const auto axis = [&](std::size_t k) {
@@ -70,8 +70,9 @@ template <Kind kind, class Points>
 }
 
 /// The same for the diagonals x ± y, y ± z, z ± x. Their heights are sums or differences of two coordinates,
-/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, at every size: an overflowing sum is
-/// infinite, hence above every finite one as the exact sum is, and not above another infinite one of its sign.
+/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An
+/// overflowing sum is infinite; it is above every finite sum, as the exact sum is, and not above another
+/// infinite sum of its sign.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x) {
   const auto both = [&](std::size_t k, std::size_t l) {

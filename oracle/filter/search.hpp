@@ -1,4 +1,4 @@
-// The search for the zeros of F in a part of the step, and for what the weights are there.
+// The search for the zeros of F in a part of the step, and for the signs of the weights there.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,17 @@
 
 namespace nearmiss::certified {
 
-/// A part of a part of the step is widened by this on both sides.
+/// A subinterval that becomes a part of its own is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
 struct TimeInterval {
   double lo, hi;
 };
 
-/// Goes through a part of the step. An interval is dropped if F has one sign or two weights are opposed on it, and
-/// split if that helps, until all are dropped, one holds a collision, or one is unclear. An unclear interval is
-/// looked at again as a part of its own, whose vectors, and so their errors, are smaller.
+/// Searches a part of the step. It drops an interval if F has one sign or two weights have opposite signs on
+/// it, and splits an interval if that helps. It ends when all intervals are dropped, one contains a
+/// collision, or one is unclear. An unclear interval is searched again as a part of its own, in which the
+/// vectors and hence their errors are smaller.
 template <class Real>
 class ContactSearch {
  public:
@@ -29,7 +30,7 @@ class ContactSearch {
                 const Bernstein<Real, 4>& F, int depth)
       : kind_(kind), whole_(whole), part_(part), F_(F), depth_(depth) {}
 
-  /// weights (no collision in this part), sign_change (one), or undecided.
+  /// Returns `weights` (no collision in this part), `sign_change` (a collision), or `undecided`.
   FilterStage run() {
     if (!(F_.error < HUGE_VAL)) return FilterStage::undecided;  // overflow
     push({0, 1});
@@ -44,7 +45,7 @@ class ContactSearch {
  private:
   // Each of these returns `weights` if the search can go on.
 
-  FilterStage look(TimeInterval interval) {  // by value: its place is taken by others
+  FilterStage look(TimeInterval interval) {  // by value, since other intervals take its place
     const auto [lo, hi] = interval;
     const auto exact_f = F_.on(lo, hi);
     if (common_sign(exact_f, F_.error) != 0) return FilterStage::weights;
@@ -77,10 +78,10 @@ class ContactSearch {
     return go_on_beside(interval, {split, split});
   }
 
-  /// F from the other end of an interval.
+  /// The Bernstein coefficients of F as seen from the other end of an interval.
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
-  /// The part of an interval behind which F is clear of its error, about, whatever makes it rise.
+  /// About the fraction of an interval after which F is clear of its error, whichever term makes it rise.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
@@ -89,8 +90,9 @@ class ContactSearch {
     return part < 0.25 ? part : 0.5;
   }
 
-  /// About where F has an extremum in an interval, else the middle, given its Bernstein coefficients. If the extremum
-  /// is at an end to double precision, a place near that end.
+  /// About the time at which F, given by its Bernstein coefficients, has an extremum in an interval; the
+  /// middle if it has none. If the extremum is at an end to double precision, the result is a time near that
+  /// end.
   [[nodiscard]] static double turn(const TimeInterval& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -100,10 +102,10 @@ class ContactSearch {
     return at <= lo ? lo + near * (hi - lo) : at >= hi ? hi - near * (hi - lo) : at;
   }
 
-  /// F certainly changes its sign in the interval.
+  /// Examines an interval in which F certainly changes its sign.
   FilterStage look_around(const TimeInterval& interval, const std::array<double, 4>& f,
                           const Weights<Real>& weights) {
-    // The root as seen from the end where F is smaller: as precise as F is there.
+    // The root is computed from the end at which |F| is smaller, so it is as precise as F is there.
     const double f_lo = f[0];
     const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
     const auto seen = from_lo ? f : backwards(f);
@@ -127,7 +129,7 @@ class ContactSearch {
     return zoom(interval);
   }
 
-  /// The widest of some intervals around a root in which the weights are certainly opposed, as they are in
+  /// The widest of some intervals around a root in which two weights certainly have opposite signs, as in
   /// `near`.
   TimeInterval widest_opposed(const TimeInterval& interval, double root, const TimeInterval& near,
                               const Weights<Real>& weights) const {
@@ -147,20 +149,20 @@ class ContactSearch {
     return *weights_;
   }
 
-  /// Goes on with what is left of an interval without its middle.
+  /// Continues with the two parts of an interval on both sides of its middle.
   FilterStage go_on_beside(const TimeInterval& interval, const TimeInterval& middle) {
     if (interval.lo < middle.lo && !push({interval.lo, middle.lo})) return FilterStage::undecided;
     if (middle.hi < interval.hi && !push({middle.hi, interval.hi})) return FilterStage::undecided;
     return FilterStage::weights;
   }
 
-  /// The interval as a part of its own, if that is much smaller than this one.
+  /// Searches the interval as a part of its own, if that is much smaller than this part.
   FilterStage zoom(const TimeInterval& interval) const {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
     if (depth_ == deepest || interval.hi - interval.lo > 0.5) return FilterStage::undecided;
-    // Rounded outward by more than the four roundings of numbers up to 1: what is looked at beyond is in the
-    // step.
+    // Rounds outward by more than the error of four roundings of numbers up to 1. The additional range is
+    // still inside the step.
     const double length = part_.end - part_.begin;
     const double begin = std::max(part_.begin, part_.begin + interval.lo * length - zoom_rounding);
     const double end = std::min(part_.end, part_.begin + interval.hi * length + zoom_rounding);
@@ -176,7 +178,7 @@ class ContactSearch {
     return true;
   }
 
-  static constexpr double clear = 8;  ///< F is clear of its error at this many times the error
+  static constexpr double clear = 8;  ///< F counts as clear of its error from this multiple of the error on
 
   Kind kind_;
   const StepPart<Real>& whole_;

@@ -1,4 +1,4 @@
-// A query over a part of the step: F and the weights as polynomials with certified errors.
+// A query over a part of the step: F and the weights as polynomials with certified error bounds.
 #pragma once
 
 #include <algorithm>
@@ -17,56 +17,59 @@
 // At F = 0 the primitives meet only if, in every component, these agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
 //   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, from x20 = α x10 - β x32.
-// For a meeting point makes each weight a number in [0, 1], and each W that number times N, N = 0 included.
-// So two of them with certainly opposite signs exclude a collision. If in one component all are certainly of
-// one sign, N is not zero there, and F = 0 is a collision: where F certainly changes its sign there is one.
+// The reason is that at a meeting point each weight is a number in [0, 1], and each W is that number times N,
+// even for N = 0. So two W with certainly opposite signs exclude a collision. If all W certainly have the
+// same sign in one component, N is not zero there, and F = 0 means a collision; so there is one if F
+// certainly changes its sign.
 //
 // Rounding errors, in units of U, the error of one operation (`roundoff`); (1 + U)^k - 1 <= 1.01 k U. A
-// vector v comes with V, the largest magnitudes of its components as computed, and e_v, bounds of their
-// errors. tests/proofs/ derives each constant below again from this code, has Gappa prove it, and shows how
-// near to it an error can come.
+// vector v comes with V, the largest magnitudes of its computed components, and e_v, bounds of their errors.
+// tests/proofs/ derives each constant below again from this code, proves it with Gappa, and shows how near an
+// error can come to it.
 //
-// - A product x y of two components misses by at most X e_y + Y e_x + e_x e_y because of its factors.
+// - The errors of its factors change a product x y of two components by at most X e_y + Y e_x + e_x e_y.
 //
-// - W_k is made of at most four products: the middle Bernstein coefficient is half the sum of two differences
-//   of two. Let w be the sum of the magnitudes of two, l that of their factors' misses. Rounding: product,
-//   difference, sum: 3 U w; halving is exact. A level of de Casteljau: s = 1 - t, product, sum: 3, and s + t
-//   = 1 with both in [0, 1] keeps the result within the coefficients; two levels: 6.1 U (w + l). Together at
-//   most 9.2 U w + (1 + 6.1 U) l (8 are proven, since t itself is exact); taken: 10 U w + 1.01 l.
+// - W_k consists of at most four products: the middle Bernstein coefficient is half the sum of two
+//   differences of two products. Let w be the sum of the magnitudes of two products, and l the sum of the
+//   errors from their factors. The roundings of product, difference and sum add 3 U w; halving is exact. One
+//   level of de Casteljau's algorithm adds 3 roundings (s = 1 - t, product, sum), and its result stays within
+//   the range of the coefficients, because s + t = 1 with both in [0, 1]. Two levels add 6.1 U (w + l). The
+//   sum is at most 9.2 U w + (1 + 6.1 U) l (8 is proven, since t itself is exact). The code uses 10 U w +
+//   1.01 l.
 //
-// - F is made of such sums, without the halving, and a third vector a. Misses of the factors:
-//   L = Σ (A_k l_k + e_a (w_k + l_k)). Rounding: 3 in the sums, product 1, two additions 2, the sum of two
-//   dot products 1, a division by 3 (in double words a product with a rounded 1/3) 2: 9 U M with M = Σ A_k
-//   w_k. Three levels of de Casteljau: 9.1 U (M + L). Together at most 18.3 U M + (1 + 9.1 U) L (16 are proven, 17
-//   in double words); taken: 20 U M + 1.01 L.
+// - F consists of such sums, without the halving, and a third vector a. The errors from the factors are L = Σ
+//   (A_k l_k + e_a (w_k + l_k)). The roundings are 3 in the sums, 1 in the product, 2 in two additions, 1 in
+//   the sum of two dot products, and 2 in a division by 3 (in double words, a product with a rounded 1/3).
+//   They add 9 U M with M = Σ A_k w_k. Three levels of de Casteljau's algorithm add 9.1 U (M + L). The sum is
+//   at most 18.3 U M + (1 + 9.1 U) L (16 is proven, and 17 in double words). The code uses 20 U M + 1.01 L.
 //
-// - w, l, M and L are computed in double and may be too small by 12 · 2^-53 of themselves: far less than what
-//   is taken too much.
+// - w, l, M and L are computed in double and may be too small by a relative 12 · 2^-53. This is far less than
+//   the margin above.
 //
-// - Underflow: a product misses by at most H more, `product_underflow` of the smallest double; halving and
-//   dividing by 3 too; sums are exact down there. W: 2 H or, in the middle, 3 H, and 2 H for each of two
-//   levels: 7 H. The bound's own products, with those of `error_near`, may lose 11 H. F: the products of b and c
-//   2 H Σ A_k, all others 9 H; L loses less than 10 H Σ (A_k + e_k), the rest of the bound 10 H. Taken: 32 H,
-//   and 32 H (1 + Σ (A_k + e_k)).
+// - Underflow adds at most H, `product_underflow` times the smallest double, to the error of a product, a
+//   halving or a division by 3; sums are exact in that range. For W it adds 2 H or, in the middle, 3 H, and 2
+//   H for each of two levels: 7 H. The products in the bound itself, with those of `error_near`, may lose 11
+//   H. For F, the products of b and c add 2 H Σ A_k, and all others add 9 H; L loses less than 10 H Σ (A_k +
+//   e_k), and the rest of the bound 10 H. The code uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
 //
-// - Overflow: sums of products are at most 2 w in W, and 3 M in F, but for rounding. The bounds are computed
-//   from 4 w and 4 M (`headroom`): if anything overflows on the way to a coefficient, or in what `Bernstein`
-//   makes of it, then these are infinite or NaN, and so is the error, which no comparison with it survives.
-//   (Differences of coordinates that overflow have infinite magnitudes. In double words a coefficient may be
-//   NaN before that.)
+// - Overflow: sums of products are at most 2 w in W and 3 M in F, up to rounding. The bounds are computed
+//   from 4 w and 4 M (`headroom`). If anything overflows in a coefficient or in the results of `Bernstein`,
+//   these are infinite or NaN. The error bound is then infinite or NaN too, and every comparison with it
+//   fails. (Differences of coordinates that overflow have infinite magnitudes. In double words a coefficient
+//   may be NaN earlier.)
 
 namespace nearmiss::certified {
 
-inline constexpr double weight_rounding = 10;     ///< of U w
-inline constexpr double F_rounding = 20;          ///< of U M
-inline constexpr double two_leaves = 2.01;        ///< of U w, in l: both factors rounded once
-inline constexpr double three_leaves = 3.02;      ///< of U M, in L: all three
-inline constexpr double leaf_growth = 1.01;       ///< of l and L: what later roundings make of them
-inline constexpr double part_rounding = 4;        ///< of U V: a vector on a part of the step
-inline constexpr double underflow_products = 32;  ///< of H
+inline constexpr double weight_rounding = 10;     ///< rounding of W, in units of U w
+inline constexpr double F_rounding = 20;          ///< rounding of F, in units of U M
+inline constexpr double two_leaves = 2.01;        ///< l in units of U w, if both factors are rounded once
+inline constexpr double three_leaves = 3.02;      ///< L in units of U M, if all three factors are
+inline constexpr double leaf_growth = 1.01;       ///< factor by which later roundings increase l and L
+inline constexpr double part_rounding = 4;        ///< a vector on a part of the step, in units of U V
+inline constexpr double underflow_products = 32;  ///< underflow, in units of H
 inline constexpr double headroom = 4;
 
-/// The term of a bound for underflow.
+/// The underflow term of a bound.
 template <class Real>
 inline constexpr double underflow = smallest*(underflow_products* product_underflow<Real>);
 
@@ -74,9 +77,9 @@ inline constexpr double underflow = smallest*(underflow_products* product_underf
 template <class Real>
 struct Motion {
   Vec<Real> start, end;
-  Vec<Bound<Real>> magnitude;  ///< largest, by component, of both ends
-  bool rounded_once;  ///< every component is within a factor of 1 ± U of exact: then `error` is not given
-  Vec<Bound<Real>> error;  ///< of both ends, by component
+  Vec<Bound<Real>> magnitude;  ///< the larger magnitude of both ends, for each component
+  bool rounded_once;           ///< every component is exact up to a factor of 1 ± U; then `error` is not set
+  Vec<Bound<Real>> error;      ///< bound for both ends, for each component
 };
 
 template <class Real>
@@ -88,7 +91,8 @@ Vec<Bound<Real>> larger_magnitude(const Vec<Real>& v, const Vec<Real>& w) {
   return m;
 }
 
-/// x_i - x_j over the whole step, given `x(time, vertex, k)`: exact as double words, else rounded once.
+/// x_i - x_j over the whole step, from the points `x(time, vertex, k)`. It is exact in double words, and
+/// rounded once otherwise.
 template <class Real, class Points>
 Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   constexpr bool is_exact = std::is_same_v<Real, DoubleWord>;
@@ -109,7 +113,7 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over [lo, hi] of its part of the step: 1 - t, products, sum: 3 roundings.
+/// The motion over [lo, hi] of its part of the step. It has 3 roundings: 1 - t, products, sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
@@ -132,8 +136,8 @@ Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bou
   return part;
 }
 
-/// `headroom` times the sum of the magnitudes of both products in component k of p × q, and what their
-/// factors' errors add to it.
+/// `headroom` times the sum of the magnitudes of both products in component k of p × q, and the error that
+/// comes from their factors.
 template <class Real>
 struct CrossBound {
   Bound<Real> w4, l;
@@ -202,7 +206,7 @@ template <class Real>
 struct StepPart {
   double begin, end;
   Motion<Real> a, b, c;   ///< x1 - x0, x2 - x0, x3 - x0
-  Motion<Real> x21, x31;  ///< x2 - x1 and x3 - x1, for the weight that has neither x0 (edge-edge)
+  Motion<Real> x21, x31;  ///< x2 - x1 and x3 - x1, for the weight that does not depend on x0 (edge-edge)
 };
 
 template <class Real, class Points>
@@ -217,7 +221,7 @@ StepPart<Real> part_of(const StepPart<Real>& whole, double begin, double end) {
   return {begin, end, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
 }
 
-/// The weights' quadratics in one component, with the signs in which they agree at a collision.
+/// One component of the weights' quadratics, with signs chosen so that they agree at a collision.
 template <class Real>
 struct Weights {
   std::array<Bernstein<Real, 3>, 4> w;
@@ -235,7 +239,7 @@ struct Weights {
     }
   }
 
-  /// 1 if all certainly have one sign on [lo, hi], -1 if two certainly have opposite signs, else 0.
+  /// 1 if all weights certainly have one sign on [lo, hi], -1 if two certainly have opposite signs, else 0.
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
@@ -261,7 +265,7 @@ struct Weights {
   }
 };
 
-/// The component in which the normal is largest near a time: a guess.
+/// A guess of the component in which the normal is largest near a time.
 template <class Real>
 std::size_t largest_component(Kind kind, const StepPart<Real>& p, double t) {
   const auto near = [&](const Motion<Real>& m) {

@@ -29,7 +29,7 @@ Gmpz determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVe
 
 // --- directions -------------------------------------------------------------------------------------------
 
-/// A direction of the ray: given, or infinitesimally perturbed: (1, ε, ε²).
+/// A direction of the ray: a given vector, or the infinitesimally perturbed (1, ε, ε²).
 using RayDirection = std::optional<IntegerVector>;
 
 /// The sign of n · d. For the perturbed direction it is that of n's first component that is not zero.
@@ -49,11 +49,11 @@ const std::vector<RayDirection>& directions() {
 
 // --- triangles --------------------------------------------------------------------------------------------
 
-/// How often a ray crosses something; nothing if that is undefined, because the ray meets an edge or runs along a
-/// plane.
+/// The number of times a ray crosses a surface; nothing if it is undefined, because the ray meets an edge or
+/// runs in the surface's plane.
 using Crossings = std::optional<int>;
 
-/// Against a triangle on which the origin is not.
+/// The crossings with a triangle that does not contain the origin.
 Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c,
                          const RayDirection& d) {
   const int volume = sign(determinant(a, b, c));
@@ -61,7 +61,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
     // The plane holds the origin, so a ray that leaves the plane does not meet it again.
     const IntegerVector n = CGAL::cross_product(b - a, c - a);
     if (n == CGAL::NULL_VECTOR) {
-      // A segment or a point. It is met only by rays in the plane through the origin.
+      // The triangle is a segment or a point. Only rays in the plane through it and the origin can meet it.
       for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
         if (const IntegerVector m = CGAL::cross_product(p, q); m != CGAL::NULL_VECTOR && side(m, d) == 0)
           return std::nullopt;
@@ -80,7 +80,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
 
 // --- bilinear patches -------------------------------------------------------------------------------------
 
-/// The image of a square: p00 (1-s)(1-t) + p10 s (1-t) + p01 (1-s) t + p11 s t. Flat ones included.
+/// The image of a square: p00 (1-s)(1-t) + p10 s (1-t) + p01 (1-s) t + p11 s t. It may be flat.
 struct BilinearPatch {
   IntegerVector p00, p10, p01, p11;
 };
@@ -103,14 +103,14 @@ using RationalQuadratic = std::array<Gmpq, 3>;
 
 bool is_zero(const RationalQuadratic& f) { return f[0] == 0 && f[1] == 0 && f[2] == 0; }
 
-/// Whether h <= 0 somewhere in [0, 1].
+/// Whether h <= 0 at some t in [0, 1].
 bool reaches_zero(const RationalQuadratic& h) {
   if (sign(h[0]) <= 0 || sign(h[0] + h[1] + h[2]) <= 0) return true;
   return sign(h[2]) > 0 && sign(h[1]) < 0 && sign(h[1] + 2 * h[2]) > 0 &&
          sign(h[1] * h[1] - 4 * h[0] * h[2]) >= 0;
 }
 
-/// Whether h <= 0 at a root of g in [0, 1]; g is not zero identically.
+/// Whether h <= 0 at a root of g in [0, 1]; g must not be identically zero.
 bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h) {
   if (g[2] == 0) {
     if (g[1] == 0) return false;
@@ -132,8 +132,8 @@ bool reaches_zero_at_root(const RationalQuadratic& g, const RationalQuadratic& h
   return false;
 }
 
-/// Whether the origin is on a patch in a plane with it: on the segment from a(t) to b(t), the sides s = 0 and
-/// s = 1, at some t.
+/// Whether the origin is on a flat patch whose plane contains it. If so, it is on the segment from a(t) to
+/// b(t), the sides s = 0 and s = 1, at some t.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -150,14 +150,13 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
   return reaches_zero(between);
 }
 
-/// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron of
-/// the corners fulfil λ00 λ11 = λ10 λ01 on the patch alone; the faces beside the diagonal p00 p11 are on the
-/// side where the left is larger.
+/// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron
+/// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces with the diagonal p00 p11 are on
+/// the side on which the left product is larger.
 struct Position {
   bool on_patch = false;
-  bool in_plane = false;  ///< of a flat patch, but not on it: a ray that leaves the plane never crosses it
-  bool other_pair =
-      false;  ///< the triangles beside the diagonal p10 p01 stand for the patch, not those beside p00 p11
+  bool in_plane = false;    ///< in the plane of a flat patch; rays out of the plane never cross the patch
+  bool other_pair = false;  ///< the triangles with the diagonal p10 p01, not p00 p11, replace the patch
 };
 
 Position position(const BilinearPatch& patch) {
@@ -171,7 +170,7 @@ Position position(const BilinearPatch& patch) {
     result.in_plane = in_plane && !result.on_patch;
     return result;
   }
-  // λ times the volume: the corner replaced by the origin.
+  // λ times the volume of the tetrahedron: a determinant with one corner replaced by the origin.
   const Gmpz l00 = determinant(p10, p01, p11);
   const Gmpz l10 = -determinant(p00, p01, p11);
   const Gmpz l01 = determinant(p00, p10, p11);
@@ -185,8 +184,8 @@ Position position(const BilinearPatch& patch) {
   return result;
 }
 
-/// Against a patch on which the origin is not: against two triangles with the same border and, between them
-/// and the patch, no origin.
+/// The crossings with a patch that does not contain the origin. Two triangles replace the patch; they have
+/// the same border, and the origin is not between them and the patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {
@@ -207,8 +206,8 @@ Crossings cross_patch(const BilinearPatch& patch, const Position& position, cons
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-/// Powers of two, one for each axis, that make every coordinate an integer, the smallest ones that do: scaling
-/// an axis changes no answer.
+/// The smallest powers of two, one for each axis, that make every coordinate an integer. Scaling an axis
+/// changes no answer.
 using Scale = std::array<int, 3>;
 
 Scale integer_scale(const Query& query) {
@@ -218,7 +217,7 @@ Scale integer_scale(const Query& query) {
     double c = query.x[i];
     if (c == 0) continue;
     int exponent = std::ilogb(c);
-    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c: 1 to 2^53
+    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c is between 1 and 2^53
     scale[i % 3] = std::max(scale[i % 3], -exponent);
   }
   return scale;
@@ -231,7 +230,7 @@ Gmpz scaled(double coordinate, int exponent) {
   if (own + exponent >= 0)
     integer <<= static_cast<unsigned long>(own + exponent);
   else
-    integer >>= static_cast<unsigned long>(-own - exponent);  // bits that are zero
+    integer >>= static_cast<unsigned long>(-own - exponent);  // drops only zero bits
   return integer;
 }
 
@@ -251,7 +250,7 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>
-      differences;  // of a vertex and one of the other primitive
+      differences;  // between vertices of the two primitives
   for (int i = 0; i < split(query.kind); ++i)
     for (int j = split(query.kind); j < 4; ++j)
       for (const int time : {0, 1})
@@ -301,7 +300,7 @@ RootParity root_parity(const Query& query) {
     }
     if (told) return {.odd = sum % 2 == 1};
   }
-  return {};  // never: the perturbed direction meets no edge
+  return {};  // unreachable: the perturbed direction meets no edge
 }
 
 }  // namespace nearmiss

@@ -9,7 +9,7 @@ IntegerPolynomial::IntegerPolynomial(std::vector<Integer> coefficients) : c_(std
 }
 
 int IntegerPolynomial::sign_at(const Dyadic& t) const {
-  Integer value = 0;  // times 2^(exponent × degree)
+  Integer value = 0;  // the value times 2^(exponent × degree)
   unsigned shift = 0;
   for (auto c = c_.rbegin(); c != c_.rend(); ++c) {
     value = value * t.numerator + (*c << shift);
@@ -52,8 +52,9 @@ IntegerPolynomial IntegerPolynomial::operator*(const IntegerPolynomial& other) c
   return IntegerPolynomial(std::move(product));
 }
 
-// The dividend is multiplied by the absolute value of the divisor's leading coefficient at every step, so signs
-// stay; `with_quotient` takes each next coefficient of the quotient, to which all before it adapt likewise.
+// Every step multiplies the dividend by the absolute value of the divisor's leading coefficient, which
+// preserves signs. `with_quotient` receives each coefficient of the quotient and must multiply all earlier
+// ones in the same way.
 template <class WithQuotient>
 void IntegerPolynomial::divide_by(const IntegerPolynomial& other, const WithQuotient& with_quotient) {
   const std::size_t n = other.c_.size();
@@ -122,7 +123,7 @@ int sign_variations(const std::vector<IntegerPolynomial>& sequence, const Dyadic
 }
 
 /// Tarski's query: the sum over the roots of f in (lo, hi) of the sign of g there; f is square-free and not
-/// zero at the ends. g counts modulo f only.
+/// zero at the ends. The result depends on g only modulo f.
 int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const Dyadic& lo, const Dyadic& hi) {
   const auto sequence =
       remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
@@ -134,23 +135,23 @@ IntegerPolynomial square_free(const IntegerPolynomial& f) {
   return f.quotient(remainder_sequence(f, f.derivative()).back());
 }
 
-/// f without its simple root at t.
+/// f divided by the factor of its simple root t.
 IntegerPolynomial without_root(const IntegerPolynomial& f, const Dyadic& t) {
   return f.quotient(IntegerPolynomial({-t.numerator, Integer(1) << t.exponent}));
 }
 
-/// The integer e with 2^e <= x < 2^(e + 1), of x > 0.
+/// The integer e with 2^e <= x < 2^(e + 1), for x > 0.
 int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - static_cast<int>(x.exponent); }
 
 Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
 
-/// A number between a and b, 0 <= a < b <= 1: in the middle of their magnitudes if these are far apart, so
-/// that roots close to 0 are reached soon; else in the middle.
+/// A number between a and b, for 0 <= a < b <= 1. If their magnitudes are far apart, it is in the middle of
+/// these, so that roots close to 0 are reached fast; otherwise it is in the middle of the numbers.
 Dyadic between(const Dyadic& a, const Dyadic& b) {
   const int high = magnitude(b);
   if (a.numerator == 0) return power_of_half(high > -1 ? 1 : -2 * high);
   const int low = magnitude(a);
-  if (high - low > 1) return power_of_half(-(low + high) / 2);  // rounded up: below b, above a
+  if (high - low > 1) return power_of_half(-(low + high) / 2);  // rounded up, so it is below b and above a
   const unsigned exponent = std::max(a.exponent, b.exponent);
   return {(a.numerator << (exponent - a.exponent)) + (b.numerator << (exponent - b.exponent)), exponent + 1};
 }

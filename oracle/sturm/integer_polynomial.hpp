@@ -14,7 +14,8 @@ struct Dyadic {
   unsigned exponent = 0;
 };
 
-/// Coefficients, the constant first; no trailing zeros: the zero polynomial is empty.
+/// A polynomial by its coefficients, the constant first and without trailing zeros, so the zero polynomial
+/// has none.
 class IntegerPolynomial {
  public:
   IntegerPolynomial() = default;
@@ -30,10 +31,10 @@ class IntegerPolynomial {
   IntegerPolynomial operator*(const IntegerPolynomial& other) const;
   IntegerPolynomial operator-() const;
 
-  /// A positive multiple of the remainder of a division by `other`, which is not zero, without common factors
-  /// of its coefficients.
+  /// A positive multiple of the remainder of a division by `other`, which must not be zero. Its coefficients
+  /// have no common factor.
   [[nodiscard]] IntegerPolynomial remainder(const IntegerPolynomial& other) const;
-  /// The quotient up to a positive factor, for a division without remainder.
+  /// The quotient up to a positive factor; the division must leave no remainder.
   [[nodiscard]] IntegerPolynomial quotient(const IntegerPolynomial& other) const;
 
  private:
@@ -52,18 +53,18 @@ class SturmRoot {
   SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
       : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {}
 
-  /// The sign of g at this root: by Tarski's query if it is not dyadic.
+  /// The sign of g at this root. If the root is not dyadic, Tarski's query finds the sign.
   [[nodiscard]] int sign(const IntegerPolynomial& g) const;
-  /// Whether it is t = 0 or t = 1.
+  /// Whether the root is t = 0 or t = 1.
   [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }
 
  private:
   bool is_dyadic_ = false;
   IntegerPolynomial f_;
-  Dyadic lo_, hi_;  ///< the ends of the interval; of a dyadic root lo_ is its value
+  Dyadic lo_, hi_;  ///< the ends of the interval; for a dyadic root, lo_ is its value
 };
 
-/// The distinct roots of f in [0, 1], in no particular order; f is not zero.
+/// The distinct roots of f in [0, 1], in no particular order; f must not be zero.
 std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f);
 
 }  // namespace nearmiss::sturm

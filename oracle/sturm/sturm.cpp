@@ -30,7 +30,7 @@ IntegerPolynomialVector cross(const IntegerPolynomialVector& v, const IntegerPol
   return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
 }
 
-/// A coordinate other than zero as an odd integer times a power of two.
+/// A nonzero coordinate as an odd integer times a power of two.
 struct OddMultiple {
   std::int64_t odd;
   int exponent;
@@ -44,8 +44,8 @@ struct OddMultiple {
   }
 };
 
-/// For each axis the largest power of two of which every coordinate along it is a multiple: scaling an axis
-/// changes no answer.
+/// The largest power of two for each axis of which all its coordinates are multiples. Scaling an axis changes
+/// no answer.
 std::array<int, 3> exponents_of_units(const Query& query) {
   std::array<int, 3> smallest;
   smallest.fill(std::numeric_limits<int>::max());
@@ -71,8 +71,8 @@ IntegerPolynomialVector moving_point(const Query& query, int i, const std::array
   return x;
 }
 
-/// x lies on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is not
-/// positive.
+/// The point x is on the closed segment from a to b iff `off_line`, a sum of squares, is zero and `beyond` is
+/// not positive.
 struct SegmentMembership {
   IntegerPolynomial off_line, beyond;
 
@@ -85,9 +85,10 @@ struct SegmentMembership {
 };
 
 /// The primitives of a query. If F = 0 and the area N·N is not zero, they meet iff every weight times N·N is
-/// at least zero: x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on
-/// N; x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and (x2 - x0) × (x1 - x0) = β N
-/// with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials: each is made when first asked for.
+/// at least zero. For a triangle, x0 = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with
+/// x0, projected on N. For edges, x2 - x0 = α (x1 - x0) - β (x3 - x2) gives (x2 - x0) × (x3 - x2) = α N and
+/// (x2 - x0) × (x1 - x0) = β N with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials, so
+/// each is computed on first use.
 class Primitives {
  public:
   explicit Primitives(const Query& query) : kind_(query.kind) {
@@ -157,15 +158,15 @@ ContactPlace contact_at(Primitives& primitives, const SturmRoot& t) {
   return any ? ContactPlace::at_border : ContactPlace::none;
 }
 
-/// How often t is a root of F.
+/// The multiplicity of the root t of F.
 int multiplicity(const IntegerPolynomial& F, const SturmRoot& t) {
   int m = 1;
   for (IntegerPolynomial d = F.derivative(); !d.is_zero() && t.sign(d) == 0; d = d.derivative()) ++m;
   return m;
 }
 
-/// F is zero identically: the set of colliding times is closed, and its least element is 0 or a root of one
-/// of the polynomials whose signs decide.
+/// Decides the case that F is identically zero. The set of colliding times is closed, and its least element
+/// is 0 or a root of one of the polynomials whose signs decide.
 bool collides_in_plane(Primitives& primitives) {
   std::vector<const IntegerPolynomial*> deciding{&primitives.area()};
   for (const IntegerPolynomial& weight : primitives.weights()) deciding.push_back(&weight);

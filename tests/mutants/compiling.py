@@ -71,12 +71,8 @@ def places(text):
 
 
 def blamed(mutants, block):
-<<<<<<< HEAD
-    """The mutants that an error is about: on the line of the error, on a line that it mentions, or in a constexpr function
-    of a file that it mentions."""
-=======
-    """The mutants on the line of an error, or else on the lines that the error mentions."""
->>>>>>> english-b
+    """The mutants on the line of an error, or else on the lines that the error mentions, or else in the constexpr functions
+    of the files that it mentions."""
     errors = '\n'.join(line for line in block.splitlines() if ' error: ' in line)
     mentioned = places(block)
     return (

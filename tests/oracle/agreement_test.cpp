@@ -78,21 +78,13 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_FALSE(missed(false, std::nullopt));
 }
 
-<<<<<<< HEAD
-// One more method is one more entry, and one wrong answer of it is caught and named.
+// An added method is one more entry. A single wrong answer of it is caught and named.
 TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
   const Query lied_about = testing::falling_edge(1, -1);
   std::vector<Method> more(methods().begin(), methods().end());
   std::string others;
   for (const Method& method : more) others += (others.empty() ? "" : ", ") + std::string(method.name);
-  more.push_back({"one more", "as exact, but for one query", Claim::complete, [&](const Query& query) {
-=======
-// An added method is one more entry. A single wrong answer of it is caught and named.
-TEST(Agreement, AFourthMethodThatLiesOnceIsCaught) {
-  const Query lied_about = testing::falling_edge(1, -1);
-  std::vector<Method> four(methods().begin(), methods().end());
-  four.push_back({"fourth", "as exact, except for one query", Claim::complete, [&](const Query& query) {
->>>>>>> english-b
+  more.push_back({"one more", "as exact, except for one query", Claim::complete, [&](const Query& query) {
                     return Answer{.collision = collides_exactly(query) != (query == lied_about)};
                   }});
   for (const Query& query : {hit, miss, testing::falling_edge(2, 1), testing::falling_edge(0, 1)})

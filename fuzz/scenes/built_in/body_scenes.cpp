@@ -19,7 +19,7 @@ struct Pose {
   Vector3<double> place;
 };
 
-/// Bodies that have these shapes in turn.
+/// A scene of bodies that have the given shapes in turn.
 Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int count,
                       const std::function<Pose(int body, double frame)>& pose) {
   const auto shape = [shapes](int body) -> const Mesh& {
@@ -48,7 +48,7 @@ Rotation any_rotation(Random& random, double turns) {
   return {way / length(way), turns};
 }
 
-/// A cube, a ball and a slab, and the number of bodies that a scene of a size consists of.
+/// A cube, a ball and a slab, and the number of bodies in a scene of a given size.
 struct Pieces {
   Pieces(int size, int half_a_side)
       : half(half_a_side),
@@ -87,15 +87,15 @@ Scene tumbling(int size) {
   });
 }
 
-/// The nearest multiples of 2^-20: their sums are exact.
+/// Rounds coordinates to multiples of 2^-20, whose sums are exact.
 Vector3<double> on_grid(const Vector3<double>& p) {
   const auto rounded = [](double x) { return std::floor(x * 0x1p20 + 0.5) * 0x1p-20; };
   return {rounded(p[0]), rounded(p[1]), rounded(p[2])};
 }
 
-/// Layers of bodies pass by each other, each in its own direction; nothing turns. All coordinates are multiples of
-/// 2^-20, so all points of a layer move by exactly the same vector in a step, and every pair is in relative rest or
-/// translation.
+/// Layers of bodies pass each other, each in its own direction, and nothing turns. All coordinates are
+/// multiples of 2^-20, so all points of a layer move by exactly the same vector in a step, and every pair is
+/// in relative rest or translation.
 Scene flying(int size) {
   const Pieces pieces(size, 1);
   std::vector<Mesh> shapes;
@@ -116,7 +116,7 @@ Scene flying(int size) {
   });
 }
 
-/// One brick is pulled out of a wall of bricks, 1/32 apart. All others are at rest.
+/// One brick is pulled out of a wall of bricks that are 1/32 apart. All other bricks are at rest.
 Scene resting(int size) {
   const Mesh brick = box({4, 2, 2});
   const int count = nearest(size / static_cast<double>(brick.triangles.size()));

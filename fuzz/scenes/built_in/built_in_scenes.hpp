@@ -1,6 +1,6 @@
-// Scenes that need no file: the classic ones of the field, made by formula in any size. They are not simulated, but
-// move like simulations: nearly all pairs are near each other, few collide, and a step moves no point by much more
-// than the length of an edge.
+// Scenes that need no file: classic scenes of the field, computed by formulas in any size. They are not
+// simulated, but they move like simulations: the primitives of nearly all pairs are near each other, few
+// collide, and a step moves no point by much more than the length of an edge.
 #pragma once
 
 #include <functional>
@@ -19,8 +19,8 @@ struct BuiltInScene {
   std::string description;
   int default_size = 0;
   int smallest = 0, largest = 0;
-  /// The scene of a size in this range, without a name. The size is the approximate number of triangles, or of
-  /// lines or points if the scene is made of these.
+  /// Makes the scene of a size in this range, without a name. The size is the approximate number of
+  /// triangles, or of lines or points if the scene consists of these.
   std::function<Scene(int size)> make;
 };
 
@@ -30,8 +30,8 @@ const std::vector<BuiltInScene>& built_in_scenes();
 /// Whether a text names a built-in scene, as NAME or NAME@SIZE; the size is not checked.
 bool is_built_in_scene(const std::string& text);
 
-/// The scene NAME of its default size, or NAME@SIZE; the text becomes its name. Throws Error if there is no such
-/// scene, and for a size that is not an integer or is out of range.
+/// Makes the scene NAME in its default size, or NAME@SIZE. The text becomes the name of the scene. Throws
+/// Error if there is no such scene, or the size is not an integer or is out of range.
 Scene built_in_scene(const std::string& text);
 
 }  // namespace nearmiss

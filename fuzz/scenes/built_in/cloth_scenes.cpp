@@ -1,4 +1,5 @@
-// Scenes of cloth: over spikes, sheets on each other, and points that fall through a surface.
+// Scenes of cloth: a cloth on spikes, sheets that slide over each other, and points that fall through a
+// surface.
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +39,7 @@ void add_spike_points(PointList& points, double x, double y) {
     }
 }
 
-/// Rows of spikes around the origin, and above each spike the gap that it keeps to the cloth.
+/// Rows of spikes around the origin, and the gap between each spike and the cloth above it.
 class SpikeField {
  public:
   explicit SpikeField(int row) : row_(row) {
@@ -46,7 +47,7 @@ class SpikeField {
       gaps_.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
   }
 
-  /// The x of the spikes of a column, or the y of those of a row.
+  /// The x coordinate of the spikes in a column, or the y coordinate of those in a row.
   [[nodiscard]] double place(int i) const { return (i - middle_) * pitch; }
 
   /// The height at which the nearest spike holds up the cloth.
@@ -68,9 +69,10 @@ class SpikeField {
   std::vector<double> gaps_;
 };
 
-/// A cloth falls on a square of spikes: by 0.2 in each step, from above the tips to half their height. Each spike
-/// holds it up with a random gap, which is too small for some. A larger scene has more spikes of the same size at the
-/// same distance, so the number of candidates for each primitive does not depend on the size.
+/// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half their height. Each
+/// spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A larger scene
+/// has more spikes of the same size and spacing, so the number of candidates for each primitive does not
+/// depend on the size.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));
@@ -86,7 +88,7 @@ Scene spikes(int size) {
   const int in_cloth = (squares + 1) * (squares + 1);
   for (int i = 0; i < row * row; ++i) add_spike(primitives, in_cloth + i * (1 + spike_rings * spike_sides));
   return scene_of_formula(21, std::move(primitives), [=, field = SpikeField(row)](double frame) {
-    // So that the cloth's edges are not parallel to the rows of spikes.
+    // The rotation keeps the edges of the cloth from being parallel to the rows of spikes.
     const Rotation turned({0, 0, 1}, 0.02);
     PointList points = sheet_points(squares, [&](double x, double y) {
       const Vector3<double> p = turned({x, y, 0});
@@ -100,7 +102,7 @@ Scene spikes(int size) {
 
 // --- sheets -----------------------------------------------------------------------------------------------
 
-/// Five sheets, 0.5 apart, slide in different directions. Each waves in its own way, by up to 0.36.
+/// Five sheets, 0.5 apart, slide in different directions. Each sheet has waves of its own, up to 0.36 high.
 Scene sheets(int size) {
   constexpr int count = 5;
   const int squares = nearest(std::sqrt(size / (2.0 * count)));
@@ -130,7 +132,8 @@ Scene sheets(int size) {
 
 // --- points -----------------------------------------------------------------------------------------------
 
-/// Points fall, each at its own speed, through a waving surface with about as many triangles.
+/// Points fall, each at its own speed, through a waving surface. The surface has about as many triangles as
+/// there are points.
 Scene points(int size) {
   const int squares = nearest(std::sqrt(size / 2.0));
   Mesh primitives;

@@ -1,6 +1,6 @@
-// The functions that built-in scenes are computed with. They use only operations whose rounding IEEE 754 prescribes,
-// in a fixed order, so that every machine and compiler gives the same bits: no library's sine, no dot product of
-// Eigen's.
+// The functions that compute built-in scenes. They only use operations whose rounding IEEE 754 prescribes, in
+// a fixed order, so that every machine and compiler gives the same bits. So they use neither a library's sine
+// nor Eigen's dot product.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ struct CosSin {
   double cos = 1, sin = 0;
 };
 
-/// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; multiples of a quarter turn are exact.
-/// Taylor's series within an eighth of a turn of the nearest quarter, with a remainder below 5e-17.
+/// Cosine and sine of an angle of less than 2^40 turns, with errors below 4e-16; multiples of a quarter turn
+/// are exact. It uses the Taylor series around the nearest quarter turn, at most an eighth of a turn away,
+/// with a remainder below 5e-17.
 CosSin cos_sin(double turns);
 
 /// The maximum of two numbers, smoothed: if they differ by less than `blend`, the result is larger by up to
@@ -29,13 +30,13 @@ int nearest(double x);
 double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
-/// A rotation about an axis through the origin; by 0 turns it changes no bit. It is computed as a sum of columns,
-/// because g++ 12 turns x cos - y sin next to x sin + y cos into fused operations if the processor has them, even
-/// with -ffp-contract=off.
+/// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. It is computed as a sum
+/// of columns, because g++ 12 compiles x cos - y sin next to x sin + y cos to fused operations if the
+/// processor has them, even with -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;
-  /// `axis` has length 1.
+  /// `axis` must have length 1.
   Rotation(const Vector3<double>& axis, double turns);
 
   Vector3<double> operator()(const Vector3<double>& p) const;
@@ -49,14 +50,14 @@ class Rotation {
 /// their length from frame to frame.
 class Waves {
  public:
-  /// Each stream and index gives other waves; `height` is the height of each of the three.
+  /// Each stream and index gives different waves; `height` is the height of each of the three waves.
   Waves(std::uint64_t stream, std::uint64_t index, double height);
 
   [[nodiscard]] double at(double x, double y, double frame) const;
 
  private:
   struct Wave {
-    double along_x, along_y, by_frame, phase;  ///< in turns
+    double along_x, along_y, by_frame, phase;  ///< all in turns
   };
   double height_;
   std::array<Wave, 3> waves_{};

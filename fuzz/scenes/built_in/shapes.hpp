@@ -9,8 +9,8 @@ namespace nearmiss {
 
 using PointList = std::vector<Vector3<double>>;
 
-/// Adds the triangles of a surface whose points are in rows, from number `first` on: two for each square, with
-/// alternating diagonals. The rows of a closed surface are rings.
+/// Adds the triangles of a surface whose points are in rows, from number `first` on. Each square has two
+/// triangles, with alternating diagonals. The rows of a closed surface are rings.
 void add_surface(Mesh& mesh, int first, int rows, int columns, bool closed = false);
 
 /// Adds the lines of a polyline through `count` points, from number `first` on.
@@ -19,14 +19,16 @@ void add_polyline(Mesh& mesh, int first, int count);
 /// Adds the triangles of a part whose points begin at number `first`.
 void add_triangles(Mesh& mesh, const Mesh& part, int first);
 
-/// (squares + 1)² points in rows; `place` maps a point of the flat sheet, with x and y in edges from its centre, to
-/// its place.
+/// (squares + 1)² points in rows. `place` maps a point of the flat sheet to its position; x and y are
+/// measured from the centre, in edges.
 PointList sheet_points(int squares, const std::function<Vector3<double>(double x, double y)>& place);
 
-/// The surface of a box around the origin, a by b by c edges of length 1: 4 (ab + bc + ca) triangles.
+/// The surface of a box around the origin with a by b by c edges of length 1, which has 4 (ab + bc + ca)
+/// triangles.
 Mesh box(const std::array<int, 3>& edges);
 
-/// A sphere around the origin with 12 squares² triangles: a cube's surface whose points are moved to the sphere.
+/// A sphere around the origin with 12 squares² triangles. It is the surface of a cube whose points are moved
+/// to the sphere.
 Mesh ball(int squares);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// The built-in scenes by theme, one file each.
+// The tables of built-in scenes, one file for each theme.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ std::vector<BuiltInScene> cloth_scenes();
 std::vector<BuiltInScene> twisted_scenes();
 std::vector<BuiltInScene> body_scenes();
 
-/// A scene from its primitives and the formula for the points of a frame.
+/// Makes a scene from its primitives and the formula for the points of a frame.
 Scene scene_of_formula(std::size_t frames, Mesh primitives, std::function<PointList(double frame)> points);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// Scenes of things that are twisted or tied: a knot, hair, a mat.
+// Scenes of twisted or tied objects: a knot, hair, a mat.
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +15,14 @@ enum : std::uint64_t { hair_places = 201, mat_waves };
 
 // --- knot -------------------------------------------------------------------------------------------------
 
-/// The centre line of an overhand knot, by arc length from its middle: a trefoil, cut open at the outer end of a lobe,
-/// with straight ends. The smallest distance of its strands is 1.415, its smallest radius of curvature 1.1.
+/// The centre line of an overhand knot, by arc length from its middle. It is a trefoil that is cut open at
+/// the outer end of a lobe and continued by straight ends. The smallest distance of its strands is 1.415, and
+/// its smallest radius of curvature is 1.1.
 class KnotLine {
  public:
   KnotLine() {
     constexpr int pieces = 4096;
-    constexpr double cut = 0.095;  // of a turn, on both sides
+    constexpr double cut = 0.095;  // fraction of a turn that is cut on both sides
     for (int i = 0; i <= pieces; ++i) {
       const double turns = 0.5 + cut + (1 - 2 * cut) * i / pieces;
       const CosSin once = cos_sin(turns);
@@ -40,7 +41,7 @@ class KnotLine {
     const auto behind = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, along);
     const auto i = static_cast<std::size_t>(behind - lengths_.begin());
     const double part =
-        (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);  // beyond [0, 1] at the ends
+        (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);  // outside [0, 1] at the ends
     return points_[i - 1] + part * (points_[i] - points_[i - 1]);
   }
 
@@ -49,8 +50,8 @@ class KnotLine {
   std::vector<double> lengths_;
 };
 
-/// The points of a tube around a line, in rings. The first points of the rings are aligned: from ring to ring they
-/// turn no more than the line does.
+/// The points of a tube around a line, in rings. The first points of the rings are aligned, so that from ring
+/// to ring they turn no more than the line does.
 PointList tube(const PointList& line, double radius, int sides) {
   PointList points;
   Vector3<double> normal(0.6, 0, 0.8);
@@ -65,11 +66,12 @@ PointList tube(const PointList& line, double radius, int sides) {
   return points;
 }
 
-/// The ends of a knotted tube are pulled. The knot becomes smaller as the tube slides through; the tube keeps its
-/// length and radius. In the last frame its strands overlap by 0.3. A step moves the ends by about half an edge.
+/// The ends of a knotted tube are pulled. The knot shrinks as the tube slides through, while the tube keeps
+/// its length and radius. In the last frame its strands overlap by 0.3. A step moves the ends by about half
+/// an edge.
 Scene knot(int size) {
   constexpr int steps = 25;
-  constexpr double radii_long = 52;  // of the tube: length / radius
+  constexpr double radii_long = 52;  // length / radius of the tube
   constexpr double turn = 6.283185307179586;
   const double radius = std::sqrt(size / (2 * turn * radii_long));
   const int sides = std::max(3, nearest(turn * radius));
@@ -97,7 +99,7 @@ Scene hair(int size) {
   Mesh primitives;
   for (int i = 0; i < hairs; ++i) add_polyline(primitives, i * (lines + 1), lines + 1);
   return scene_of_formula(31, std::move(primitives), [=](double frame) {
-    constexpr double golden = 0.3819660112501051;  // of a turn: evenly spread over a disc
+    constexpr double golden = 0.3819660112501051;  // in turns; spreads points evenly over a disc
     const double widest = 0.56 * std::sqrt(static_cast<double>(hairs));
     const double turns = 0.2 + 0.12 / widest * frame;
     const double drawn = 0.25 + std::min(0.012, 0.1 / widest) * frame;
@@ -124,16 +126,16 @@ Scene hair(int size) {
 
 // --- mat --------------------------------------------------------------------------------------------------
 
-/// A cross-section of the rolled mat, with a point for each of its columns: two spirals from the middle, whose arms are
-/// pi / (2 tightness) apart. A point that was at distance s from the axis is then at s / sqrt(1 + tightness s), and the
-/// spirals together are as long as the mat is wide.
+/// A cross-section of the rolled mat, with a point for each column. It consists of two spirals from the
+/// middle, whose arms are pi / (2 tightness) apart. A point that was at distance s from the axis is then at
+/// s / sqrt(1 + tightness s), and the total length of the spirals is the width of the mat.
 PointList rolled(int squares, double tightness) {
   constexpr int substeps = 16;
   constexpr double turns_of_a_radian = 0.15915494309189535;
   const auto radius = [&](double s) { return s / std::sqrt(1 + tightness * s); };
   PointList section(static_cast<std::size_t>(squares) + 1);
-  // In half edges from the middle: if the number of squares is even, the points are at even numbers of half edges,
-  // otherwise at odd ones.
+  // `half` counts half edges from the middle. The points are at even numbers of half edges if the number of
+  // squares is even, and at odd numbers otherwise.
   double turns = 0;
   for (int half = 0; half <= squares; ++half) {
     if (half % 2 == squares % 2) {
@@ -153,15 +155,15 @@ PointList rolled(int squares, double tightness) {
   return section;
 }
 
-/// A mat, three times as long as it is wide, is twisted about its long axis by its ends. It rolls up meanwhile, and
-/// waves a little. A step moves the outermost points by about an edge, so a mat of many edges' width is nearly rolled
-/// up in the first frame.
+/// A mat that is three times as long as wide is twisted about its long axis by its ends. At the same time it
+/// rolls up and waves slightly. A step moves the outermost points by about an edge, so a mat that is many
+/// edges wide is nearly rolled up in the first frame.
 Scene mat(int size) {
   constexpr int steps = 39;
   constexpr double tightest = 4;
   const int squares = nearest(std::sqrt(size / 6.0));
   const int length = nearest(size / (2.0 * squares));
-  const double outermost = std::sqrt(squares / 2.0 / tightest);  // when it is rolled up
+  const double outermost = std::sqrt(squares / 2.0 / tightest);  // distance from the axis when rolled up
   Mesh primitives;
   add_surface(primitives, 0, length + 1, squares + 1);
   return scene_of_formula(steps + 1, std::move(primitives), [=](double frame) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace audit_parts;
 
-/// Takes one sample's readings into the rows.
+/// Adds the readings of one sample to the rows.
 void take(std::vector<AuditRow>& rows, const Readings& readings) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     AuditRow& row = rows[i];
@@ -25,7 +25,7 @@ void take(std::vector<AuditRow>& rows, const Readings& readings) {
   }
 }
 
-/// A hill climb for the largest error of one row. Each round starts from the best of some random samples, and
+/// A hill climb for the largest error of one row. Each round starts from the best of some random samples and
 /// takes small steps from there.
 void climb(ConstantGroup& group, std::size_t row, const AuditPlan& plan, Random& random) {
   const int round = std::max(1000, plan.steps / 6);

@@ -64,7 +64,7 @@ Groups vertex_edge_groups() {
            2}};
 }
 
-/// §4.3, the solver of case 4: its residual, and what it leaves of the minimum.
+/// §4.3, the solver of case 4: its residual, and how far above the minimum its candidates are.
 Groups edge_solver_groups() {
   return {{{quote("VE: residual of case 4", "App. A", B2, nan, nan, appendix)}, quadratic_residual},
           {{quote("VE of EE: residual of case 4", "App. A", B2, nan, nan, appendix)}, quadratic_residual, 2},
@@ -86,7 +86,7 @@ Groups cubic_groups() {
           {{quote("cubic solver", "4.4, App. B", B3, 33492, nan, appendix)}, cubic_residual}};
 }
 
-/// Area, height, weight and its comparison: §4.4 for VT, §4.5 for EE.
+/// The area, the height, a weight and its comparison: §4.4 for VT, §4.5 for EE.
 std::vector<AuditRow> configuration_rows(Kind kind, std::string_view note = "") {
   if (kind == vt)
     return {quote("VT: N", "4.4", B2, 13, proven::normal, note),
@@ -99,7 +99,7 @@ std::vector<AuditRow> configuration_rows(Kind kind, std::string_view note = "") 
           quote("EE: barycentric test", "4.5", B4, 362, proven::inside_ee, note)};
 }
 
-/// §4.4 and §4.5, on vectors taken as exact; and §5.
+/// §4.4 and §4.5 for exact vectors; and §5.
 Groups configuration_groups() {
   return {{configuration_rows(vt), exact_configuration<vt>},
           {configuration_rows(ee), exact_configuration<ee>},
@@ -118,7 +118,7 @@ ConstantGroup rounded_configuration_group(Kind kind) {
   return {std::move(rows), kind == vt ? rounded_configuration<vt> : rounded_configuration<ee>, 1, kind};
 }
 
-/// The constants of ccd/ about F and B.
+/// The constants of ccd/ for F and B.
 ConstantGroup rounded_cubic_group(Kind kind) {
   const double value = kind == vt ? proven::value_vt : proven::value_ee;
   const double bound = kind == vt ? proven::bound_vt : proven::bound_ee;
@@ -130,7 +130,7 @@ ConstantGroup rounded_cubic_group(Kind kind) {
           kind};
 }
 
-/// A row whose constant is not read from samples.
+/// A row whose constant is computed from others, not read from samples.
 AuditRow follows(AuditRow row, double value) {
   row.derived = value;
   row.seen = nan;

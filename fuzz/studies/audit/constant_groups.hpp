@@ -1,4 +1,4 @@
-// The constants that are audited, in groups that are read from the same samples.
+// The audited constants, in groups that share their samples.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,15 @@ namespace nearmiss::audit_parts {
 struct ConstantGroup {
   std::vector<AuditRow> rows;
   std::function<Readings(const AuditSample&)> read;  ///< a reading for each row
-  double reach = 1;                                  ///< of p, in the hill climb
-  /// If set, the rows are about the rounding of relative vectors, which queries of this kind show.
+  double reach = 1;                                  ///< bound of p in the hill climb, in units of B
+  /// If set, the rows are about the rounding of relative vectors, and their samples are queries of this kind.
   std::optional<Kind> kind{};
 };
 
-/// All groups, in the order of the paper. Only what the paper or ccd/ quotes, and what is proven, is filled in.
+/// All groups, in the order of the paper. Only the quoted and the proven constants are filled in.
 std::vector<ConstantGroup> constant_groups();
 
-/// Constants that the paper computes from others, from the rows of all groups.
+/// The constants that the paper computes from other constants, given the rows of all groups.
 std::vector<AuditRow> consequences(const std::vector<AuditRow>& rows);
 
 }  // namespace nearmiss::audit_parts

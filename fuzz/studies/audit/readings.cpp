@@ -21,7 +21,7 @@ constexpr Kind ee = Kind::edge_edge;
 
 double magnitude(const Rational& x) { return std::abs(static_cast<double>(x)); }
 
-/// The error of a value, with operations that err by ω ε.
+/// The error of a value, for operations with a relative error of ω ε.
 Reading reading(const AuditedRational& f, const AuditSample& s, double omega = 1) {
   const ErrorBound& bound = f.bound();
   return {omega * bound.error(), magnitude(f.error()) / (std::pow(s.B, bound.degree) * eps), bound};
@@ -53,7 +53,7 @@ Tolerances<AuditedRational> thresholds(const AuditSample& s) {
   return tol;
 }
 
-/// The computed coefficients, taken as exact.
+/// A cubic whose exact coefficients are the computed ones.
 Cubic<AuditedRational> as_exact(const Cubic<AuditedRational>& F) {
   const auto exact = [](const AuditedRational& c) {
     return AuditedRational(c.value(), c.value(), {c.bound().coefficient, c.bound().degree, 0});
@@ -61,7 +61,7 @@ Cubic<AuditedRational> as_exact(const Cubic<AuditedRational>& F) {
   return {exact(F.a), exact(F.b), exact(F.c), exact(F.d)};
 }
 
-/// Area, height, weight and its comparison with N·N.
+/// The readings of the area, the height, a weight and its comparison with N·N.
 template <Kind kind>
 Readings configuration(const Pair<kind, AuditedRational>& pair, const AuditSample& s, double omega) {
   const Configuration<kind, AuditedRational> configuration(pair, exact_time(s.t));
@@ -100,7 +100,7 @@ Readings far_configuration(const AuditSample& s) {
 template <Kind kind>
 Readings rounded_configuration(const AuditSample& s) {
   Readings all = configuration(rounded_pair<kind>(*s.query), s, 0.5);
-  all.push_back(all.back());  // again, for `weight_error`
+  all.push_back(all.back());  // a second time, for `weight_error`
   return all;
 }
 
@@ -130,7 +130,7 @@ Readings quadratic_residual(const AuditSample& s) {
     const auto& [a, b, c] = std::tie(g.a[k], g.b[k], g.c[k]);
     kappa = std::max(kappa, a.bound().error() + b.bound().error() + c.bound().error() +
                                 quadratic_error(a.bound().coefficient, c.bound().coefficient));
-    if (b.exact() * b.exact() < 4 * a.exact() * c.exact()) continue;  // no root to be missed
+    if (b.exact() * b.exact() < 4 * a.exact() * c.exact()) continue;  // there is no root to miss
     CandidateTimes<double, 2> times;
     solve_quadratic(times, a.value(), b.value(), c.value());
     for (const double t : times) {

@@ -1,4 +1,4 @@
-// Errors of the templates of ccd/ on one sample: those that the rules allow, and the actual ones.
+// Errors of the templates of ccd/ for one sample: those that the rules allow, and the actual errors.
 #pragma once
 
 #include <vector>
@@ -7,47 +7,49 @@
 
 namespace nearmiss::audit_parts {
 
-/// The errors of one row on one sample.
+/// The errors of one row for one sample.
 struct Reading {
   double derived;
   double seen;
   ErrorBound bound{};
-  bool by_the_rules = true;  ///< seen <= derived holds for each reading; else only for the maxima of all
+  bool by_the_rules = true;  ///< seen <= derived holds for every reading, not only for the maxima of all
 };
 using Readings = std::vector<Reading>;
 
-/// §4.2: m, n, the time, F² at the computed time against F² at the exact one, and the comparison.
+/// §4.2: m, n, the time, F² at the computed time compared with F² at the exact time, and the comparison.
 Readings vertex_vertex_time(const AuditSample& s);
-/// Only the comparison.
+/// §4.2: only the comparison.
 Readings far_vertices(const AuditSample& s);
 
-/// §4.3: squared length, weight, its comparison, F_0ij.
+/// §4.3: the squared length, a weight, its comparison, and F_0ij.
 Readings near_edge(const AuditSample& s);
-/// The residual of the roots of case 4 in the exact quadratics.
+/// The residuals of the roots of case 4 in the exact quadratics.
 Readings quadratic_residual(const AuditSample& s);
-/// How much lower F_0ij is somewhere than at the best candidate, in B²ε^½, twice: for G and for F.
+/// How much the minimum of F_0ij is below its value at the best candidate, in units of B²ε^½. It has two
+/// readings, for G and for F.
 Readings missed_minimum(const AuditSample& s);
 
-/// §4.4: a and d, b and c.
+/// §4.4: the coefficients a and d, then b and c.
 Readings coefficients(const AuditSample& s);
 Readings cubic_value(const AuditSample& s);
 /// |F| at the roots that a solver without a threshold finds.
 Readings cubic_residual(const AuditSample& s);
 
-/// §4.4, §4.5: area, height, weight and its comparison with N·N.
+/// §4.4, §4.5: the area, the height, a weight and its comparison with N·N.
 template <Kind kind>
 Readings exact_configuration(const AuditSample& s);
-/// Only weight and comparison.
+/// §4.5: only a weight and its comparison.
 Readings far_configuration(const AuditSample& s);
-/// The same four for a query's own vectors, with their rounding; the last twice.
+/// The same four for a query's own vectors, including their rounding; the last one occurs twice.
 template <Kind kind>
 Readings rounded_configuration(const AuditSample& s);
-/// F(t), its clearance from 0, and B, likewise.
+/// F(t), its clearance from 0, and B for a query's own vectors, including their rounding.
 template <Kind kind>
 Readings rounded_cubic(const AuditSample& s);
 
-/// §5: how far a weight moves when p moves by B h in each component. A weight is linear in p, so that is the weight of
-/// a configuration with p = B h: at most ‖N‖ ‖edge‖ √3 B h, with ‖N‖ <= ‖q‖ ‖r‖ <= 3B² and ‖edge‖ <= √3 B.
+/// §5: how far a weight moves if p moves by B h in each component. A weight is linear in p, so this is the
+/// weight of a configuration with p = B h. It is at most ‖N‖ ‖edge‖ √3 B h, with ‖N‖ <= ‖q‖ ‖r‖ <= 3B² and
+/// ‖edge‖ <= √3 B.
 Readings weight_spread(const AuditSample& s);
 
 }  // namespace nearmiss::audit_parts

@@ -15,7 +15,7 @@ double component(Random& random, double size) {
   }
 }
 
-/// A component of a position and of a velocity such that both ends are within the size.
+/// Draws a component of a position and of a velocity such that both ends are within the size.
 void draw_component(Random& random, Moving<double>& vector, int i, double size) {
   do {
     vector.xv[i] = component(random, size);
@@ -69,7 +69,7 @@ AuditSample changed(Random& random, const AuditSample& sample) {
     const double size = which < 3 ? sample.reach : 1;
     if (random.one_in(2)) {
       draw_component(random, vector, i, size);
-    } else {  // the bits that decide about rounding
+    } else {  // change the bits that decide about rounding
       vector.xv[i + 3 * random.integer(0, 1)] *= 1 + random.uniform(-1, 1) * random.log_uniform(1e-16, 1e-1);
     }
   }

@@ -9,21 +9,22 @@
 
 namespace nearmiss {
 
-/// The paper's closed forms and the smallest tolerances for ε = 2^exponent. Lengths in units of B ε^¼.
+/// The bounds of the paper's closed forms and of the smallest tolerances for ε = 2^exponent. Lengths are in
+/// units of B ε^¼.
 struct ToleranceRow {
   int exponent = 0;
   std::string_view scalars;
   ToleranceConstants tight{};
   double paper_bound = 0;
   double tight_bound = 0;
-  double relative_bound = 0;        ///< the tight one in units of B
+  double relative_bound = 0;        ///< the bound of the smallest tolerances in units of B
   std::string_view paper_breaks;    ///< the first constraint that the closed forms violate; empty if none
-  std::string_view printed_breaks;  ///< the same with the errors that the paper prints
+  std::string_view printed_breaks;  ///< the same with the errors that the paper states
 };
 
 std::vector<ToleranceRow> tolerance_table();
 
-/// The E for which the constraints allow most: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
+/// The best E for the constraints: E² = 4 (R² - r²), with R² = S²/8 as in `constraints`.
 template <class Number>
 Number longest_short_edge(const Tolerances<Number>& tol, const RoundingErrors<Number>& errors) {
   using std::sqrt;

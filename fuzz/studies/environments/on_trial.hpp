@@ -1,14 +1,14 @@
-// The functions that a plug-in of this folder calls of its CCD.
+// The functions of a CCD that the plug-ins of this folder call.
 #pragma once
 
 #include "ccd/query.hpp"
 
 namespace nearmiss::environments {
 
-/// Decides in the caller's arithmetic. May throw.
+/// Decides a query in the caller's arithmetic. May throw.
 bool collides(const Query& query);
 
-/// The largest distance that a false positive may have.
+/// The largest distance of a false positive that the CCD claims.
 double distance_bound(const Query& query);
 
 }  // namespace nearmiss::environments

@@ -1,5 +1,6 @@
-// One of our own CCDs behind the plug-in interface, in one mode of the processor: ROUNDING, and with FLUSH subnormal
-// results and operands become zero. The mode is set for each test, and the caller's is restored.
+// One of our own CCDs behind the plug-in interface, in one mode of the processor. ROUNDING is the rounding
+// mode; with FLUSH, subnormal results and operands become zero. Each test sets the mode and restores the
+// caller's.
 #include <algorithm>
 #include <cfenv>
 #include <exception>

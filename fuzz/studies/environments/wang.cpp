@@ -1,4 +1,4 @@
-// The failure-proof CCD as a header-only library, without the guard of the built-in subjects.
+// The failure-proof CCD, used as a header-only library without the guard of the built-in subjects.
 #include "ccd/wang.hpp"
 
 #include "fuzz/studies/environments/on_trial.hpp"

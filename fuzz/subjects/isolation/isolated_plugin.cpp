@@ -21,7 +21,7 @@ using isolation::WorkerProcess;
 
 class IsolatedPlugin final : public BatchSubject {
  public:
-  /// `first` is a worker with the plug-in at the path.
+  /// `first` is a worker that has loaded the plug-in at the path.
   IsolatedPlugin(std::string path, const PluginLimits& limits, std::unique_ptr<WorkerProcess> first)
       : BatchSubject(first->shared().name.data()),
         path_(std::move(path)),
@@ -85,7 +85,8 @@ class IsolatedPlugin final : public BatchSubject {
     }
   }
 
-  /// The part of a batch that one worker did: queries [first, end), and a failure at `end` if the worker ended there.
+  /// The part of a batch that one worker completed: queries [first, end), and a failure at `end` if the
+  /// worker ended there.
   struct BatchPart {
     const Shared& shared;
     std::size_t start;  ///< index of the batch's first query among all queries
@@ -99,7 +100,7 @@ class IsolatedPlugin final : public BatchSubject {
     }
   };
 
-  /// Has all queries done, with a new worker after each query at which one ended.
+  /// Performs a request for all queries, with a new worker after each query at which a worker ended.
   template <class Take>
   void perform(Request request, std::span<const Query> queries, const Take& take_part) const {
     std::unique_ptr<WorkerProcess> worker = take();

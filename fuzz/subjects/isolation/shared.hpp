@@ -1,4 +1,4 @@
-// Memory and socket that a worker process and the asking process share.
+// The memory and the socket that a worker process and the asking process share.
 #pragma once
 
 #include <array>
@@ -9,13 +9,14 @@
 
 namespace nearmiss::isolation {
 
-/// File descriptors with which a worker starts.
+/// The file descriptors with which a worker starts.
 inline constexpr int socket_descriptor = 3;  ///< one byte requests a batch, one byte replies that it is done
 inline constexpr int memory_descriptor = 4;  ///< Shared
 
 inline constexpr std::size_t batch_size = 2048;
 
-/// A request, one byte: decide the queries; decide them and measure the time of all; time each by itself; give bounds.
+/// A request of one byte: decide the queries; decide them and measure the total time; time each query
+/// separately; give bounds.
 enum class Request : char { decide = 'd', decide_timed = 't', time_each = 'e', bounds = 'b' };
 
 /// The plug-in's answer to one query.
@@ -25,11 +26,11 @@ struct PluginAnswer {
   double number = 0;              ///< the time of impact, or the bound
 };
 
-/// Both sides write here in turn: the asking process before a request, the worker before its reply. Only `current`,
-/// `calls` and `memory_refused` are read in between, or after the worker died.
+/// Both sides write here in turn: the asking process before a request, the worker before its reply. The
+/// asking process only reads `current`, `calls` and `memory_refused` in between or after the worker died.
 struct Shared {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
-  std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
+  std::atomic<std::uint32_t> calls{0};           ///< number of started calls of the plug-in
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
   Kind kind{};
   std::uint32_t first = 0;  ///< the queries [first, count) of the batch are requested

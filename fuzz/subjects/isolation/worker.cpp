@@ -1,5 +1,5 @@
-// nearmiss-worker PLUGIN BYTES: the process in which a plug-in runs. It answers requests until the asking process
-// ends. BYTES limits the memory that it may use in addition to what loading took; 0 is no limit.
+// nearmiss-worker PLUGIN BYTES: the process in which a plug-in runs. It answers requests until the asking
+// process ends. BYTES limits the memory that it may use in addition to what loading took; 0 means no limit.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
@@ -30,8 +30,8 @@ Shared* shared = nullptr;
 
 }  // namespace
 
-// The plug-in's allocations come here, so that failures are noted; glibc has these names for that purpose.
-// (Sanitizers have their own allocators.)
+// These functions replace the allocator for the plug-in, so that failures are noted; glibc provides the names
+// below for that purpose. (Sanitizers have their own allocators.)
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define NEARMISS_SANITIZER_ALLOCATES
@@ -73,18 +73,19 @@ void* realloc(void* old, std::size_t size) {
 
 namespace {
 
-/// Discards the plug-in's output, and sets the actions of signals.
+/// Discards the plug-in's output, and sets how signals are handled.
 void close_off() {
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   if (nothing > STDERR_FILENO) close(nothing);
-  // An interrupt goes to both processes. The asking one then ends this one; it must not look like a crash.
+  // An interrupt goes to both processes. The asking process then ends this one, which must not look like a
+  // crash.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
-  // A crash must be seen as one, even if a sanitizer would turn it into an exit.
+  // A crash must look like a crash, even if a sanitizer would turn it into an exit.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
 }
 
-/// Ends this process when the asking one has ended, whatever the plug-in does.
+/// Ends this process when the asking process has ended, whatever the plug-in does.
 void end_with_the_other_side() {
   std::thread([] {
     pollfd other_side{socket_descriptor, 0, 0};
@@ -112,7 +113,7 @@ Query query_at(std::uint32_t i) {
   return query;
 }
 
-/// Notes which query comes next; it may be the last one.
+/// Notes which query comes next, because the plug-in may crash in it.
 void begin(std::uint32_t i) {
   shared->memory_refused.store(0, std::memory_order_relaxed);
   shared->current.store(i, std::memory_order_release);
@@ -142,7 +143,7 @@ void answer(const Plugin& plugin, Request request) {
       const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
       ask(empty, first, few);
       ask(plugin, first, few);
-      // The time of all threads, since a plug-in may have threads of its own.
+      // Measures the time of all threads, since a plug-in may have threads of its own.
       shared->nanoseconds = time_beyond(
           CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, first, last); }, [&] { ask(empty, first, last); });
       break;

@@ -27,7 +27,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// The path of nearmiss-worker: beside this program, or else where it was built.
+/// The path of nearmiss-worker: next to this program, or else where it was built.
 std::string worker_executable() {
   std::error_code unknown;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -71,7 +71,8 @@ void WorkerProcess::start(const std::string& path, int memory) {
   check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
   socket_.number = sockets[0];
   const Descriptor theirs{sockets[1]};
-  // Numbers above those that they are duplicated to, so that one cannot overwrite the other.
+  // Moves both descriptors above the numbers to which they are duplicated, so that one cannot overwrite the
+  // other.
   const Descriptor socket_above{fcntl(theirs.number, F_DUPFD_CLOEXEC, 16)};
   const Descriptor memory_above{fcntl(memory, F_DUPFD_CLOEXEC, 16)};
   check(socket_above.number >= 0 && memory_above.number >= 0, "descriptor");

@@ -16,10 +16,10 @@ namespace nearmiss::isolation {
 
 /// The limits of a plug-in.
 struct PluginLimits {
-  /// Time limit per query, of the process's computing time; at most ten times as long may pass.
+  /// Limit of the process's computing time per query. The elapsed time may be at most ten times longer.
   std::chrono::duration<double> time{1};
   std::uint64_t bytes = std::uint64_t{1}
-                        << 30;  ///< limit of memory in addition to what loading took; 0 is no limit
+                        << 30;  ///< limit of memory in addition to what loading took; 0 means no limit
 };
 
 /// Why a query has no answer.
@@ -29,7 +29,7 @@ struct WorkerFailure {
   std::int32_t code;  ///< for a crash: the signal, or the negated exit code
 };
 
-/// A running worker. It cannot be used after a request failed.
+/// A running worker. It cannot be used after a request has failed.
 class WorkerProcess {
  public:
   /// Throws Error if the plug-in cannot be used.
@@ -40,7 +40,7 @@ class WorkerProcess {
 
   [[nodiscard]] Shared& shared() const { return *shared_; }
 
-  /// Has the queries in shared() done. Returns why one failed; nothing if all are done.
+  /// Performs a request for the queries in shared(). Returns why one failed; nothing if all were completed.
   std::optional<WorkerFailure> perform(Request request) const;
 
  private:

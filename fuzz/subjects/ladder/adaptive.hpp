@@ -9,11 +9,12 @@
 namespace nearmiss {
 
 inline constexpr SubjectInfo adaptive_info{
-    "adaptive", "wang; what it reports is decided again: by the certified filter, in double-double, exactly"};
+    "adaptive", "wang, whose reports are decided again: by the certified filter, in double-double, exactly"};
 
-/// wang decides first, which misses nothing. The oracle's certified filter decides again what wang reports, in double;
-/// wang:dd, which also misses nothing, decides what the filter leaves; exact arithmetic decides what wang:dd reports.
-/// So `adaptive` misses nothing and reports nothing falsely: its distance bound is 0. Nothing for another name.
+/// wang decides first, and misses nothing. The oracle's certified filter decides wang's reports again, in
+/// double. wang:dd, which also misses nothing, decides the queries that the filter leaves undecided, and
+/// exact arithmetic decides the reports of wang:dd. So `adaptive` has no misses and no false positives, and
+/// its distance bound is 0. Nothing for any other name.
 std::unique_ptr<Subject> try_make_adaptive(std::string_view name);
 
 }  // namespace nearmiss

@@ -7,7 +7,7 @@ namespace nearmiss::ladder {
 
 namespace {
 
-/// Gives the thread's numbers as many bits as ε says. Conversions from and to double are done by the processor.
+/// Gives the thread's numbers the number of bits that ε implies. The processor converts from and to double.
 struct MpfrArithmetic {
   explicit MpfrArithmetic(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
   PlainArithmetic guard;

@@ -1,4 +1,4 @@
-// libqd's double-double numbers, as a scalar for ccd/'s templates.
+// The double-double numbers of libqd, as a scalar for the templates of ccd/.
 #pragma once
 
 #include <qd/dd_real.h>
@@ -10,14 +10,15 @@
 
 namespace nearmiss {
 
-/// An unevaluated sum of two doubles. With u = 2^-53 the relative errors are, if nothing comes near the ends of
-/// double's range,
+/// An unevaluated sum of two doubles. Let u = 2^-53. Unless a number comes near the ends of the range of
+/// double, the relative errors are
 ///   sum, difference  3u² + 13u³  (Algorithm 6 of Joldes, Muller and Popescu, "Tight and rigorous error
 ///   product          5u²          bounds for basic building blocks of double-word arithmetic", ACM TOMS 44,
 ///                                 2017; Algorithm 10 there)
 ///   quotient, root   at most 16u² in tests against rational numbers; no proof is published
-/// so ε = 16u² = 2^-102. Debian's libqd is built with another sum, whose relative error is unbounded for operands of
-/// opposite signs. The paper's model would not hold, so the accurate sum and quotient are called by name.
+/// so ε = 16u² = 2^-102. Debian's libqd is built with another sum, whose relative error is unbounded for
+/// operands of opposite signs. The paper's model would not hold with it, so this class calls the accurate sum
+/// and quotient by name.
 class DoubleDouble {
  public:
   DoubleDouble(double value = 0) : value_(value) {}
@@ -54,12 +55,13 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// That of the higher part, which is at most one too large.
+  /// ilogb of the higher part, which is too large by at most one.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
-  /// Beyond about 2^996 libqd's steps may overflow although the result does not; the result in double is then taken.
+  /// Beyond about 2^996, intermediate results of libqd may overflow although the result does not. The result
+  /// in double is then used.
   static DoubleDouble or_double(const dd_real& result, double in_double) {
     return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
                                                                     : DoubleDouble(in_double);

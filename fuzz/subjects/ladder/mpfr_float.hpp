@@ -1,4 +1,4 @@
-// MPFR's numbers of any precision, as a scalar for ccd/'s templates.
+// MPFR numbers of any precision, as a scalar for the templates of ccd/.
 #pragma once
 
 #include <mpfr.h>
@@ -10,14 +10,14 @@
 
 namespace nearmiss {
 
-/// A number with as many bits as the thread's PrecisionScope sets, without memory on the heap. Every operation, the
-/// root too, rounds to nearest, so its relative error is at most u = 2^-bits = ε/2. Exponents have no bounds that
-/// matter here.
+/// A number with the number of bits that the thread's PrecisionScope sets, without heap memory. Every
+/// operation, including the square root, rounds to nearest, so its relative error is at most u = 2^-bits =
+/// ε/2. The limits of the exponent do not matter here.
 class MpfrFloat {
  public:
   static constexpr int most = 256;
 
-  /// Sets the number of bits of this thread's numbers for a scope. Numbers exist only within one.
+  /// Sets the number of bits of this thread's numbers for a scope. Numbers exist only within such a scope.
   class PrecisionScope {
    public:
     explicit PrecisionScope(int bits) : before_(precision_) { precision_ = bits; }
@@ -74,7 +74,7 @@ class MpfrFloat {
     mpfr_mul_2si(result.value_, a.value_, exponent, MPFR_RNDN);
     return result;
   }
-  /// For a finite number other than 0.
+  /// The binary exponent of a finite number other than 0.
   friend int ilogb(const MpfrFloat& a) { return static_cast<int>(mpfr_get_exp(a.value_)) - 1; }
   friend bool isfinite(const MpfrFloat& a) { return mpfr_number_p(a.value_) != 0; }
 

@@ -1,6 +1,6 @@
-// IEEE's binary128, which g++ computes in software. clang has no library for it, and then there is no such scalar. The
-// operations round to nearest, as those of machine_scalars.cpp. libquadmath's root does not always, but is within ε
-// in a test against rational numbers.
+// The binary128 type of IEEE 754, which g++ computes in software. clang has no library for it, so clang
+// builds lack this scalar. The operations round to nearest, like those of machine_scalars.cpp. The square
+// root of libquadmath does not always round to nearest, but is within ε in a test with rational numbers.
 #include "fuzz/subjects/ladder/scalars.hpp"
 
 #if __has_include(<quadmath.h>)

@@ -6,7 +6,8 @@
 
 namespace nearmiss::ladder {
 
-/// std::numeric_limits of a T with at least double's range: as of double. T adds its epsilon.
+/// The std::numeric_limits of a T whose range is at least that of double. They are those of double; T adds
+/// its epsilon.
 template <class T>
 struct LimitsOfDouble : std::numeric_limits<double> {
   static T min() { return std::numeric_limits<double>::min(); }
@@ -14,7 +15,7 @@ struct LimitsOfDouble : std::numeric_limits<double> {
   static T infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
-/// Eigen::NumTraits of a real T that has a constructor, with Eigen's estimates of what operations cost.
+/// The Eigen::NumTraits of a real T that has a constructor, with estimates of the costs of operations.
 template <class T, int read_cost, int add_cost, int multiplication_cost>
 struct RealTraits : Eigen::GenericNumTraits<T> {
   enum {

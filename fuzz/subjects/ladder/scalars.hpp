@@ -17,12 +17,13 @@ enum class Algorithm : std::uint8_t { basic, wang, wang_tight };
 
 struct Scalar {
   std::string name;
-  int epsilon_exponent;  ///< ε = 2^this
+  int epsilon_exponent;  ///< the exponent in ε = 2^epsilon_exponent
   std::unique_ptr<Subject> (*make)(std::string_view subject, int epsilon_exponent, Algorithm algorithm,
                                    std::optional<double> given_bound);
 };
 
-/// The parts of the list, each from its own file. quad_scalar() is empty if the compiler has no binary128.
+/// The parts of the list, each from a file of its own. quad_scalar() is empty if the compiler has no
+/// binary128.
 std::vector<Scalar> machine_scalars();
 std::vector<Scalar> quad_scalar();
 /// The scalar with this number of bits: "p40".
@@ -32,11 +33,11 @@ inline constexpr int fewest_bits = 16, most_bits = 256;
 
 }  // namespace ladder
 
-/// The scalars with their own name, by ascending precision. There are also "p16" to "p256".
+/// The scalars that have a name of their own, by ascending precision. "p16" to "p256" exist in addition.
 std::vector<ladder::Scalar> named_scalars();
 
-/// basic, wang or wang-tight over a scalar: "wang:p40". Nothing for a name without a colon. `given_bound` as for
-/// make_subject. Throws Error for an unknown algorithm or scalar.
+/// Makes basic, wang or wang-tight over a scalar from a name such as "wang:p40". Nothing for a name without a
+/// colon. `given_bound` is as for make_subject. Throws Error for an unknown algorithm or scalar.
 std::unique_ptr<Subject> try_make_scaled(std::string_view name, std::optional<double> given_bound);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-// The subjects of ccd/ over any scalar. Only the files that define scalars include this: its templates are slow to
-// compile.
+// The subjects of ccd/ over any scalar. Only the files that define scalars include this header, because its
+// templates are slow to compile.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or the smallest ones.
+/// Steps with the paper's tolerances, or with the smallest ones.
 struct EitherTolerances : AllSteps {
   std::optional<ToleranceConstants> smallest;
 
@@ -30,14 +30,14 @@ struct EitherTolerances : AllSteps {
   }
 };
 
-/// The arithmetic in which scalars of the machine compute, for a scope.
+/// Sets the arithmetic for scalars of the machine within a scope.
 struct MachineArithmetic {
   explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
 };
 
-/// basic, wang or wang-tight with all arithmetic in T, each time within an Arithmetic(ε's exponent). If T has
-/// fewer digits than a double, coordinates are rounded to T first, and the rounded query is decided.
+/// basic, wang or wang-tight with all arithmetic in T. Each call runs within an Arithmetic(exponent of ε). If
+/// T has fewer digits than a double, coordinates are rounded to T first, and the rounded query is decided.
 template <class T, class Arithmetic>
 class Scaled final : public Subject {
  public:
@@ -62,7 +62,7 @@ class Scaled final : public Subject {
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Arithmetic arithmetic(epsilon_exponent_);
-    // Rounded up, with slack for B in a scalar of few digits: B <= B* (1 + 40ε).
+    // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε).
     const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
