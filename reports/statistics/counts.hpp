@@ -124,15 +124,17 @@ struct OracleCounts {
   std::uint64_t missed_by_parity = 0;     ///< collisions among `compared` that have an even number of roots
 
   static constexpr auto counters() {
-    return std::tuple{
-        Counter{"queries", &OracleCounts::queries},
-        Counter{"collisions", &OracleCounts::collisions},
-        NamedCounts<OracleCounts, filter_stage_count>{"by_stage", &OracleCounts::by_stage, filter_stage_names,
-                                                      "decided_by", "decided_by", 0, true},
-        Counter{"near_bounds", &OracleCounts::near_bounds},
-        Counter{"compared", &OracleCounts::compared},
-        Counter{"compared_collisions", &OracleCounts::compared_collisions},
-        Counter{"missed_by_parity", &OracleCounts::missed_by_parity}};
+    return std::tuple{Counter{"queries", &OracleCounts::queries},
+                      Counter{"collisions", &OracleCounts::collisions},
+                      NamedCounts<OracleCounts, filter_stage_count>{.name = "by_stage",
+                                                                    .member = &OracleCounts::by_stage,
+                                                                    .names = filter_stage_names,
+                                                                    .json_key = "decided_by",
+                                                                    .shows_zeros = true},
+                      Counter{"near_bounds", &OracleCounts::near_bounds},
+                      Counter{"compared", &OracleCounts::compared},
+                      Counter{"compared_collisions", &OracleCounts::compared_collisions},
+                      Counter{"missed_by_parity", &OracleCounts::missed_by_parity}};
   }
 
   void merge(const OracleCounts& other) { merge_counters(*this, other); }

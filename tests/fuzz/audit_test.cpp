@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
@@ -14,6 +16,7 @@
 #include "ccd/vertex_edge.hpp"
 #include "fuzz/studies/audit/samples.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fingerprint.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -35,6 +38,7 @@ TEST(Audited, FollowsTheRulesOfTheTheorem) {
   EXPECT_EQ((3 * x).bound(), (ErrorBound{3, 1, 1}));
   EXPECT_EQ((2 * x).bound(), (ErrorBound{2, 1, 0}));
   EXPECT_EQ((x / 4).bound(), (ErrorBound{0.25, 1, 1}));
+  EXPECT_EQ((x * x / 4).bound(), (ErrorBound{0.25, 2, 2}));
   EXPECT_EQ((exact_time(1) * x).bound(), (ErrorBound{1, 1, 1}));
   EXPECT_TRUE(std::isinf((x / x).bound().error()));
 }
@@ -52,6 +56,26 @@ TEST(Audited, KeepsAPositionWithinTheBoundOfItsEnds) {
   const auto at = audit_parts::exactly(unit).at(exact_time(0.7));
   EXPECT_EQ(at[0].bound(), (ErrorBound{1, 1, 2}));
   EXPECT_EQ(at[0].value(), unit.at(0.7)[0]);
+}
+
+/// A hash of the first samples and of their changes.
+std::uint64_t fingerprint_of_samples(double reach) {
+  testing::Fingerprint fingerprint;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(1, 0, i);
+    const auto drawn = audit_parts::draw_sample(random, reach);
+    for (const auto& sample : {drawn, audit_parts::changed(random, drawn)}) {
+      for (const Moving<double>* vector : {&sample.p, &sample.q, &sample.r}) fingerprint.add_all(vector->xv);
+      fingerprint.add_all(std::array{sample.t, sample.eta, sample.S});
+    }
+  }
+  return fingerprint.value();
+}
+
+// A seed of `nearmiss audit` keeps its meaning.
+TEST(Audit, DrawsTheSamplesThatItAlwaysDrew) {
+  EXPECT_EQ(fingerprint_of_samples(1), 0x84e8ad84fd597905) << std::hex << fingerprint_of_samples(1);
+  EXPECT_EQ(fingerprint_of_samples(2), 0xbc58b38180eaa708) << std::hex << fingerprint_of_samples(2);
 }
 
 TEST(Audit, SeesNoMoreThanTheRulesAllow) {

@@ -17,6 +17,8 @@ TEST(ClaimedPrecision, TheCheapestWithinTheThicknessIsTaken) {
   EXPECT_EQ(cheapest_within(all, 1e-3)->subject, "nearer");
   EXPECT_EQ(cheapest_within(all, 1e-6)->subject, "exact");
   EXPECT_EQ(cheapest_within({all[0]}, 1e-6), nullptr);
+  const std::vector<ClaimedPrecision> equal{{"first", 0, 10}, {"second", 0, 10}};
+  EXPECT_EQ(cheapest_within(equal, 1)->subject, "first");
 }
 
 TEST(ClaimedPrecision, IsTheLargestBoundOfAllPairs) {

@@ -6,13 +6,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <bit>
 #include <iostream>
 #include <map>
 #include <string>
 
 #include "ccd/error.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fingerprint.hpp"
 
 namespace nearmiss {
 
@@ -51,11 +51,9 @@ TEST_P(EveryFamily, IsAPureFunctionOfSeedAndIndex) {
 
 /// A hash of the first queries.
 std::uint64_t fingerprint(const Family& family) {
-  std::uint64_t hash = 0;
-  for (std::uint64_t i = 0; i < 1000; ++i)
-    for (const double c : make_query(family, 1, i).x)
-      hash = std::rotl((hash ^ std::bit_cast<std::uint64_t>(c)) * 0x100000001b3, 29);
-  return hash;
+  testing::Fingerprint fingerprint;
+  for (std::uint64_t i = 0; i < 1000; ++i) fingerprint.add_all(make_query(family, 1, i).x);
+  return fingerprint.value();
 }
 
 // A provenance always gives the same query, with every compiler. (Families that draw log-uniform numbers make

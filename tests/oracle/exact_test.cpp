@@ -26,6 +26,9 @@ Query vertex_against_unit_triangle(const Vector& from, const Vector& to) {
   return make_query(Kind::vertex_triangle, {from, o, a, b}, {to, o, a, b});
 }
 
+TEST(Exact, AllVerticesAtTheOrigin) {
+  for (const Kind kind : kinds) EXPECT_TRUE(collides_exactly(Query{.kind = kind}));
+}
 TEST(Exact, VertexThroughTheTriangle) { EXPECT_TRUE(collides(falling_vertex(0.25, 0.25, 1, -1))); }
 TEST(Exact, VertexBesideTheTriangle) { EXPECT_FALSE(collides(falling_vertex(0.75, 0.75, 1, -1))); }
 TEST(Exact, VertexStopsAtTheTriangle) { EXPECT_TRUE(collides(falling_vertex(0.25, 0.25, 1, 0))); }
