@@ -37,11 +37,11 @@ Words after_keyword(Lines& lines) {
   return lines.words();
 }
 
-struct Counts {
+struct MeshSize {
   int vertices, faces;
 };
 
-Counts read_counts(Lines& lines, std::string_view name) {
+MeshSize read_size(Lines& lines, std::string_view name) {
   const Words counts = after_keyword(lines);
   if (counts.size() != 2 && counts.size() != 3)
     throw lines.error(fmt::format("{}", fmt::join(counts, " ")), "the numbers of vertices, faces and edges");
@@ -89,12 +89,12 @@ std::vector<long> parse_face(Words face, int vertices, const Lines& lines) {
 Mesh parse_off(std::istream& in, const std::string& name) {
   const std::string text = read_all(in, name);
   Lines lines(text, name, Lines::Comments::hash);
-  const Counts counts = read_counts(lines, name);
+  const MeshSize size = read_size(lines, name);
   Mesh mesh;
-  for (int i = 0; i < counts.vertices; ++i)
-    mesh.points.push_back(parse_vertex(next_line(lines, "vertex", i, counts.vertices), lines));
-  for (int i = 0; i < counts.faces; ++i)
-    add_polygon(mesh, parse_face(next_line(lines, "face", i, counts.faces), counts.vertices, lines));
+  for (int i = 0; i < size.vertices; ++i)
+    mesh.points.push_back(parse_vertex(next_line(lines, "vertex", i, size.vertices), lines));
+  for (int i = 0; i < size.faces; ++i)
+    add_polygon(mesh, parse_face(next_line(lines, "face", i, size.faces), size.vertices, lines));
   if (lines.next()) throw lines.error(shown(lines.words()[0]), "the end of the file");
   return mesh;
 }

@@ -41,7 +41,7 @@ class BatchFilter {
  private:
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
-  using Column = std::array<double, batch_size + n>;
+  using OfBatch = std::array<double, batch_size + n>;  ///< a number of each query
   static constexpr std::size_t weight_count = kind == Kind::vertex_triangle ? 3 : 4;
 
   /// A list of indices of queries, taken n at a time.
@@ -241,7 +241,7 @@ class BatchFilter {
 
   void look_at_steps(const Rows& rows, FilterStage* stages, PendingParts& next) const {
     for (std::size_t i = 0; i < rows.size(); i += n) {
-      const auto [F, weights] = polynomials([&](const Column& c) { return Real::load(&c[i]); });
+      const auto [F, weights] = polynomials([&](const OfBatch& c) { return Real::load(&c[i]); });
       const auto whole = [&](std::size_t l) {
         return PendingPart{0, 1, static_cast<std::uint8_t>(i + l), 0};
       };
@@ -254,7 +254,7 @@ class BatchFilter {
     for (std::size_t i = 0; i < parts.count; i += n) {
       const PendingPart* const pack = &parts.parts[i];
       const auto [F, weights] = polynomials(
-          [&](const Column& c) { return Real::gather([&](std::size_t l) { return c[pack[l].place]; }); });
+          [&](const OfBatch& c) { return Real::gather([&](std::size_t l) { return c[pack[l].place]; }); });
       const Real lo = Real::gather([&](std::size_t l) { return pack[l].lo; });
       const Real hi = Real::gather([&](std::size_t l) { return pack[l].hi; });
       const auto part = [&](std::size_t l) { return pack[l]; };
@@ -290,8 +290,8 @@ class BatchFilter {
   const Query* queries_ = nullptr;
   const Query* ahead_ = nullptr;
   // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
-  std::array<Column, 5> F_;                 ///< Bernstein coefficients and error
-  std::array<Column, 4 * weight_count> W_;  ///< the same for each weight
+  std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
+  std::array<OfBatch, 4 * weight_count> W_;  ///< the same for each weight
 };
 
 template <int n>

@@ -16,8 +16,8 @@ namespace nearmiss {
 
 inline constexpr std::size_t decider_count = 4;
 
-/// Names of the deciders in files, in the order in which they are asked. The last three stand for the stages
-/// and rejections with the same names, "algorithm" for all others.
+/// Names of the deciders in files, in the order in which they are asked. A stage or rejection with one of
+/// the last three names belongs to that decider, and every other one to "algorithm".
 inline constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer",
                                                                            "exact"};
 

@@ -16,7 +16,7 @@
 #include "ccd/vertex_edge.hpp"
 #include "fuzz/studies/audit/samples.hpp"
 #include "oracle/oracle.hpp"
-#include "tests/fingerprint.hpp"
+#include "tests/bit_hash.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -60,16 +60,16 @@ TEST(Audited, KeepsAPositionWithinTheBoundOfItsEnds) {
 
 /// A hash of the first samples and of their changes.
 std::uint64_t fingerprint_of_samples(double reach) {
-  testing::Fingerprint fingerprint;
+  testing::BitHash hash;
   for (std::uint64_t i = 0; i < 1000; ++i) {
     Random random(1, 0, i);
     const auto drawn = audit_parts::draw_sample(random, reach);
     for (const auto& sample : {drawn, audit_parts::changed(random, drawn)}) {
-      for (const Moving<double>* vector : {&sample.p, &sample.q, &sample.r}) fingerprint.add_all(vector->xv);
-      fingerprint.add_all(std::array{sample.t, sample.eta, sample.S});
+      for (const Moving<double>* vector : {&sample.p, &sample.q, &sample.r}) hash.add_all(vector->xv);
+      hash.add_all(std::array{sample.t, sample.eta, sample.S});
     }
   }
-  return fingerprint.value();
+  return hash.value();
 }
 
 // A seed of `nearmiss audit` keeps its meaning.

@@ -15,7 +15,7 @@
 #include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "oracle/oracle.hpp"
-#include "tests/fingerprint.hpp"
+#include "tests/bit_hash.hpp"
 
 namespace nearmiss {
 
@@ -37,12 +37,12 @@ INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryScene, ::testing::ValuesIn(built_in_scene
 
 /// A hash of the first, a middle and the last frame, and of the primitives.
 std::uint64_t fingerprint(const Scene& scene) {
-  testing::Fingerprint fingerprint;
+  testing::BitHash hash;
   for (const std::size_t frame : {std::size_t{0}, scene.frames / 2, scene.frames - 1})
-    for (const auto& p : scene.points(frame)) fingerprint.add_all(p);
-  for (const auto& triangle : scene.mesh.triangles) fingerprint.add_all(triangle);
-  for (const auto& line : scene.mesh.lines) fingerprint.add_all(line);
-  return fingerprint.value();
+    for (const auto& p : scene.points(frame)) hash.add_all(p);
+  for (const auto& triangle : scene.mesh.triangles) hash.add_all(triangle);
+  for (const auto& line : scene.mesh.lines) hash.add_all(line);
+  return hash.value();
 }
 
 // The hash is the same on every machine and with every compiler.

@@ -12,7 +12,7 @@
 
 #include "ccd/error.hpp"
 #include "oracle/oracle.hpp"
-#include "tests/fingerprint.hpp"
+#include "tests/bit_hash.hpp"
 
 namespace nearmiss {
 
@@ -51,9 +51,9 @@ TEST_P(EveryFamily, IsAPureFunctionOfSeedAndIndex) {
 
 /// A hash of the first queries.
 std::uint64_t fingerprint(const Family& family) {
-  testing::Fingerprint fingerprint;
-  for (std::uint64_t i = 0; i < 1000; ++i) fingerprint.add_all(make_query(family, 1, i).x);
-  return fingerprint.value();
+  testing::BitHash hash;
+  for (std::uint64_t i = 0; i < 1000; ++i) hash.add_all(make_query(family, 1, i).x);
+  return hash.value();
 }
 
 // A provenance always gives the same query, with every compiler. (Families that draw log-uniform numbers make

@@ -18,7 +18,7 @@
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/sturm.hpp"
-#include "tests/fingerprint.hpp"
+#include "tests/bit_hash.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -90,15 +90,14 @@ double velocity_difference(const Query& query, int i, const Vector3<double>& vel
 
 /// A hash of what a kind of mutation makes of some queries.
 std::uint64_t fingerprint(const Mutation& kind) {
-  testing::Fingerprint fingerprint;
+  testing::BitHash hash;
   for (const char* family : {"uniform", "small-integer", "planted"}) {
-    std::uint64_t number = 0;
-    for (const Query& before : some_queries(family)) {
+    for (std::uint64_t number = 0; const Query& before : some_queries(family)) {
       Random random(2, 0, number++);
-      fingerprint.add_all(kind.apply(random, before).x);
+      hash.add_all(kind.apply(random, before).x);
     }
   }
-  return fingerprint.value();
+  return hash.value();
 }
 
 // The provenance of a query that a search or libFuzzer found names a seed, which must keep its meaning.

@@ -12,7 +12,7 @@
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
-#include "tests/fingerprint.hpp"
+#include "tests/bit_hash.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -44,7 +44,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
   const auto missed = missed_by_basic();
   ASSERT_GE(missed.size(), 17);
   std::vector<int> distinct;
-  testing::Fingerprint fingerprint;
+  testing::BitHash hash;
   for (const Finding& finding : missed) {
     const auto start = std::chrono::steady_clock::now();
     const Query shrunk = shrunk_query(finding, basic.get());
@@ -64,10 +64,10 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     again.query = shrunk;
     EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // nothing is left to do
     distinct.push_back(after.distinct);
-    fingerprint.add_all(shrunk.x);
+    hash.add_all(shrunk.x);
   }
-  EXPECT_EQ(fingerprint.value(), 0xe2014d3e10fd96c8)
-      << std::hex << fingerprint.value();  // each step does what it always did
+  EXPECT_EQ(hash.value(), 0xe2014d3e10fd96c8)
+      << std::hex << hash.value();  // each step does what it always did
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
             4);  // most have few distinct numbers; all except the coplanar queries had about 20

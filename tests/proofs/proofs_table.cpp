@@ -71,7 +71,7 @@ std::map<std::string, Witness> known_witnesses(const std::string& file) {
 }
 
 /// The options of the command line.
-struct Request {
+struct Options {
   double seconds = 0;
   int steps = 0;
   std::uint64_t seed = 0;
@@ -79,14 +79,14 @@ struct Request {
   bool check = false;
 };
 
-void add_options(CLI::App& app, Request& request) {
-  app.add_option("--search", request.seconds,
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--search", options.seconds,
                  "Search for larger errors in ccd/ for this many seconds per row, and keep them");
-  app.add_option("--search-oracle", request.steps,
+  app.add_option("--search-oracle", options.steps,
                  "Search for larger errors in oracle/ in this many steps per row, and keep them");
-  app.add_option("--seed", request.seed, "Seed of the search");
-  app.add_option("--script", request.name, "Print the last Gappa script of this row, for double");
-  app.add_flag("--check", request.check, "Print for every row whether it holds, and what is wrong");
+  app.add_option("--seed", options.seed, "Seed of the search");
+  app.add_option("--script", options.name, "Print the last Gappa script of this row, for double");
+  app.add_flag("--check", options.check, "Print for every row whether it holds, and what is wrong");
 }
 
 void print_script(std::string_view name) {
@@ -96,19 +96,19 @@ void print_script(std::string_view name) {
                  Prover().script(claim.problem(), {53, {}, claim.vectors_alone}, claim.proven * 0x1p-52));
 }
 
-void run(const Request& request) {
+void run(const Options& options) {
   const std::string file = NEARMISS_WITNESSES "/ccd.txt";
   const std::string oracle_file = NEARMISS_WITNESSES "/oracle.txt";
-  if (!request.name.empty()) return print_script(request.name);
+  if (!options.name.empty()) return print_script(options.name);
   auto witnesses = known_witnesses(file);
   auto oracle_witnesses = known_witnesses(oracle_file);
-  if (request.check) return check_all(witnesses, oracle_witnesses);
-  if (request.seconds > 0) {
-    search_all(ccd_claims(), witnesses, request.seconds, request.seed);
+  if (options.check) return check_all(witnesses, oracle_witnesses);
+  if (options.seconds > 0) {
+    search_all(ccd_claims(), witnesses, options.seconds, options.seed);
     write_witnesses(file, witnesses);
   }
-  if (request.steps > 0) {
-    search_all(oracle_claims(), oracle_witnesses, request.steps, request.seed);
+  if (options.steps > 0) {
+    search_all(oracle_claims(), oracle_witnesses, options.steps, options.seed);
     write_witnesses(oracle_file, oracle_witnesses);
   }
   auto rows = rows_of(oracle_claims(), oracle_witnesses);
@@ -122,11 +122,11 @@ void run(const Request& request) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Print the table of claims about rounding errors: the claimed, the proven and the seen values");
-  Request request;
-  add_options(app, request);
+  Options options;
+  add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   try {
-    run(request);
+    run(options);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

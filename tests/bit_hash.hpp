@@ -6,7 +6,7 @@
 
 namespace nearmiss::testing {
 
-class Fingerprint {
+class BitHash {
  public:
   void add(std::uint64_t bits) { hash_ = std::rotl((hash_ ^ bits) * 0x100000001b3, 29); }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
