@@ -107,8 +107,7 @@ Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitO
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    made.push_back(is_plugin_path(name) ? make_isolated_plugin(name, allowed)
-                                        : make_any_subject(name, given_bound));
+    made.push_back(make_any_subject(name, given_bound, allowed));
     if (!seen.insert(made.back()->name()).second)
       throw Error(
           fmt::format("found two subjects named '{}', expected different names", made.back()->name()));

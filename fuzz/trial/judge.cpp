@@ -13,6 +13,7 @@ double Judge::unit(const Query& query) const { return (wang_ ? *wang_ : subject_
 
 Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts* counts) const {
   Outcome outcome{.verdict = verdict, .collision = truth.collision()};
+  if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
   if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return outcome;
   const double unit = this->unit(truth.query());
   if (!(unit >= 0)) outcome.verdict.fault = Fault::error;
@@ -33,7 +34,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
   const Kind kind = truth.query().kind;
   if (outcome.verdict.fault != Fault::none)
-    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict)};
+    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict, outcome.fault_text)};
   if (outcome.collision && !outcome.verdict.hit)
     return Failure{Finding::What::false_negative, truth.contact()};
   if (outcome.bound_refuted)

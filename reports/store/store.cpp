@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr int application_id = 0x6e656172;  // "near"
 
 /// Version of the tables and of their contents; every change raises it.
-constexpr int schema_version = 12;
+constexpr int schema_version = 13;
 
 void make_schema(SQLite::Database& db) {
   make_run_tables(db);
