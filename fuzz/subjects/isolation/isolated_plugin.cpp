@@ -57,13 +57,16 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
 
-  [[nodiscard]] double distance_bound(const Query& query) const override {
+  [[nodiscard]] double distance_bound(const Query& query) const override { return ask_bound(query).bound; }
+
+  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
     std::unique_ptr<WorkerProcess> worker = take();
     fill(worker->shared(), std::span(&query, 1));
-    if (worker->perform(Request::bounds)) return std::numeric_limits<double>::quiet_NaN();
+    if (const auto failure = worker->perform(Request::bounds))
+      return {.fault = failure->fault, .fault_code = failure->code};
     const double bound = worker->shared().answers[0].number;
     give_back(std::move(worker));
-    return bound;
+    return {bound, bound >= 0 ? Fault::none : Fault::error};
   }
 
  private:
