@@ -13,6 +13,7 @@ typedef struct {
   int abi; /* NEARMISS_SUBJECT_ABI */
   const char *name, *version;
   /* x: 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
+   * The answer must depend on x alone: a query that fails is asked again, when it is shrunk and when it is replayed.
    * vertex_triangle: vertex x0, triangle x1 x2 x3. edge_edge: edges x0x1 and x2x3.
    * Returns 1 for a collision within [0, 1], 0 for none, a negative number for an error. *toi is the time of
    * a collision; it is NaN on entry and may stay so. Several threads may call at once. Arithmetic rounds to

@@ -88,6 +88,13 @@ struct Verdict {
   static Verdict rejected(Rejection rejection) { return {.rejection = rejection}; }
 };
 
+/// A subject's answer to the question for its distance bound.
+struct BoundAnswer {
+  double bound = std::numeric_limits<double>::quiet_NaN();  ///< as Subject::distance_bound returns it
+  Fault fault = Fault::none;                                ///< if not `none`, there is no bound
+  std::int32_t fault_code = 0;                              ///< as in Verdict
+};
+
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
 /// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
@@ -125,6 +132,12 @@ class Subject {
   /// The largest distance of a false positive that this subject claims, in the query's unit of length. It is
   /// infinity if the subject claims nothing or more than the largest double, and NaN if it fails to answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
+
+  /// The distance bound, or why the subject fails to give it.
+  [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
+    const double bound = distance_bound(query);
+    return {bound, bound >= 0 ? Fault::none : Fault::error};
+  }
 
   /// Whether the subject claims a bound; it does so for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "ccd/basic.hpp"
@@ -52,14 +53,19 @@ template <Kind kind, class T, class Steps>
   return Verdict::rejected(Rejection::tests);
 }
 
+inline std::string too_small(double given, double own) {
+  std::ostringstream message;
+  message << "the given bound B = " << given << " is smaller than a pair's own, " << own;
+  return message.str();
+}
+
 // The pair with a given B in place of its own, in the frame that the given B requires.
 template <Kind kind, class T>
 Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
   using std::ilogb;
   using std::ldexp;
   if (!(ldexp(static_cast<T>(given), pair.frame.total()) >= pair.B))
-    throw Error("the given bound B = " + std::to_string(given) + " is smaller than a pair's own, " +
-                std::to_string(ldexp(static_cast<double>(pair.B), -pair.frame.total())));
+    throw Error(too_small(given, ldexp(static_cast<double>(pair.B), -pair.frame.total())));
   Frame frame = pair.frame;
   if (!in_range(ldexp(static_cast<T>(given), frame.total()))) {
     frame.exponent -= ilogb(static_cast<T>(given)) + frame.total();

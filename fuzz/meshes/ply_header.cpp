@@ -128,7 +128,8 @@ MeshProperties mesh_properties(const Header& header, std::string_view name) {
   for (const std::string_view primitives : {"edge", "halfedge", "tristrips"})
     if (const Element* const element = find(header.elements, primitives, name); element && element->items > 0)
       throw Error(
-          fmt::format("{}: found the element {}, expected no other primitives than face", name, primitives));
+          fmt::format("{}: found the element {}, expected no other faces or lines than the element face",
+                      name, primitives));
   return wanted;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fuzz/trial/signatures.hpp"
+#include "oracle/distance.hpp"
 
 namespace nearmiss {
 
@@ -11,24 +12,35 @@ Judge::Judge(const Subject& subject)
 
 double Judge::unit(const Query& query) const { return (wang_ ? *wang_ : subject_).distance_bound(query); }
 
-Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts* counts) const {
+std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
+                                                            const Truth& truth) const {
   Outcome outcome{.verdict = verdict, .collision = truth.collision()};
   if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
-  if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return outcome;
-  const double unit = this->unit(truth.query());
-  if (!(unit >= 0)) outcome.verdict.fault = Fault::error;
-  if (outcome.verdict.fault != Fault::none || std::isinf(unit)) return outcome;
-  const auto [ratio, exceeds] = truth.distance(unit);
+  if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
+  const BoundAnswer unit = (wang_ ? *wang_ : subject_).ask_bound(truth.query());
+  outcome.verdict.fault = unit.fault;
+  outcome.verdict.fault_code = unit.fault_code;
+  if (unit.fault != Fault::none) outcome.fault_text = subject_.fault_text(outcome.verdict);
+  const bool counts = unit.fault == Fault::none && !std::isinf(unit.bound);
+  return {outcome, counts ? std::optional(unit.bound) : std::nullopt};
+}
+
+Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts& counts) const {
+  auto [outcome, unit] = outcome_of(verdict, truth);
+  if (!unit) return outcome;
+  const auto [ratio, exceeds] = truth.distance(*unit);
   outcome.bound_refuted = exceeds && subject_.claims_bound();
-  const bool is_kept = counts != nullptr && (outcome.bound_refuted || counts->keeps(ratio));
-  outcome.ratio = is_kept ? truth.precise_ratio(unit, ratio) : ratio;
+  const bool is_kept = outcome.bound_refuted || counts.keeps(ratio);
+  outcome.ratio = is_kept ? truth.precise_ratio(*unit, ratio) : ratio;
   return outcome;
 }
 
 std::optional<Failure> Judge::failure(const Query& query) const {
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);
-  return failure_of(judge(subject_.decide(rounded), truth), truth);
+  auto [outcome, unit] = outcome_of(subject_.decide(query), truth);
+  outcome.bound_refuted = unit && subject_.claims_bound() && distance_exceeds(rounded, *unit);
+  return failure_of(outcome, truth);
 }
 
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {

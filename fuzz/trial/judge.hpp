@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
@@ -32,14 +33,17 @@ class Judge {
 
   /// Compares an answer with the truth about the query as the subject rounds it. A subject that claims bounds
   /// must give a number >= 0 for a false positive; anything else is a fault. The ratio of a false positive is
-  /// that of `Truth::distance`, accurate to 1/1000 if `counts` is given and the finding or these counters
-  /// store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
-  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, const Counts* counts = nullptr) const;
+  /// that of `Truth::distance`, accurate to 1/1000 if the finding or these counters store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
+  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, const Counts& counts) const;
 
   /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
 
  private:
+  /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.
+  [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
+                                                                     const Truth& truth) const;
+
   const Subject& subject_;
   std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound
 };

@@ -15,7 +15,7 @@ struct Complexity {
   int distinct = 0;   ///< magnitudes other than 0
   int bits = 0;       ///< sum of the significant bits of these magnitudes
   int exponents = 0;  ///< sum of the absolute values of their exponents
-  int negative = 0;   ///< negative coordinates
+  int negative = 0;   ///< coordinates with a minus sign, -0 included
 
   bool operator==(const Complexity&) const = default;
   bool operator<(const Complexity& other) const {

@@ -157,7 +157,7 @@ class Trial {
 
   /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
-    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, counts_[s]);
+    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, *counts_[s]);
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
     if (batch_.observe) batch_.observe(i, s, outcome);
     if (auto failure = failure_of(outcome, truth))

@@ -65,7 +65,8 @@ int common_sign(const std::array<Real, n>& numbers, double error) {
 inline constexpr double spread_growth = 1.01;
 inline constexpr double slope_errors = 3;
 inline constexpr double end_rounding = 0x1p-54;  ///< half the distance between doubles just below 1
-inline constexpr double upper_halves = 0x1p-52;  ///< relative error of a difference of upper halves
+inline constexpr double upper_halves =
+    0x1p-52;  ///< error of a difference of upper halves, relative to `largest`
 
 /// A polynomial of degree n - 1, given by its Bernstein coefficients. Each coefficient is within `error` of
 /// the exact one, and so is every value and every coefficient on a part of [0, 1] that the functions below

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "ccd/steps.hpp"
+
 namespace nearmiss {
 namespace {
 
@@ -74,10 +76,47 @@ TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   EXPECT_TRUE(culled<VeCulling::fixed>(slope * (1 + 0x1p-20), -9));
 }
 
+// F is 1/4 - t², which is 15/64 at 1/8 and 7/64 at 3/8.
+TEST(VeCulling, ARootIsBracketedOnBothSides) {
+  const Cubic<double> F{0, -1, 0, 0.25};
+  const auto brackets = [&](double at_most) { return detail::brackets_root(F, 0.25, 0.125, at_most); };
+  EXPECT_TRUE(brackets(0.1));
+  EXPECT_FALSE(brackets(0.2));
+  const Cubic<double> reversed{0, -1, 2, -0.75};  // F(1 - t)
+  EXPECT_FALSE(detail::brackets_root(reversed, 0.75, 0.125, 0.2));
+}
+
+TEST(VeCulling, TimesOutsideTheStepNeedNotBeBracketed) {
+  const Cubic<double> F{0, 0, 0, 0};
+  EXPECT_TRUE(detail::brackets_root(F, 0.5, 0.75, 1.0));
+  EXPECT_FALSE(detail::brackets_root(F, 0.25, 0.5, 1.0));
+  EXPECT_FALSE(detail::brackets_root(F, 0.75, 0.5, 1.0));
+}
+
 // h is at most 1, so four thresholds must be less than the slope.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
   EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));
+}
+
+TEST(LeastLoosening, IsWhereTheAnswerChanges) {
+  for (const double border : {0x1p-30, 0.3, 1.0, 7.0}) {
+    const double found = least_loosening([&](double s) { return s >= border; });
+    EXPECT_GE(found, border * (border <= 1 ? 1 : 0.98)) << border;
+    EXPECT_LE(found, border * 1.02) << border;
+  }
+}
+
+TEST(LeastLoosening, IsAnEndOfItsRangeIfTheAnswerDoesNotChange) {
+  EXPECT_EQ(least_loosening([](double) { return true; }), 0x1p-40);
+  EXPECT_EQ(least_loosening([](double) { return false; }), 0x1p8);
+}
+
+TEST(Frame, IsNotNeededWhereNothingLeavesTheRange) {
+  for (const double B : {0x1p-100, 1.0, 0x1p100}) EXPECT_TRUE(in_range(B)) << B;
+  for (const double B : {0x1p-101, 0x1p101}) EXPECT_FALSE(in_range(B)) << B;
+  for (const float B : {0x1p-6F, 0x1p6F}) EXPECT_TRUE(in_range(B)) << B;
+  for (const float B : {0x1p-7F, 0x1p7F}) EXPECT_FALSE(in_range(B)) << B;
 }
 
 // B = (E + W)(1 + 64 ε): a triangle whose edges are within 1, and a relative velocity of 2.

@@ -131,7 +131,7 @@ TEST_F(Files, QueryFilesHaveCommentsAndWindowsLineEnds) {
 
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
-  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",8,-3,4,5,1,1\r\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",8, -3,\t4,5,1,1\r\n";
   const auto cases = read_all(write("vertex-face/data.csv", rows));
   ASSERT_EQ(cases.size(), 1U);
   EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);

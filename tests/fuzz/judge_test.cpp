@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
 
 #include "ccd/error.hpp"
@@ -150,6 +151,22 @@ TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadBound, ::testing::Values("bound_nan", "bound_negative"));
+
+TEST(Judge, AProcessThatEndsWhileItGivesABoundIsACrash) {
+  const auto plugin = make_isolated_plugin(NEARMISS_PLUGINS "/bound_abort.so");
+  EXPECT_EQ(Judge(*plugin).failure(stops_above), (Failure{Finding::What::fault, "vt crash ABRT"}));
+  EXPECT_EQ(Judge(*plugin).failure(hit), std::nullopt);
+}
+
+TEST(Judge, ABoundThatTakesTooLongIsLate) {
+  const auto plugin =
+      make_isolated_plugin(NEARMISS_PLUGINS "/bound_hang.so", {.time = std::chrono::milliseconds(20)});
+  const Failure late{Finding::What::fault, "vt time"};
+  EXPECT_EQ(Judge(*plugin).failure(stops_above), late);
+  // Shrinking gives up after a few such queries.
+  const Finding finding{late.what, "always", "f", stops_above, "f:1:0", 0, late.signature, stops_above};
+  EXPECT_EQ(Judge(*plugin).failure(shrunk_query(finding, plugin.get())), late);
+}
 
 TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {
   const Answers answers = ask_all(hit);

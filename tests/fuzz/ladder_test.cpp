@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/gmp.hpp>
+#include <limits>
 #include <set>
 
 #include "ccd/error.hpp"
@@ -16,6 +17,7 @@
 #include "fuzz/subjects/ladder/double_double.hpp"
 #include "fuzz/subjects/ladder/mpfr_float.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
@@ -272,6 +274,23 @@ TEST(Ladder, ANarrowScalarIsJudgedByTheRoundedQuery) {
   const auto& oracle = result.statistics.oracle.at({query.kind, "f"});
   EXPECT_EQ(oracle.queries, 1);
   EXPECT_EQ(oracle.collisions, 0);
+}
+
+// A coordinate that would round to 2^1024 becomes the largest number of so many digits.
+TEST(Ladder, NarrowScalarsRoundTheLargestNumbersToFiniteOnes) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const Query query =
+      testing::make_query(Kind::vertex_triangle, {{largest, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, -largest, 0}},
+                          {{largest, 0, -1}, {0, 0, 0}, {largest, 0, 0}, {0, largest, 0}});
+  for (const char* name : {"wang:p16", "wang-tight:p24", "basic:p40", "wang:p52", "wang:float"}) {
+    const auto subject = make_any_subject(name);
+    const Query rounded = subject->rounded(query);
+    EXPECT_TRUE(is_finite(rounded)) << name;
+    EXPECT_EQ(subject->rounded(rounded), rounded) << name;
+    EXPECT_EQ(subject->decide(rounded).hit, subject->decide(query).hit) << name;
+    EXPECT_EQ(Judge(*subject).failure(query), std::nullopt) << name;
+  }
+  EXPECT_EQ(make_any_subject("wang:p16")->rounded(query).x[0], 0x1.fffep1023);
 }
 
 TEST(Ladder, FloatTakesQueriesOfAnySize) {

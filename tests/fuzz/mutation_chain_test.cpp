@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/families/mutation.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/bit_hash.hpp"
 
 namespace nearmiss {
 namespace {
@@ -120,6 +124,51 @@ TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
   }
   for (const int count : {vertices, axes, moments, coordinates}) EXPECT_GT(count, 50);
   EXPECT_EQ(seen_kinds.size(), 2);
+}
+
+std::vector<Query> some_queries(std::string_view family) {
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < 1000; ++i) queries.push_back(make_query(find_family(family), 1, i));
+  return queries;
+}
+
+/// A hash of what a kind of mutation makes of some queries.
+std::uint64_t fingerprint(const Mutation& kind) {
+  testing::BitHash hash;
+  for (const char* family : {"uniform", "small-integer", "planted"}) {
+    for (std::uint64_t number = 0; const Query& before : some_queries(family)) {
+      Random random(2, 0, number++);
+      hash.add_all(kind.apply(random, before).x);
+    }
+  }
+  return hash.value();
+}
+
+// The provenance of a query that a search or libFuzzer found names a seed, which must keep its meaning.
+TEST(Mutation, MakesOfAQueryWhatItAlwaysMade) {
+  const std::map<std::string_view, std::uint64_t> recorded{
+      {"ulps", 0x62b41b423da15fc0},      {"fraction", 0xa730dd97297b2184},
+      {"exponent", 0xc6841d7ed98bb8df},  {"copy-coordinate", 0xcb2a934a54d82229},
+      {"round", 0xd6f14054393455ab},     {"plant", 0xd26623bedb6ba432},
+      {"restore", 0x2ef35486139e87d1},   {"coplanar", 0x34d7a1cd4535879a},
+      {"planar", 0x3971c4205d2c5ba9},    {"shrink-edge", 0x40d23241077732d3},
+      {"velocity", 0x3e5bbb8e757351df},  {"copy-vertex", 0xeb075ef310bd0302},
+      {"reverse", 0x2e02d853bb7a9ef9},   {"scale", 0x91de2f3d7388c32},
+      {"translate", 0xb767d8dbed16b18c}, {"reorder", 0x3fa8d25d8a4969af}};
+  for (const Mutation& kind : mutations())
+    EXPECT_EQ(fingerprint(kind), recorded.contains(kind.name) ? recorded.at(kind.name) : 0)
+        << kind.name << std::hex << " 0x" << fingerprint(kind);
+}
+
+TEST(Mutation, ChainsMakeOfAQueryWhatTheyAlwaysMade) {
+  testing::BitHash hash;
+  const auto queries = some_queries("uniform");
+  for (std::uint64_t i = 0; i < queries.size(); ++i) {
+    Random random(2, 0, i);
+    hash.add_all(mutated(random, queries[i]).x);
+    hash.add_all(crossed(random, queries[i], queries[(i + 2) % queries.size()]).x);
+  }
+  EXPECT_EQ(hash.value(), 0x6eb9a92da015cf1d) << std::hex << hash.value();
 }
 
 }  // namespace

@@ -115,6 +115,17 @@ TEST(Methods, AnswerAsTheyClaim) {
   }
 }
 
+TEST(Methods, AParityMethodCountsRootsOffTheBoundary) {
+  const Query on_boundary = falling_vertex(0.25, 0.25, 1, 0);
+  for (const Method& method : methods()) {
+    if (method.claim != Claim::parity) continue;
+    EXPECT_EQ(method.ask(hit).odd, true) << method.name;
+    EXPECT_EQ(method.ask(miss).odd, false) << method.name;
+    EXPECT_EQ(method.ask(on_boundary).odd, std::nullopt) << method.name;
+    EXPECT_EQ(method.ask(on_boundary).on_boundary, true) << method.name;
+  }
+}
+
 TEST(Methods, TheReadmeListsThem) {
   std::ifstream file(NEARMISS_ORACLE_README);
   const std::string readme{std::istreambuf_iterator<char>(file), {}};

@@ -121,6 +121,21 @@ TEST(Root, BecomesAsNarrowAsOneLikes) {
   EXPECT_GT(roots[0].hi() * roots[0].hi(), Number(0.5));
 }
 
+// A chord misleads where the polynomial bends much; then the interval is cut in the middle.
+TEST(Root, RefiningAtLeastHalvesTheInterval) {
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    Random random(3, 0, i);
+    const double near = std::ldexp(1.0, random.integer(-60, 0));
+    for (auto& root : roots_in_step(polynomial({random.uniform(-1, 1) * near, random.uniform(-1, 1) * near,
+                                                random.uniform(-1, 1), random.uniform(-1, 1)})))
+      for (int k = 0; k < 4; ++k) {
+        const Number width = root.hi() - root.lo();
+        root.refine();
+        ASSERT_LE(Number(2) * (root.hi() - root.lo()), width) << "case " << i << ", step " << k;
+      }
+  }
+}
+
 TEST(Root, IsANumberWhereItHasFewBits) {
   for (const double root : {0.625, 0x1.fp-3, 0x1.23456789abcdp-1, 0x1.23456789abcdfp-30}) {
     auto roots = roots_in_step(polynomial({-root, 1}) * polynomial({0.3, -1, 1}));

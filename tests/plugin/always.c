@@ -1,5 +1,6 @@
 /* A complete plug-in. The return value of its answers and its claimed distance bound are set when it is compiled. */
 #include <stddef.h>
+#include <stdlib.h>
 
 #include "ccd/nearmiss_subject.h"
 
@@ -17,6 +18,12 @@ static int answer(const double* x, double* toi) {
   (void)x;
   if (ANSWER == 1) *toi = 0.5;
   return ANSWER;
+}
+
+static inline double hang(void) {
+  for (volatile int i = 0; i >= 0; i = 0) {
+  }
+  return 0;
 }
 
 #ifdef BOUND

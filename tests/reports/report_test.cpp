@@ -130,6 +130,20 @@ TEST_F(ReportTest, WritesEverythingThatItPromises) {
   EXPECT_FALSE(std::filesystem::exists(file("report.part")));
 }
 
+TEST_F(ReportTest, NamesFilesThatItHasWritten) {
+  write_report(some_campaign("wang"), {}, file("report"));
+  const auto all = nlohmann::json::parse(read("report/report.json")).flatten();
+  std::size_t files = 0;
+  for (const auto& each : all.items()) {
+    const bool names_file = each.key().ends_with("/file") || each.key().ends_with("_file");
+    if (!names_file || !each.value().is_string()) continue;
+    EXPECT_TRUE(std::filesystem::is_regular_file(file("report") / each.value().get<std::string>()))
+        << each.key();
+    ++files;
+  }
+  EXPECT_GE(files, 2);
+}
+
 TEST_F(ReportTest, ShowsAFewFindingsOfEachSignature) {
   Campaign campaign = some_campaign("wang");
   auto& findings = campaign.runs.front().findings;

@@ -78,12 +78,19 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
 
-  [[nodiscard]] double distance_bound(const Query& query) const override {
-    double bound = std::numeric_limits<double>::quiet_NaN();
+  [[nodiscard]] double distance_bound(const Query& query) const override { return ask_bound(query).bound; }
+
+  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
+    BoundAnswer answer;
     perform(Request::bounds, std::span(&query, 1), [&](const Done& done) {
-      if (!done.failure) bound = done.worker.answer(0).number;
+      if (done.failure) {
+        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+      } else {
+        const double bound = done.worker.answer(0).number;
+        answer = {bound, bound >= 0 ? Fault::none : Fault::error};
+      }
     });
-    return bound;
+    return answer;
   }
 
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
@@ -104,11 +111,12 @@ class IsolatedPlugin final : public BatchSubject {
       const isolation::PluginAnswer& given = done.worker.answer(i);
       verdicts[done.start + i] = plugin_verdict(given.value, given.number);
     }
-    if (!done.failure) return;
-    const bool threw = done.failure->fault == Fault::exception;
-    verdicts[done.start + done.end] = {
-        .fault = done.failure->fault,
-        .fault_code = threw ? exceptions_.number(done.failure->exception) : done.failure->code};
+    if (done.failure)
+      verdicts[done.start + done.end] = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+  }
+
+  std::int32_t code_of(const WorkerFailure& failure) const {
+    return failure.fault == Fault::exception ? exceptions_.number(failure.exception) : failure.code;
   }
 
   /// The size of the next batch: queries of one kind, up to batch_size.

@@ -112,7 +112,7 @@ class Scaled final : public Subject {
   };
 
   /// The query with coordinates rounded to T. For float, which has a smaller range than double, they are first scaled
-  /// by 2^exponent.
+  /// by 2^exponent. A coordinate that would round to 2^1024 becomes the number of T just below.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;
@@ -121,8 +121,12 @@ class Scaled final : public Subject {
       for (const double c : query.x) largest = std::max(largest, std::abs(c));
       if (largest > 0) exponent = -std::ilogb(largest);
     }
+    const int digits = 1 - epsilon_exponent_;
+    const int unit = std::numeric_limits<double>::max_exponent - digits;
+    const double largest = std::ldexp(std::ldexp(1, digits) - 1, unit + exponent);
     Query seen = query;
-    for (double& c : seen.x) c = static_cast<double>(static_cast<T>(std::ldexp(c, exponent)));
+    for (double& c : seen.x)
+      c = std::clamp(static_cast<double>(static_cast<T>(std::ldexp(c, exponent))), -largest, largest);
     return {seen, exponent};
   }
 
