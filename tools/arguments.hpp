@@ -60,9 +60,6 @@ std::vector<Family> find_families(const std::vector<std::string>& names, std::sp
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known);
 
-/// Parses "500ms", "30s", "2m", "8h". Throws Error.
-std::chrono::duration<double> parse_duration(std::string_view text);
-
 /// Parses "0/4" .. "3/4" into the shard and the number of shards. Throws Error.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);
 

@@ -14,6 +14,7 @@
 #include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -181,13 +182,9 @@ void add_bench(CLI::App& app, int& /*exit_code*/) {
                       "Files and folders of cases to time in addition to the random inputs");
   add_subject_option(*command, options->subjects);
   options->limits.add_to(*command);
-  command->add_option("--queries", options->queries, "Number of random queries of each kind")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--runs", options->runs, "Number of runs")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  add_count_option(*command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
+                   "Number of random queries of each kind");
+  add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
   command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
   command->footer(
       "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");

@@ -14,6 +14,7 @@
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -117,7 +118,7 @@ int run(const Options& options) {
   plan.families = chosen_families(options, subjects);
   plan.seed = options.seed;
   plan.cases = options.cases;
-  if (!options.time.empty()) plan.time = parse_duration(options.time);
+  if (!options.time.empty()) plan.time = parse_duration(options.time, "--time");
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
@@ -147,9 +148,9 @@ int run(const Options& options) {
 /// The options for the campaign's length, its shard, and where the results go.
 void add_common(CLI::App& command, Options& options) {
   auto* limit = command.add_option_group("limit", "Length");
-  limit->add_option("--cases", options.cases, "Total number of queries, divided among the families")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
-      ->type_name("N");
+  add_count_option(*limit, "--cases", options.cases, 1, most_queries,
+                   "Total number of queries, divided among the families")
+      ->default_str("");
   limit
       ->add_option(
           "--time", options.time,
@@ -201,11 +202,9 @@ void add_fuzz(CLI::App& app, int& exit_code) {
           ->delimiter(',')
           ->excludes(family)
           ->type_name("A,B,...");
-  command->add_option("--steps", options->steps, "Number of values of each parameter in a sweep")
-      ->needs(sweep)
-      ->check(CLI::Range(2, 10000))
-      ->capture_default_str()
-      ->type_name("N");
+  add_count_option(*command, "--steps", options->steps, 2, 10'000,
+                   "Number of values of each parameter in a sweep")
+      ->needs(sweep);
   command
       ->add_option(
           "--mesh", options->mesh,

@@ -18,6 +18,7 @@
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -44,7 +45,7 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   if (way == all_families) plan.families.assign(families().begin(), families().end());
   if (way == search) plan.families = {miss_search(*subjects.front()), far_search(*subjects.front())};
   plan.seed = options.seed;
-  plan.time = parse_duration(options.time);
+  plan.time = parse_duration(options.time, "--time");
   plan.jobs = options.jobs;
   Hunt result{.subject = subject, .way = way};
   if (const auto first = find_first_failure(plan, subjects, interrupted())) {
