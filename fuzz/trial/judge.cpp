@@ -34,9 +34,12 @@ Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts& counts)
 }
 
 std::optional<Failure> Judge::failure(const Query& query) const {
+  const Verdict verdict = subject_.decide(query);
+  // A report fails only by a bound that is claimed.
+  if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound()) return std::nullopt;
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);
-  auto [outcome, unit] = outcome_of(subject_.decide(query), truth);
+  auto [outcome, unit] = outcome_of(verdict, truth);
   outcome.bound_refuted = unit && subject_.claims_bound() && distance_exceeds(rounded, *unit);
   return failure_of(outcome, truth);
 }
