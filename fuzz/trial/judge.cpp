@@ -10,13 +10,15 @@ namespace nearmiss {
 Judge::Judge(const Subject& subject)
     : subject_(subject), wang_(subject.claims_bound() ? nullptr : make_subject("wang")) {}
 
-double Judge::unit(const Query& query) const { return (wang_ ? *wang_ : subject_).distance_bound(query); }
+double Judge::unit(const Query& query) const { return ask_unit(query).bound; }
+
+BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ : subject_).ask_bound(query); }
 
 std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
                                                             const Truth& truth) const {
   Outcome outcome{.verdict = verdict, .collision = truth.collision()};
   if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
-  const BoundAnswer unit = (wang_ ? *wang_ : subject_).ask_bound(truth.query());
+  const BoundAnswer unit = ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;
   const bool counts = unit.fault == Fault::none && !std::isinf(unit.bound);
@@ -40,7 +42,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);
   auto [outcome, unit] = outcome_of(verdict, truth);
-  outcome.bound_refuted = unit && subject_.claims_bound() && distance_exceeds(rounded, *unit);
+  outcome.bound_refuted = unit && distance_exceeds(rounded, *unit);
   return failure_of(outcome, truth);
 }
 

@@ -66,7 +66,7 @@ class IsolatedPlugin final : public BatchSubject {
       return {.fault = failure->fault, .fault_code = failure->code};
     const double bound = worker->shared().answers[0].number;
     give_back(std::move(worker));
-    return {bound, bound >= 0 ? Fault::none : Fault::error};
+    return BoundAnswer::given(bound);
   }
 
  private:
