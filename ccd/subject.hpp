@@ -93,6 +93,9 @@ struct BoundAnswer {
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< as Subject::distance_bound returns it
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
   std::int32_t fault_code = 0;                              ///< as in Verdict
+
+  /// A number that a subject gave as its bound; an error if it is not a distance.
+  static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 };
 
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
@@ -135,8 +138,7 @@ class Subject {
 
   /// The distance bound, or why the subject fails to give it.
   [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
-    const double bound = distance_bound(query);
-    return {bound, bound >= 0 ? Fault::none : Fault::error};
+    return BoundAnswer::given(distance_bound(query));
   }
 
   /// Whether the subject claims a bound; it does so for all queries or for none.

@@ -20,7 +20,7 @@ struct Answer {
   std::size_t detail = 0;     ///< further results as a number below 32, feedback for a fuzzer
 };
 
-/// What a method promises.
+/// The promise of a method.
 enum class Claim {
   complete,  ///< the method always knows whether there is a collision
   parity,    ///< it detects collisions on the boundary and odd numbers of roots

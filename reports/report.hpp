@@ -13,7 +13,7 @@
 
 namespace nearmiss {
 
-/// What a report shows in addition to its campaign.
+/// Data that a report shows in addition to its campaign.
 struct ReportContext {
   std::optional<Campaign> baseline = {};
   std::vector<Hunt> hunts = {};  ///< hunts for known defects

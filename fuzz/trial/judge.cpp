@@ -10,14 +10,16 @@ namespace nearmiss {
 Judge::Judge(const Subject& subject)
     : subject_(subject), wang_(subject.claims_bound() ? nullptr : make_subject("wang")) {}
 
-double Judge::unit(const Query& query) const { return (wang_ ? *wang_ : subject_).distance_bound(query); }
+double Judge::unit(const Query& query) const { return ask_unit(query).bound; }
+
+BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ : subject_).ask_bound(query); }
 
 std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
                                                             const Truth& truth) const {
   Outcome outcome{.verdict = verdict, .collision = truth.collision()};
   if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
   if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
-  const BoundAnswer unit = (wang_ ? *wang_ : subject_).ask_bound(truth.query());
+  const BoundAnswer unit = ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;
   if (unit.fault != Fault::none) outcome.fault_text = subject_.fault_text(outcome.verdict);
@@ -36,10 +38,13 @@ Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts& counts)
 }
 
 std::optional<Failure> Judge::failure(const Query& query) const {
+  const Verdict verdict = subject_.decide(query);
+  // A report fails only by a bound that is claimed.
+  if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound()) return std::nullopt;
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);
-  auto [outcome, unit] = outcome_of(subject_.decide(query), truth);
-  outcome.bound_refuted = unit && subject_.claims_bound() && distance_exceeds(rounded, *unit);
+  auto [outcome, unit] = outcome_of(verdict, truth);
+  outcome.bound_refuted = unit && distance_exceeds(rounded, *unit);
   return failure_of(outcome, truth);
 }
 

@@ -40,6 +40,9 @@ class Judge {
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
 
  private:
+  /// The unit, or why the subject fails to give it.
+  [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
+
   /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
                                                                      const Truth& truth) const;

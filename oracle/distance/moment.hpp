@@ -13,7 +13,8 @@
 
 namespace nearmiss::certified {
 
-/// What the search for the smallest distance needs to know about one time, in the unit of VertexDifferences.
+/// The state of the primitives at one time, as the search for the smallest distance needs it. Lengths are in the unit of
+/// VertexDifferences.
 struct Moment {
   bool is_precise = false;   ///< whether it was computed in the search's type of time, not in double
   ClosestFeatures features;  ///< features of the closest points, uncertified

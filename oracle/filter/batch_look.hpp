@@ -102,7 +102,7 @@ struct RootBracket {
   }
 };
 
-/// Where to divide a part: near an extremum of F in [lo, hi] if F has one sign at both ends, else in the
+/// The time at which a part is divided: near an extremum of F in [lo, hi] if F has one sign at both ends, else in the
 /// middle.
 template <int n>
 Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,

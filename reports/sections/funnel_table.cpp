@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
 
-/// What became of the pairs of a scene, over all its steps.
+/// The pairs of a scene over all its steps, and what became of them.
 struct ScenePairs {
   std::array<Funnel, kinds.size()> funnels;  ///< by kind
   std::size_t steps = 0;

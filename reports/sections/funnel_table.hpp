@@ -1,4 +1,4 @@
-// What became of the pairs of each scene.
+// Tables of the pairs of each scene and what became of them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,4 @@
-// What became of the pairs of a scene: which pairs were left out and why, and about which pairs subjects were
-// asked.
+// Counts of the pairs of a scene: those that were left out, by reason, and those that subjects were asked about.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace nearmiss {
 
-/// What becomes of a pair. Subjects are asked only about pairs with the last fate; all others are left out.
+/// The fate of a pair. Subjects are asked only about pairs with the last fate; all others are left out.
 enum class PairFate : std::uint8_t {
   boxes_apart,     ///< the boxes that the primitives sweep do not meet
   share_vertex,    ///< the primitives have a vertex in common

@@ -1,4 +1,4 @@
-// Counts queries of a family.
+// Queries of a family.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,14 @@ int count_of_400(std::string_view name, const Property& has_property) {
   int count = 0;
   for (std::uint64_t i = 0; i < 400; ++i) count += has_property(nearmiss::make_query(family, 5, i)) ? 1 : 0;
   return count;
+}
+
+/// The first queries of a family, with seed 1.
+inline std::vector<Query> first_queries(std::string_view name, std::uint64_t count) {
+  const Family family = find_family(name);
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(nearmiss::make_query(family, 1, i));
+  return queries;
 }
 
 inline double largest_coordinate(const Query& query) {

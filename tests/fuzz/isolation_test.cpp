@@ -15,6 +15,7 @@
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
+#include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 
 #if defined(__has_feature)
@@ -25,6 +26,8 @@
 
 namespace nearmiss {
 namespace {
+
+using testing::first_queries;
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
@@ -48,12 +51,6 @@ isolation::PluginLimits limits_for(Fault fault) {
   return {.time = time, .bytes = std::uint64_t{64} << 20};
 }
 
-std::vector<Query> some_queries(std::uint64_t count) {
-  std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family("uniform"), 1, i));
-  return queries;
-}
-
 /// Queries of one kind, which a worker gets at once.
 std::vector<Query> one_batch(std::uint64_t count) {
   std::vector<Query> queries;
@@ -65,7 +62,8 @@ TEST(Isolation, TellsWhetherABoundIsClaimed) {
   for (const char* name : {"example", "always", "hostile"}) {
     const auto direct = make_subject(plugin(name));
     EXPECT_EQ(make_isolated_plugin(plugin(name))->claims_bound(), direct->claims_bound()) << name;
-    EXPECT_EQ(direct->claims_bound(), std::isfinite(direct->distance_bound(some_queries(1)[0]))) << name;
+    EXPECT_EQ(direct->claims_bound(), std::isfinite(direct->distance_bound(first_queries("uniform", 1)[0])))
+        << name;
   }
 }
 
@@ -73,7 +71,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   const auto isolated = make_isolated_plugin(plugin("example"));
   const auto direct = make_subject(plugin("example"));
   EXPECT_EQ(isolated->name(), direct->name());
-  const auto queries = some_queries(2000);
+  const auto queries = first_queries("uniform", 2000);
   std::vector<Verdict> verdicts(queries.size());
   const BatchTime time = isolated->decide_timed(queries, verdicts);
   EXPECT_EQ(time.queries, queries.size());
@@ -88,7 +86,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
 
 // The plug-in sleeps at least this long, so the test does not depend on speed.
 TEST(Isolation, WaitingForADeviceCounts) {
-  const auto queries = some_queries(20);
+  const auto queries = first_queries("uniform", 20);
   std::vector<Verdict> verdicts(queries.size());
   for (const bool isolated : {false, true}) {
     const auto subject = isolated ? make_isolated_plugin(plugin("waits")) : make_subject(plugin("waits"));
@@ -123,7 +121,7 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
   if (GetParam().fault == Fault::memory) GTEST_SKIP() << "the sanitizer ends a process that is out of memory";
 #endif
   const auto subject = make_isolated_plugin(plugin(GetParam().plugin), limits_for(GetParam().fault));
-  const auto queries = some_queries(600);
+  const auto queries = first_queries("uniform", 600);
   std::vector<Verdict> verdicts(queries.size());
   in_parallel(2, 4, [&](std::size_t part) {
     subject->decide(std::span(queries).subspan(150 * part, 150),
@@ -168,7 +166,7 @@ TEST(Isolation, ACrashAfterARefusedAllocationIsACrash) {
 
 TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
   const auto subject = make_isolated_plugin(plugin("hostile"));
-  const auto queries = some_queries(500);
+  const auto queries = first_queries("uniform", 500);
   std::vector<Verdict> verdicts(queries.size(), Verdict{.hit = true});
   subject->decide(queries, verdicts);
   for (const Verdict& verdict : verdicts) EXPECT_FALSE(verdict.hit);
@@ -209,7 +207,7 @@ TEST(Isolation, WhatCannotBeLoadedIsRefused) {
 
 TEST(Isolation, WhatThePluginPrintsIsLost) {
   const auto subject = make_isolated_plugin(plugin("print"));
-  const auto queries = some_queries(600);
+  const auto queries = first_queries("uniform", 600);
   std::vector<Verdict> verdicts(queries.size());
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();

@@ -17,9 +17,12 @@
 #include "fuzz/families/mutation.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
+#include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {
 namespace {
+
+using testing::first_queries;
 
 TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
   const Query query = make_query(find_family("uniform"), 1, 0);
@@ -126,17 +129,11 @@ TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
   EXPECT_EQ(seen_kinds.size(), 2);
 }
 
-std::vector<Query> some_queries(std::string_view family) {
-  std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < 1000; ++i) queries.push_back(make_query(find_family(family), 1, i));
-  return queries;
-}
-
 /// A hash of what a kind of mutation makes of some queries.
 std::uint64_t fingerprint(const Mutation& kind) {
   testing::BitHash hash;
   for (const char* family : {"uniform", "small-integer", "planted"}) {
-    for (std::uint64_t number = 0; const Query& before : some_queries(family)) {
+    for (std::uint64_t number = 0; const Query& before : first_queries(family, 1000)) {
       Random random(2, 0, number++);
       hash.add_all(kind.apply(random, before).x);
     }
@@ -162,7 +159,7 @@ TEST(Mutation, MakesOfAQueryWhatItAlwaysMade) {
 
 TEST(Mutation, ChainsMakeOfAQueryWhatTheyAlwaysMade) {
   testing::BitHash hash;
-  const auto queries = some_queries("uniform");
+  const auto queries = first_queries("uniform", 1000);
   for (std::uint64_t i = 0; i < queries.size(); ++i) {
     Random random(2, 0, i);
     hash.add_all(mutated(random, queries[i]).x);

@@ -17,20 +17,17 @@
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/sturm.hpp"
+#include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
 
+using testing::first_queries;
+
 const Mutation& mutation(std::string_view name) {
   const auto all = mutations();
   return *std::find_if(all.begin(), all.end(), [&](const Mutation& each) { return each.name == name; });
-}
-
-std::vector<Query> some_queries(std::string_view family) {
-  std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < 1000; ++i) queries.push_back(make_query(find_family(family), 1, i));
-  return queries;
 }
 
 /// Applies a sort of mutation to queries of a family. The check must hold for all changed queries, and at
@@ -39,7 +36,7 @@ void expect_of(std::string_view name, std::string_view family,
                const std::function<bool(const Query& before, const Query& after)>& holds) {
   int changed = 0;
   std::uint64_t number = 0;
-  const auto queries = some_queries(family);
+  const auto queries = first_queries(family, 1000);
   for (const Query& before : queries) {
     Random random(2, 0, number++);
     const Query after = mutation(name).apply(random, before);
@@ -54,7 +51,7 @@ void expect_of(std::string_view name, std::string_view family,
 int collisions_after(std::string_view name, std::string_view family) {
   int collisions = 0;
   std::uint64_t number = 0;
-  for (const Query& before : some_queries(family)) {
+  for (const Query& before : first_queries(family, 1000)) {
     Random random(2, 0, number++);
     collisions += collides(mutation(name).apply(random, before)) ? 1 : 0;
   }
@@ -167,7 +164,7 @@ TEST(Mutation, RestoreKeepsACollisionWhereItIs) {
   int kept = 0;
   int collisions = 0;
   std::uint64_t number = 0;
-  for (const Query& before : some_queries("uniform")) {
+  for (const Query& before : first_queries("uniform", 1000)) {
     Random random(2, 0, number++);
     const auto time = earliest_time(before);
     if (!time) continue;
@@ -195,7 +192,7 @@ TEST(Mutation, CoplanarMakesARootOfFByMovingOnePosition) {
   int without = 0;
   int made = 0;
   std::uint64_t number = 0;
-  for (const Query& before : some_queries("uniform-slow")) {
+  for (const Query& before : first_queries("uniform-slow", 1000)) {
     if (has_root(before)) continue;
     Random random(2, 0, number++);
     const Query after = mutation("coplanar").apply(random, before);
@@ -212,7 +209,7 @@ TEST(Mutation, PlanarMakesFZeroIdentically) {
   for (const char* family : {"uniform", "small-integer"}) {
     int planar = 0;
     std::uint64_t number = 0;
-    for (const Query& before : some_queries(family)) {
+    for (const Query& before : first_queries(family, 1000)) {
       Random random(2, 0, number++);
       planar += count_roots(mutation("planar").apply(random, before)).planar ? 1 : 0;
     }

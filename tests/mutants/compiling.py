@@ -13,12 +13,17 @@ FORMS_FILE = WORK / 'forms.json'
 PLACE = re.compile(rf'(?:^|\s)(?:\S*/)?{COPY.name}/([\w./-]+\.[ch]pp):(\d+)', re.MULTILINE)
 
 
+def known_forms():
+    """The forms of mutants by name, from earlier builds."""
+    return json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
+
+
 class Mutants:
     """The mutants of a draw, numbered from 1, and the form in which each is compiled."""
 
     def __init__(self, drawn):
         self.drawn = drawn
-        known = json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
+        known = known_forms()
         self.forms = {each.name: known.get(each.name, first_form(each)) for each in drawn}
         self.by_file = {}
         for number, each in enumerate(drawn, 1):
@@ -36,8 +41,7 @@ class Mutants:
     def step_back(self, mutation, errors):
         """Gives a mutant that does not compile its next form."""
         self.forms[mutation.name] = next_form(self.forms[mutation.name], errors)
-        known = json.loads(FORMS_FILE.read_text()) if FORMS_FILE.exists() else {}
-        FORMS_FILE.write_text(json.dumps({**known, **self.forms}, indent=0))
+        FORMS_FILE.write_text(json.dumps({**known_forms(), **self.forms}, indent=0))
 
     def at(self, places):
         """The mutants in the form of a switch on any of these lines."""

@@ -50,8 +50,8 @@ TEST(FisherTest, IsTheOneOfTheLadyTastingTea) {
 }
 
 TEST(PooledTest, IsABinomialOne) {
-  // Of 10 events in two campaigns of the same size, at least 9 are in a given campaign with probability 11 /
-  // 1024.
+  // Ten events fall on two campaigns of the same size. A given campaign has at least nine of them with
+  // probability 11 / 1024.
   const ExactTest nine_of_ten = pooled_test({{{4, 100}, {1, 100}}, {{5, 700}, {0, 700}}});
   EXPECT_NEAR(nine_of_ten.more, 11.0 / 1024, 1e-12);
   EXPECT_NEAR(nine_of_ten.less, 1023.0 / 1024, 1e-12);

@@ -1,4 +1,4 @@
-// What became of the pairs of a scene, as the terminal shows it.
+// The table of a scene's pairs and what became of them.
 #include "reports/sections/funnel_table.hpp"
 
 #include <gmock/gmock.h>
@@ -13,9 +13,6 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr Kind vt = Kind::vertex_triangle;
-constexpr Kind ee = Kind::edge_edge;
-
 /// Two steps of a scene, in each of which 100 pairs of each kind are asked, and 900 are not.
 Statistics two_steps() {
   Statistics statistics;
@@ -26,7 +23,8 @@ Statistics two_steps() {
       funnel.pairs.front() = 900;
       Counts& counts = statistics.counts[{"wang", kind, step}];
       counts.queries = 100;
-      counts.rejected_by[static_cast<std::size_t>(Rejection::planes)] = kind == vt ? 30 : 40;
+      counts.rejected_by[static_cast<std::size_t>(Rejection::planes)] =
+          kind == Kind::vertex_triangle ? 30 : 40;
       counts.rejected_by[static_cast<std::size_t>(Rejection::culled)] = 20;
       statistics.counts[{"silent", kind, step}].queries = 100;
       OracleCounts& oracle = statistics.oracle[{kind, step}];
@@ -62,7 +60,7 @@ TEST(FunnelTable, LeavesOutASubjectThatDoesNotTell) {
 TEST(FunnelTable, SaysThatAKindHasNoPairs) {
   Statistics statistics = two_steps();
   for (auto& [key, funnel] : statistics.funnels)
-    if (key.second == ee) funnel = {};
+    if (key.second == Kind::edge_edge) funnel = {};
   EXPECT_THAT(funnel_tables(statistics), HasSubstr("edge-edge: there are fewer than two edges\n"));
 }
 

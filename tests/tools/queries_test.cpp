@@ -30,7 +30,7 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 }
 
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
-  // Of the numbers 2 to 6 of the family, three are even and two are odd.
+  // Three of the numbers 2 to 6 are even, and two are odd.
   const auto lines = [&](const std::string& options) {
     const Output output = run("family parallel --seed 5 " + options);
     EXPECT_EQ(output.code, 0) << output.error;

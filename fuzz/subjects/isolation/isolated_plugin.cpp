@@ -86,8 +86,7 @@ class IsolatedPlugin final : public BatchSubject {
       if (done.failure) {
         answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
       } else {
-        const double bound = done.worker.answer(0).number;
-        answer = {bound, bound >= 0 ? Fault::none : Fault::error};
+        answer = BoundAnswer::given(done.worker.answer(0).number);
       }
     });
     return answer;

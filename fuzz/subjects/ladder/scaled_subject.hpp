@@ -46,7 +46,9 @@ class Scaled final : public Subject {
         epsilon_exponent_(epsilon_exponent),
         algorithm_(algorithm),
         given_(given),
-        narrow_(1 - epsilon_exponent < std::numeric_limits<double>::digits) {
+        narrow_(1 - epsilon_exponent < std::numeric_limits<double>::digits),
+        largest_(
+            std::ldexp(1 - std::ldexp(0.5, epsilon_exponent), std::numeric_limits<double>::max_exponent)) {
     if (algorithm == Algorithm::wang_tight) steps_.smallest = solve_tight(epsilon_exponent);
   }
 
@@ -121,12 +123,10 @@ class Scaled final : public Subject {
       for (const double c : query.x) largest = std::max(largest, std::abs(c));
       if (largest > 0) exponent = -std::ilogb(largest);
     }
-    const int digits = 1 - epsilon_exponent_;
-    const int unit = std::numeric_limits<double>::max_exponent - digits;
-    const double largest = std::ldexp(std::ldexp(1, digits) - 1, unit + exponent);
+    const double most = std::ldexp(largest_, exponent);
     Query seen = query;
     for (double& c : seen.x)
-      c = std::clamp(static_cast<double>(static_cast<T>(std::ldexp(c, exponent))), -largest, largest);
+      c = std::clamp(static_cast<double>(static_cast<T>(std::ldexp(c, exponent))), -most, most);
     return {seen, exponent};
   }
 
@@ -135,6 +135,7 @@ class Scaled final : public Subject {
   Algorithm algorithm_;
   std::optional<double> given_;
   bool narrow_;
+  double largest_;  ///< the largest double with the digits of T, if T is narrow
   EitherTolerances steps_;
 };
 
