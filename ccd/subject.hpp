@@ -65,13 +65,14 @@ enum class Fault : std::uint8_t {
   memory,     ///< it exceeded its memory limit
   exception,  ///< it threw an exception that it did not catch
   protocol,   ///< it wrote to nearmiss's channels, or closed them
+  not_asked,  ///< it was set aside, because it exceeded its time limit too often
 };
 
-inline constexpr std::size_t fault_count = 7;
+inline constexpr std::size_t fault_count = 8;
 
 /// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
-    "none", "error", "crash", "time", "memory", "exception", "protocol"};
+    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked"};
 
 /// A subject's answer to one query.
 struct Verdict {

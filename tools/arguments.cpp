@@ -91,13 +91,16 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->type_name("BYTES");
 }
 
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
+isolation::PluginLimits PluginLimitOptions::limits() const {
+  return {.time = parse_duration(time, "--query-time"), .bytes = bytes};
+}
+
+Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
-  const isolation::PluginLimits allowed{parse_duration(limits.time, "--query-time"), limits.bytes};
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    made.push_back(make_any_subject(name, given_bound, allowed));
+    made.push_back(make_any_subject(name, given_bound, limits));
     if (!seen.insert(made.back()->name()).second)
       throw Error(
           fmt::format("found two subjects named '{}', expected different names", made.back()->name()));

@@ -38,6 +38,8 @@ struct PluginLimitOptions {
   std::uint64_t bytes = isolation::PluginLimits().bytes;
 
   void add_to(CLI::App& command);
+  /// Throws Error.
+  [[nodiscard]] isolation::PluginLimits limits() const;
 };
 
 /// --kind vt|ee and FILE|-: the kind, and the file with one query a line.
@@ -50,7 +52,7 @@ struct QueryInput {
 };
 
 /// Makes the named subjects; each plug-in runs in its own process. Throws Error, also if two have the same name.
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
+Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
 /// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.

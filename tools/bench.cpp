@@ -157,7 +157,7 @@ void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann
 }
 
 void run(const Options& options) {
-  const Subjects subjects = make_subjects(options.subjects, options.limits, std::nullopt);
+  const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
   const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();
   fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject", "ns/query",

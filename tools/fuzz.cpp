@@ -32,15 +32,18 @@ struct Options {
   RecordOptions record;
 };
 
+/// The time limit of a campaign.
+using Time = std::optional<std::chrono::duration<double>>;
+
 /// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
-std::optional<double> part_done(const CampaignProgress& now, const CampaignPlan& plan) {
+std::optional<double> part_done(const CampaignProgress& now, const Time& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
-  if (plan.time) part = std::max(part.value_or(0), now.elapsed / *plan.time);
+  if (time) part = std::max(part.value_or(0), now.elapsed / *time);
   return part;
 }
 
-std::string show(const CampaignProgress& now, const CampaignPlan& plan, const Statistics& statistics) {
+std::string show(const CampaignProgress& now, const Time& time, const Statistics& statistics) {
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
   double farthest = 0;
   for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
@@ -51,12 +54,12 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
   if (const auto faults = statistics.faults(); faults != 0)
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
-  if (plan.time) left = now.of != 0 ? std::min(left, *plan.time - now.elapsed) : *plan.time - now.elapsed;
-  return line + ", " + show_duration(left) + " left";
+  if (time) left = now.of != 0 ? std::min(left, *time - now.elapsed) : *time - now.elapsed;
+  return line + ", " + show_duration(std::max(left, {})) + " left";
 }
 
 /// The families chosen with --family, --sweep, --mesh and --search.
-std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
+std::vector<Family> chosen_families(const Options& options, const Subjects& subjects, const Stop& stop) {
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
@@ -64,7 +67,7 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
                                        : find_sweeps(options.sweeps, options.steps, known);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
-    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject));
+    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject, stop));
   return chosen;
 }
 
@@ -112,13 +115,12 @@ RunInfo info_of(const Options& options, const CampaignPlan& plan) {
 }
 
 int run(const Options& options) {
-  const auto& stop = interrupted();
-  const Subjects subjects = options.trial.make_subjects();
+  Stop stop(interrupted());
+  const Subjects subjects = options.trial.make_subjects(stop);
   CampaignPlan plan;
-  plan.families = chosen_families(options, subjects);
+  plan.families = chosen_families(options, subjects, stop);
   plan.seed = options.seed;
   plan.cases = options.cases;
-  if (!options.time.empty()) plan.time = parse_duration(options.time, "--time");
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
@@ -126,23 +128,26 @@ int run(const Options& options) {
   Record record(
       options.record, info_of(options, plan),
       {.index = plan.shard, .count = plan.shards, .environment = options.trial.plugin_paths(subjects)});
-  plan.rounds_before = record.shard().rounds;
+  plan.before = record.statistics();
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0;
-  if (only_time_ends_it) *plan.time -= std::chrono::duration<double>(record.shard().seconds);
+  Time time;
+  if (!options.time.empty()) time = parse_duration(options.time, "--time");
+  if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
+  if (time) stop.limit(*time);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);
     reached = run_campaign(
         plan, subjects,
         [&](TrialResult&& result, const CampaignProgress& now) {
-          record.add(std::move(result), now.rounds);
-          if (progress.due()) progress.show(show(now, plan, record.statistics()), part_done(now, plan));
+          record.add(std::move(result));
+          if (progress.due()) progress.show(show(now, time, record.statistics()), part_done(now, time));
           return true;
         },
         stop);
   }
-  return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
+  return record.finish(stop.is_requested(), reached.complete || (only_time_ends_it && !stop.is_requested()));
 }
 
 /// The options for the campaign's length, its shard, and where the results go.

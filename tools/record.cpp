@@ -92,10 +92,9 @@ void Record::go_on() {
   saved_findings_ = findings_.size();
 }
 
-void Record::add(TrialResult&& result, std::uint64_t rounds) {
+void Record::add(TrialResult&& result) {
   statistics_.merge(result.statistics);
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
-  shard_.rounds = rounds;
   if (Clock::now() - last_save_ >= save_interval) save();
 }
 

@@ -41,8 +41,8 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result; saves at intervals. `rounds` is the number of finished rounds of a campaign.
-  void add(TrialResult&& result, std::uint64_t rounds = 0);
+  /// Adds a result; saves at intervals.
+  void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }

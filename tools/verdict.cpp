@@ -32,7 +32,8 @@ std::string show_distance_bound(const Subject& subject, const Judge& judge, cons
 }
 
 void run(const Options& options) {
-  const Subjects subjects = make_subjects({options.subject}, options.limits, parse_bound(options.bound));
+  const Subjects subjects =
+      make_subjects({options.subject}, options.limits.limits(), parse_bound(options.bound));
   const Subject* const subject = subjects.front().get();
   const Judge judge(*subject);
   options.input.read([&](const Query& query) {

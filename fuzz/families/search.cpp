@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <nlopt.hpp>
+#include <optional>
 #include <vector>
 
 #include "fuzz/families/contacts.hpp"
@@ -208,6 +211,30 @@ class Maximiser {
   std::exception_ptr error_;  ///< thrown by the objective
 };
 
+/// The subject of a search, which is no longer asked when it has exceeded its time limit a few times.
+class Searched {
+ public:
+  Searched(const Subject& subject, const Stop& stop) : subject_(subject), stop_(stop) {}
+
+  [[nodiscard]] const Subject& operator*() const { return subject_; }
+  [[nodiscard]] const Subject* operator->() const { return &subject_; }
+
+  /// The answer to a query; nothing if the subject is not asked. Throws Stopped.
+  std::optional<Verdict> ask(const Query& query) const {
+    constexpr int most_late = 3;
+    stop_.check();
+    if (late_ >= most_late) return std::nullopt;
+    const Verdict verdict = subject_.decide(query);
+    if (verdict.fault == Fault::time) ++late_;
+    return verdict;
+  }
+
+ private:
+  const Subject& subject_;
+  const Stop& stop_;
+  mutable std::atomic<int> late_ = 0;
+};
+
 /// The largest distance of a subject's false positives: the bound that the subject claims, or wang's if it
 /// claims none.
 double reach(const Subject& subject, const Query& query) {
@@ -221,7 +248,7 @@ double smallest_for(const Subject& subject, Random random, Kind kind) {
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
 }
 
-Query search_miss(const Subject& subject, Random& random, Kind kind) {
+Query search_miss(const Searched& subject, Random& random, Kind kind) {
   std::array<double, 6> mixture{};
   for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
   const bool exactly = random.one_in(2);
@@ -230,39 +257,45 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
     const SearchPoint m = placed(anywhere);
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
-    const bool hit = subject.decide(query).hit;
+    const auto answer = subject.ask(query);
+    if (!answer) return nothing;
+    if (answer->fault == Fault::time) return HUGE_VAL;
+    const bool hit = answer->hit;
     if (!(hit && exactly) && !collides(query)) return nothing;
     if (!hit) return HUGE_VAL;
-    const double needed = subject.needed_tolerance(query);
+    const double needed = subject->needed_tolerance(query);
     if (!std::isnan(needed)) return std::log2(needed);
     double sum = 0;
     const auto hard = hardness(kind, contact_of(kind, m), m.w);
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
     return sum;
   };
-  const double smallest = exactly ? usually_smallest : smallest_for(subject, random, kind);
+  const double smallest = exactly ? usually_smallest : smallest_for(*subject, random, kind);
   return query_of(
       kind, placed(Maximiser(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
 }
 
-Query search_far(const Subject& subject, Random& random, Kind kind) {
+Query search_far(const Searched& subject, Random& random, Kind kind) {
   const auto objective = [&](const SearchPoint& m) {
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
-    if (!subject.decide(query).hit) {
-      const double needed = subject.needed_tolerance(query);
+    const auto answer = subject.ask(query);
+    if (!answer) return nothing;
+    if (answer->fault == Fault::time) return HUGE_VAL;
+    if (!answer->hit) {
+      const double needed = subject->needed_tolerance(query);
       return std::isnan(needed) ? -1 : -std::log2(needed);
     }
     if (collides(query)) return 0.0;
-    const double bound = subject.claims_bound() ? subject.distance_bound(query) : reach(subject, query);
+    const double bound = subject->claims_bound() ? subject->distance_bound(query) : reach(*subject, query);
     const double ratio = closest_ratio(query, bound);
-    if (!subject.claims_bound()) return ratio;
+    if (!subject->claims_bound()) return ratio;
     return ratio >= 1 && distance_exceeds(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
   };
-  const double smallest = smallest_for(subject, random, kind);
+  const double smallest = smallest_for(*subject, random, kind);
   return query_of(kind, Maximiser(random, false, smallest, objective).run([&] {
     SearchPoint m = draw(random, smallest);
-    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(subject, query_of(kind, m)));
+    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(*subject, query_of(kind, m)));
     return m;
   }));
 }
@@ -279,15 +312,19 @@ Family search(std::string name, std::string about, std::function<Query(Random&, 
 
 }  // namespace
 
-Family miss_search(const Subject& subject) {
+Family miss_search(const Subject& subject, const Stop& stop) {
   return search(std::string(miss_search_family) + subject.name(),
                 "collisions that are nearly missed, by directed search",
-                [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); });
+                [searched = std::make_shared<Searched>(subject, stop)](Random& random, Kind kind) {
+                  return search_miss(*searched, random, kind);
+                });
 }
 
-Family far_search(const Subject& subject) {
+Family far_search(const Subject& subject, const Stop& stop) {
   return search(std::string(far_search_family) + subject.name(), "far false positives, by directed search",
-                [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); });
+                [searched = std::make_shared<Searched>(subject, stop)](Random& random, Kind kind) {
+                  return search_far(*searched, random, kind);
+                });
 }
 
 }  // namespace nearmiss

@@ -20,7 +20,11 @@ void Sieve::know(std::span<const Finding> kept) {
 void Sieve::sift(std::vector<Finding>& findings) {
   std::erase_if(findings, [&](const Finding& f) { return !first_.take(f); });
   in_parallel(jobs_, findings.size(), [&](std::size_t i) {
-    if (!stop_) findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]));
+    try {
+      stop_.check();
+      findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]), stop_);
+    } catch (const Stopped&) {  // the finding stays as it is
+    }
   });
 }
 

@@ -1,10 +1,10 @@
 // The sieve: keeps up to three findings of each signature, and shrinks them.
 #pragma once
 
-#include <atomic>
 #include <span>
 #include <vector>
 
+#include "fuzz/stop.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "reports/statistics/finding.hpp"
 
@@ -14,8 +14,8 @@ namespace nearmiss {
 /// findings. The result depends only on the findings and their order.
 class Sieve {
  public:
-  /// Stops shrinking once `stop` is set.
-  Sieve(const Subjects& subjects, int jobs, const std::atomic<bool>& stop)
+  /// Leaves findings unshrunk once `stop` is due.
+  Sieve(const Subjects& subjects, int jobs, const Stop& stop)
       : subjects_(subjects), jobs_(jobs), stop_(stop) {}
 
   /// Counts findings that an earlier sieve kept.
@@ -29,7 +29,7 @@ class Sieve {
 
   const Subjects& subjects_;
   int jobs_;
-  const std::atomic<bool>& stop_;
+  const Stop& stop_;
   FirstFindings first_;
 };
 

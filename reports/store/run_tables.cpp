@@ -41,14 +41,13 @@ Table<RunRow> runs() {
 }
 
 Table<ShardRow> shards() {
-  return {
-      "shard",
-      "PRIMARY KEY (run, \"index\"), FOREIGN KEY (run) REFERENCES run",
-      "run, \"index\"",
-      {run_column<Shard>(), content_column("index", &Shard::index), content_column("count", &Shard::count),
-       content_column("rounds", &Shard::rounds), content_column("cases", &Shard::cases),
-       content_column("complete", &Shard::complete), content_column("started", &Shard::started),
-       content_column("seconds", &Shard::seconds), content_column("environment", &Shard::environment)}};
+  return {"shard",
+          "PRIMARY KEY (run, \"index\"), FOREIGN KEY (run) REFERENCES run",
+          "run, \"index\"",
+          {run_column<Shard>(), content_column("index", &Shard::index),
+           content_column("count", &Shard::count), content_column("cases", &Shard::cases),
+           content_column("complete", &Shard::complete), content_column("started", &Shard::started),
+           content_column("seconds", &Shard::seconds), content_column("environment", &Shard::environment)}};
 }
 
 Table<FindingRow> findings() {

@@ -132,9 +132,10 @@ class IsolatedPlugin final : public BatchSubject {
     for (const Query& query : queries)
       if (!is_finite(query)) refuse_coordinates(name());
     std::unique_ptr<WorkerProcess> worker = take();
+    std::uint64_t late = 0;
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
-      perform_batch(worker, request, batch,
+      perform_batch(worker, request, batch, late,
                     [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure) {
                       take_done(Done{*worker, start, first, end, failure});
                     });
@@ -144,13 +145,20 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   /// The same for one batch. A worker that fails is replaced, and goes on behind the query at which it failed. A call
-  /// that takes too long as a whole is repeated with fewer queries, at last with one.
+  /// that takes too long as a whole is repeated with fewer queries, at last with one. `late` counts the queries over the
+  /// time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
-                     const Take& take_part) const {
+                     std::uint64_t& late, const Take& take_part) const {
+    const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
     worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
     for (std::uint32_t first = 0; first < size;) {
+      if (limits_.most_late != 0 && late >= limits_.most_late) {
+        take_part(first, first, not_asked);
+        ++first;
+        continue;
+      }
       const std::uint32_t last = first + std::min(size - first, in_a_call_.load());
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
       adapt(last - first, *worker, failure);
@@ -160,6 +168,7 @@ class IsolatedPlugin final : public BatchSubject {
         first = failure ? end + 1 : end;
       }
       if (!failure) continue;
+      late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
       worker = std::make_unique<WorkerProcess>(path_, limits_);
       worker->give(batch);
     }

@@ -238,6 +238,7 @@ WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Du
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {status_.number(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
+    if (limits_.stop != nullptr) limits_.stop->check();
     elapsed_ = watch.elapsed();
     if (spoke)
       if (const auto end = end_of(call)) return *end;

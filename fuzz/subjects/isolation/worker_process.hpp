@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ccd/subject.hpp"
+#include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 
@@ -22,6 +23,9 @@ struct PluginLimits {
   Duration time{1};                              ///< for a query
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< for loading
+  /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
+  std::uint64_t most_late = 0;
+  const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
 };
 
 /// A call with several queries may take this many times the limit of a query.
@@ -39,7 +43,7 @@ struct WorkerFailure {
 /// A running worker. It cannot be used after a call failed.
 class WorkerProcess {
  public:
-  /// Throws Error if the plug-in cannot be used.
+  /// Throws Error if the plug-in cannot be used, and Stopped.
   WorkerProcess(const std::string& path, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -52,7 +56,8 @@ class WorkerProcess {
   /// Gives the worker a batch of queries of one kind, at most batch_size.
   void give(std::span<const Query> queries);
 
-  /// Has the queries [first, last) of the batch done. Returns why one failed; nothing if all are done.
+  /// Has the queries [first, last) of the batch done. Returns why one failed; nothing if all are done. Throws
+  /// Stopped.
   std::optional<WorkerFailure> perform(Request request, std::uint32_t first, std::uint32_t last);
 
   /// The answer to a query of the batch.
