@@ -1,11 +1,11 @@
 // Whatever a plug-in does to nearmiss, each query gets an answer or a fault, and nothing of the plug-in stays.
-#include <dirent.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <stdlib.h>
 
+#include <filesystem>
 #include <fstream>
-#include <set>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -36,17 +36,34 @@ std::vector<Verdict> answers_of(const Subject& subject, const std::vector<Query>
   return verdicts;
 }
 
-/// Processes that run nearmiss-worker.
-std::set<std::string> workers() {
-  std::set<std::string> found;
-  DIR* const processes = opendir("/proc");
-  while (const dirent* entry = readdir(processes)) {
-    std::ifstream file(std::string("/proc/") + entry->d_name + "/comm");
-    if (std::string name; std::getline(file, name) && name == "nearmiss-worker") found.insert(entry->d_name);
+/// A copy of a plug-in, by whose path its processes are known.
+class CopiedPlugin {
+ public:
+  explicit CopiedPlugin(const std::string& name) {
+    std::string folder = std::filesystem::temp_directory_path() / "nearmiss-XXXXXX";
+    path_ = std::filesystem::path(mkdtemp(folder.data())) / (name + ".so");
+    std::filesystem::copy(plugin(name), path_);
   }
-  closedir(processes);
-  return found;
-}
+  CopiedPlugin(const CopiedPlugin&) = delete;
+  CopiedPlugin& operator=(const CopiedPlugin&) = delete;
+  ~CopiedPlugin() { std::filesystem::remove_all(path_.parent_path()); }
+
+  [[nodiscard]] std::string path() const { return path_; }
+
+  /// The number of processes with this path among their arguments.
+  [[nodiscard]] int processes() const {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+      const std::string arguments(std::istreambuf_iterator<char>(file), {});
+      count += arguments.find(path_) != std::string::npos ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
 
 struct Intrusion {
   std::string name;
@@ -65,10 +82,10 @@ INSTANTIATE_TEST_SUITE_P(All, Intruding,
                          [](const auto& each) { return each.param.name; });
 
 TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
-  const auto before = workers();
+  const CopiedPlugin copied("intruding_" + GetParam().name);
   {
-    const auto subject = make_isolated_plugin(plugin("intruding_" + GetParam().name),
-                                              {.time = std::chrono::milliseconds(100)});
+    const auto subject = make_isolated_plugin(copied.path(), {.time = std::chrono::milliseconds(100)});
+    EXPECT_GT(copied.processes(), 0);
     const auto asked = queries();
     const auto verdicts = answers_of(*subject, asked);
     int faults = 0;
@@ -82,7 +99,7 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
       EXPECT_EQ(verdicts[chosen].fault, GetParam().fault);
     }
   }
-  EXPECT_EQ(workers(), before);
+  EXPECT_EQ(copied.processes(), 0);
 }
 
 TEST(Throwing, IsAFaultWithItsText) {

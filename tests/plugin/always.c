@@ -7,7 +7,9 @@
 #ifndef ANSWER
 #define ANSWER 1
 #endif
-#ifndef NAME
+#ifdef BAD_NAME
+#define NAME "=1+1\033[31m\xff"
+#else
 #define NAME "always"
 #endif
 #ifndef ABI

@@ -228,7 +228,7 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 12")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 13")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

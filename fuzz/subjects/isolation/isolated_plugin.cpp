@@ -24,9 +24,9 @@ class ExceptionTexts {
   /// The number of a text. Texts beyond the first thousand share one.
   std::int32_t number(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    const auto known = std::find(texts_.begin(), texts_.end(), text);
-    if (known == texts_.end() && texts_.size() < most) texts_.push_back(text);
-    return static_cast<std::int32_t>(known == texts_.end() ? texts_.size() - 1 : known - texts_.begin());
+    auto known = std::find(texts_.begin(), texts_.end(), text);
+    if (known == texts_.end()) known = texts_.insert(texts_.size() < most ? known : known - 1, text);
+    return static_cast<std::int32_t>(known - texts_.begin());
   }
 
   std::string text(std::int32_t number) const {
