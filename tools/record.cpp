@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
+#include "fuzz/trial/patience.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
@@ -94,6 +96,13 @@ void Record::go_on() {
 
 void Record::add(TrialResult&& result) {
   statistics_.merge(result.statistics);
+  for (const auto& [key, counts] : result.statistics.counts)
+    if (is_set_aside(statistics_.counts[key]) && set_aside_.insert(key).second)
+      fmt::print(
+          stderr,
+          "{}nearmiss: {} exceeded its time limit {} times in {} ({}) and is not asked there any more\n",
+          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, Patience::most_late, key.family,
+          short_name(key.kind));
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
   if (Clock::now() - last_save_ >= save_interval) save();
 }

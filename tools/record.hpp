@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,7 @@ class Record {
   std::optional<Store> store_;
   bool saved_ = false;
   Statistics statistics_;
+  std::set<CountsKey> set_aside_;  // those that were announced
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   Clock::time_point start_ = Clock::now();
