@@ -2,22 +2,45 @@
 #include <fmt/format.h>
 
 #include "reports/sections/summary.hpp"
+#include "reports/store/salvage.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {
 
+namespace {
+
+/// Reads what is intact of several stores as one campaign, and prints what was lost of each.
+Campaign salvage_campaigns(const std::vector<std::filesystem::path>& files) {
+  std::vector<Campaign> campaigns;
+  std::vector<std::string> names;
+  for (const auto& file : files) {
+    Salvage salvage = salvage_campaign(file);
+    fmt::print("{}: saved {} rows, lost {}\n", file.string(), salvage.rows,
+               salvage.lost.empty() ? "nothing" : salvage.lost);
+    campaigns.push_back(std::move(salvage.campaign));
+    names.push_back(file.string());
+  }
+  return merge_campaigns(campaigns, names);
+}
+
+}  // namespace
+
 void add_merge(CLI::App& app, int& /*exit_code*/) {
   struct Options {
     std::filesystem::path out;
     std::vector<std::filesystem::path> in;
+    bool salvage = false;
   };
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("merge", "Add up the stores of several runs or shards into a new one");
   command->add_option("OUT", options->out, "The new store")->required()->type_name("OUT.db");
   command->add_option("IN", options->in, "Stores to add up")->required()->type_name("IN.db...");
+  command->add_flag(
+      "--salvage", options->salvage,
+      "Take what is intact of damaged stores, and say what was lost; nothing can resume the result");
   command->callback([options] {
-    const Campaign merged = load_campaigns(options->in);
+    const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
     write_campaign(merged, options->out);
     fmt::print("{}", summary_table(merged.statistics));
     for (const Run& run : merged.runs)

@@ -29,13 +29,15 @@ Column<OfRun<Content>> content_column(std::string name, Member Content::*member)
 
 using RunRow = OfRun<RunInfo>;
 using ShardRow = OfRun<Shard>;
-using FindingRow = OfRun<Finding>;
+struct FindingRow : OfRun<Finding> {
+  std::uint64_t number = 0;  ///< its place among all findings
+};
 using PictureRow = OfRun<ScenePicture>;
 
 Table<RunRow> runs() {
   return {"run",
           "PRIMARY KEY (run), UNIQUE (info)",
-          "run",
+          {"run"},
           {run_column<RunInfo>(), column<RunRow>(
                                       "info", [](RunRow & row) -> auto& { return row.content; })}};
 }
@@ -43,7 +45,7 @@ Table<RunRow> runs() {
 Table<ShardRow> shards() {
   return {"shard",
           "PRIMARY KEY (run, \"index\"), FOREIGN KEY (run) REFERENCES run",
-          "run, \"index\"",
+          {"run", "index"},
           {run_column<Shard>(), content_column("index", &Shard::index),
            content_column("count", &Shard::count), content_column("cases", &Shard::cases),
            content_column("complete", &Shard::complete), content_column("started", &Shard::started),
@@ -51,22 +53,40 @@ Table<ShardRow> shards() {
 }
 
 Table<FindingRow> findings() {
-  return {"finding",
-          "FOREIGN KEY (run) REFERENCES run",
-          "rowid",
-          {run_column<Finding>(), content_column("round", &Finding::round),
-           content_column("what", &Finding::what), content_column("subject", &Finding::subject),
-           content_column("family", &Finding::family), content_column("query", &Finding::query),
-           content_column("provenance", &Finding::provenance), content_column("ratio", &Finding::ratio),
-           content_column("signature", &Finding::signature), content_column("shrunk", &Finding::shrunk)}};
+  const auto member = [](std::string name, auto pointer) {
+    return column<FindingRow>(
+        std::move(name), [pointer](FindingRow & row) -> auto& { return row.content.*pointer; });
+  };
+  return {
+      "finding",
+      "PRIMARY KEY (number), FOREIGN KEY (run) REFERENCES run",
+      {"number"},
+      {column<FindingRow>(
+           "number", [](FindingRow & row) -> auto& { return row.number; }),
+       column<FindingRow>(
+           "run", [](FindingRow & row) -> auto& { return row.run; }),
+       member("round", &Finding::round), member("what", &Finding::what), member("subject", &Finding::subject),
+       member("family", &Finding::family), member("query", &Finding::query),
+       member("provenance", &Finding::provenance), member("ratio", &Finding::ratio),
+       member("signature", &Finding::signature), member("shrunk", &Finding::shrunk)}};
 }
 
 Table<PictureRow> pictures() {
   return {"picture",
           "PRIMARY KEY (run, step), FOREIGN KEY (run) REFERENCES run",
-          "run, step",
+          {"run", "step"},
           {run_column<ScenePicture>(), content_column("step", &ScenePicture::step),
            content_column("picture", &ScenePicture::json)}};
+}
+
+constexpr std::uint64_t only_run = 0;
+
+void add_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> some) {
+  if (some.empty()) return;
+  std::uint64_t number = read_contents(db, findings().name).rows;
+  std::vector<FindingRow> rows;
+  for (const Finding& each : some) rows.push_back({{run, each}, ++number});
+  findings().add(db, std::move(rows));
 }
 
 template <class Content>
@@ -85,37 +105,36 @@ void make_run_tables(SQLite::Database& db) {
   pictures().make(db);
 }
 
-void write_run(SQLite::Database& db, std::uint64_t run, const RunInfo& info) {
-  runs().write(db, {{run, info}});
+void write_runs(SQLite::Database& db, std::span<const Run> some) {
+  std::uint64_t number = 0;
+  for (const Run& run : some) {
+    runs().add(db, {{number, run.info}});
+    shards().add(db, rows_of(number, std::span(run.shards)));
+    add_findings(db, number, run.findings);
+    pictures().add(db, rows_of(number, std::span(run.pictures)));
+    ++number;
+  }
 }
 
-void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard) {
-  shards().write(db, {{run, shard}});
+void replace_shard(SQLite::Database& db, const Shard& shard) { shards().replace(db, {{only_run, shard}}); }
+
+void write_findings(SQLite::Database& db, std::span<const Finding> some) { add_findings(db, only_run, some); }
+
+void write_picture(SQLite::Database& db, const ScenePicture& picture) {
+  pictures().add(db, {{only_run, picture}});
 }
 
-void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> some) {
-  findings().write(db, rows_of(run, some));
-}
-
-void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> some) {
-  pictures().write(db, rows_of(run, some));
-}
-
-std::vector<Run> read_runs(SQLite::Database& db) {
-  std::vector<Run> all;
-  std::map<std::uint64_t, std::size_t> index;  // position of each run in `all`
-  runs().read(db, [&](RunRow&& row) {
-    index[row.run] = all.size();
-    all.push_back({std::move(row.content), {}, {}});
-  });
-  shards().read(db,
-                [&](ShardRow&& row) { all.at(index.at(row.run)).shards.push_back(std::move(row.content)); });
-  findings().read(
-      db, [&](FindingRow&& row) { all.at(index.at(row.run)).findings.push_back(std::move(row.content)); });
-  pictures().read(db, [&](PictureRow&& row) {
+std::vector<Run> read_runs(Reading& read) {
+  std::map<std::uint64_t, Run> by_number;
+  read(runs(), [&](RunRow&& row) { by_number[row.run].info = std::move(row.content); });
+  read(shards(), [&](ShardRow&& row) { by_number[row.run].shards.push_back(std::move(row.content)); });
+  read(findings(), [&](FindingRow&& row) { by_number[row.run].findings.push_back(std::move(row.content)); });
+  read(pictures(), [&](PictureRow&& row) {
     row.content.json = nlohmann::json::parse(row.content.json).dump();  // throws if it is not JSON
-    all.at(index.at(row.run)).pictures.push_back(std::move(row.content));
+    by_number[row.run].pictures.push_back(std::move(row.content));
   });
+  std::vector<Run> all;
+  for (auto& [number, run] : by_number) all.push_back(std::move(run));
   return all;
 }
 

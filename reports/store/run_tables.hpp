@@ -3,31 +3,31 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
+#include "reports/store/reading.hpp"
 
 namespace nearmiss {
 
 /// Makes the tables in an empty database.
 void make_run_tables(SQLite::Database& db);
 
-/// Adds a run without its shards, findings and pictures.
-void write_run(SQLite::Database& db, std::uint64_t run, const RunInfo& info);
+/// Adds runs, numbered from 0.
+void write_runs(SQLite::Database& db, std::span<const Run> runs);
 
-/// Adds or replaces a shard of a run.
-void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard);
+/// Replaces the only shard of the only run.
+void replace_shard(SQLite::Database& db, const Shard& shard);
 
-/// Appends findings to those of a run.
-void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> findings);
+/// Appends findings to those of the only run.
+void write_findings(SQLite::Database& db, std::span<const Finding> findings);
 
-/// Adds pictures of a run.
-void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> pictures);
+/// Adds a picture to the only run.
+void write_picture(SQLite::Database& db, const ScenePicture& picture);
 
-/// Reads all runs. Throws Error for an invalid value, and passes on exceptions of SQLite and the JSON
-/// library.
-std::vector<Run> read_runs(SQLite::Database& db);
+/// Reads all runs. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on exceptions
+/// of `read`, SQLite and the JSON library.
+std::vector<Run> read_runs(Reading& read);
 
 }  // namespace nearmiss

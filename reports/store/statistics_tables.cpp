@@ -33,7 +33,7 @@ Table<Row> counters_table(std::string name, const std::string& key, std::vector<
   using Owner = decltype(Row::value);
   add_counters<Row, Owner>(
       columns, "", [](Row & row) -> auto& { return row.value; });
-  return {std::move(name), "PRIMARY KEY (" + key + ")", key, std::move(columns)};
+  return {std::move(name), "PRIMARY KEY (" + key + ")", {}, std::move(columns)};
 }
 
 Table<CountsRow> counts() {
@@ -58,7 +58,7 @@ Table<FunnelRow> funnels() {
 Table<SeenRow> seen() {
   return {"seen",
           "PRIMARY KEY (what, subject, signature)",
-          "what, subject, signature",
+          {},
           {key_column<SeenRow>("what", &Signature::what), key_column<SeenRow>("subject", &Signature::subject),
            key_column<SeenRow>("signature", &Signature::text),
            column<SeenRow>(
@@ -72,7 +72,7 @@ Table<Extreme> extremes() {
   };
   return {"extreme",
           "PRIMARY KEY (name)",
-          "name",
+          {},
           {member("name", &Extreme::name), member("of", &Extreme::of), member("value", &Extreme::value),
            member("query", &Extreme::query), member("provenance", &Extreme::provenance),
            member("queries", &Extreme::queries)}};
@@ -89,7 +89,7 @@ Table<CampaignRow> campaign() {
       "id", [](CampaignRow & row) -> auto& { return row.id; })};
   add_counters<CampaignRow, Statistics>(
       columns, "", [](CampaignRow & row) -> auto& { return row.statistics; });
-  return {"campaign", "PRIMARY KEY (id)", "id", std::move(columns)};
+  return {"campaign", "PRIMARY KEY (id)", {}, std::move(columns)};
 }
 
 template <class Key, class Value>
@@ -97,12 +97,12 @@ void write_map(SQLite::Database& db, const Table<MapRow<Key, Value>>& table,
                const std::map<Key, Value>& map) {
   std::vector<MapRow<Key, Value>> rows;
   for (const auto& [key, value] : map) rows.push_back({key, value});
-  table.write(db, std::move(rows));
+  table.replace(db, std::move(rows));
 }
 
 template <class Key, class Value>
-void read_map(SQLite::Database& db, const Table<MapRow<Key, Value>>& table, std::map<Key, Value>& map) {
-  table.read(db, [&](MapRow<Key, Value>&& row) { map.emplace(std::move(row.key), std::move(row.value)); });
+void read_map(Reading& read, const Table<MapRow<Key, Value>>& table, std::map<Key, Value>& map) {
+  read(table, [&](MapRow<Key, Value>&& row) { map.emplace(std::move(row.key), std::move(row.value)); });
 }
 
 }  // namespace
@@ -123,20 +123,20 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
   write_map(db, seen(), statistics.seen);
   std::vector<Extreme> rows;
   for (const auto& [name, each] : statistics.extremes) rows.push_back(each);
-  extremes().write(db, std::move(rows));
+  extremes().replace(db, std::move(rows));
   CampaignRow whole;
   merge_counters(whole.statistics, statistics);
-  campaign().write(db, {std::move(whole)});
+  campaign().replace(db, {std::move(whole)});
 }
 
-Statistics read_statistics(SQLite::Database& db) {
+Statistics read_statistics(Reading& read) {
   Statistics statistics;
-  campaign().read(db, [&](CampaignRow&& row) { statistics = std::move(row.statistics); });
-  read_map(db, counts(), statistics.counts);
-  read_map(db, oracle(), statistics.oracle);
-  read_map(db, funnels(), statistics.funnels);
-  read_map(db, seen(), statistics.seen);
-  extremes().read(db, [&](Extreme&& row) { statistics.extremes[row.name] = std::move(row); });
+  read(campaign(), [&](CampaignRow&& row) { statistics = std::move(row.statistics); });
+  read_map(read, counts(), statistics.counts);
+  read_map(read, oracle(), statistics.oracle);
+  read_map(read, funnels(), statistics.funnels);
+  read_map(read, seen(), statistics.seen);
+  read(extremes(), [&](Extreme&& row) { statistics.extremes[row.name] = std::move(row); });
   return statistics;
 }
 

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "reports/statistics/statistics.hpp"
+#include "reports/store/reading.hpp"
 
 namespace nearmiss {
 
@@ -13,8 +14,8 @@ void make_statistics_tables(SQLite::Database& db);
 /// Replaces all counters.
 void write_statistics(SQLite::Database& db, const Statistics& statistics);
 
-/// Reads all counters. Throws Error for an invalid value, and passes on exceptions of SQLite and the JSON
+/// Reads all counters. Throws Error for an invalid value, and passes on exceptions of `read`, SQLite and the JSON
 /// library.
-Statistics read_statistics(SQLite::Database& db);
+Statistics read_statistics(Reading& read);
 
 }  // namespace nearmiss

@@ -2,11 +2,14 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include "ccd/error.hpp"
 #include "reports/store/file_lock.hpp"
 #include "reports/store/run_tables.hpp"
+#include "reports/store/salvage.hpp"
 #include "reports/store/statistics_tables.hpp"
+#include "reports/store/version.hpp"
 
 namespace nearmiss {
 
@@ -14,35 +17,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int application_id = 0x6e656172;  // "near"
-
-/// Version of the tables and of their contents; every change raises it.
-constexpr int schema_version = 13;
-
 void make_schema(SQLite::Database& db) {
+  make_contents(db);
   make_run_tables(db);
   make_statistics_tables(db);
-  db.exec(
-      fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {};", schema_version, application_id));
+  write_version(db);
 }
 
-/// Throws Error if the database is not a store, or is a store of another version.
-void check_version(SQLite::Database& db) {
-  if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
-    throw Error("found another kind of database, expected a store of nearmiss");
-  const int version = db.execAndGet("PRAGMA user_version").getInt();
-  if (version != schema_version)
-    throw Error(fmt::format("found store version {}, expected {}", version, schema_version));
+/// Reads a whole store. Throws Damage, or an exception of SQLite, unless it is as it was written.
+Campaign read_all(SQLite::Database& db) {
+  Reading read(db, false);
+  return {read_runs(read), read_statistics(read)};
 }
 
-/// Runs `act`. Any exception becomes an Error that names the file.
+/// Throws Damage if the structure of the database is damaged. That may be so although all rows can be read, but then a
+/// save would do more damage.
+void check_structure(SQLite::Database& db) {
+  const std::string found = db.execAndGet("PRAGMA integrity_check(1)").getString();
+  if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
+}
+
+/// Whether a failure to read means that the file's contents are damaged, not that it cannot be opened.
+bool is_damage(const std::exception& error) {
+  if (dynamic_cast<const Damage*>(&error) != nullptr) return true;
+  const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
+  if (reason == nullptr) return false;
+  // SQLITE_ERROR: a table or a column has another name.
+  return reason->getErrorCode() == SQLITE_CORRUPT || reason->getErrorCode() == SQLITE_ERROR;
+}
+
+/// Opens a store, and runs `act` with it. If it is damaged, the Error also says how much a salvage would save.
 template <class Act>
-auto naming(const fs::path& file, const Act& act) {
-  try {
-    return act();
-  } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+auto reading(const fs::path& file, const Act& act) {
+  return naming(file, [&] {
+    SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
+    const SQLite::Transaction one_save(db);  // another process may save meanwhile
+    check_version(db);
+    try {
+      return act(db);
+    } catch (const std::exception& error) {
+      if (!is_damage(error)) throw;
+      throw Error(fmt::format("damaged: {}; {}", error.what(), advice(file)));
+    }
+  });
 }
 
 /// A connection for writing.
@@ -94,7 +111,6 @@ struct Store::Database {
 
   fs::path file;
   FileLock lock;
-  std::uint64_t run = 0;
   std::unique_ptr<Connection> connection;
 };
 
@@ -110,42 +126,38 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
   naming(file, [&] { database_->connection = std::make_unique<Connection>(file, SQLite::OPEN_CREATE); });
   database_->change([&](SQLite::Database& db) {
     make_schema(db);
-    write_run(db, database_->run, info);
-    write_shard(db, database_->run, shard);
+    const Run run{info, {shard}, {}};
+    write_runs(db, std::span(&run, 1));
   });
 }
 
 Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
+  const std::vector<Run> runs = reading(file, [](SQLite::Database& db) {
+    check_structure(db);
+    return read_all(db).runs;
+  });
   naming(file, [&] {
-    database_->connection = std::make_unique<Connection>(file, 0);
-    auto& db = database_->connection->db;
-    check_version(db);
-    const std::vector<Run> runs = read_runs(db);
     if (runs.size() != 1 || runs.front().shards.size() != 1)
       throw Error("found several shards or runs, expected one to continue");
+    database_->connection = std::make_unique<Connection>(file, 0);
   });
 }
 
 void Store::save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings) {
   database_->change([&](SQLite::Database& db) {
     write_statistics(db, statistics);
-    write_shard(db, database_->run, shard);
-    write_findings(db, database_->run, new_findings);
+    replace_shard(db, shard);
+    write_findings(db, new_findings);
   });
 }
 
 void Store::add(const ScenePicture& picture) {
-  database_->change(
-      [&](SQLite::Database& db) { write_pictures(db, database_->run, std::span(&picture, 1)); });
+  database_->change([&](SQLite::Database& db) { write_picture(db, picture); });
 }
 
 Campaign load_campaign(const fs::path& file) {
   if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", file.string()));
-  return naming(file, [&] {
-    SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
-    check_version(db);
-    return Campaign{read_runs(db), read_statistics(db)};
-  });
+  return reading(file, read_all);
 }
 
 Campaign load_campaigns(std::span<const fs::path> files) {
@@ -164,13 +176,7 @@ void write_all(const Campaign& campaign, const fs::path& file) {
   Connection connection(file, SQLite::OPEN_CREATE);
   SQLite::Transaction transaction(connection.db);
   make_schema(connection.db);
-  for (std::uint64_t id = 0; id < campaign.runs.size(); ++id) {
-    const Run& run = campaign.runs[id];
-    write_run(connection.db, id, run.info);
-    for (const Shard& each : run.shards) write_shard(connection.db, id, each);
-    write_findings(connection.db, id, run.findings);
-    write_pictures(connection.db, id, run.pictures);
-  }
+  write_runs(connection.db, campaign.runs);
   write_statistics(connection.db, campaign.statistics);
   transaction.commit();
 }

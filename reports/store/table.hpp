@@ -4,8 +4,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sqlite3.h>
 
+#include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -13,6 +16,7 @@
 #include <vector>
 
 #include "reports/statistics/counter.hpp"
+#include "reports/store/contents.hpp"
 #include "reports/store/values.hpp"
 
 namespace nearmiss {
@@ -22,8 +26,9 @@ template <class Row>
 struct Column {
   std::string name;
   std::string type;
-  std::function<void(SQLite::Statement&, const std::string& parameter, Row&)> write;
-  std::function<void(const SQLite::Column&, Row&)> read;
+  std::function<Value(Row&)> get;
+  std::function<void(const SQLite::Column&, Value&)> read;
+  std::function<void(const Value&, Row&)> set;
 };
 
 /// Declares a column. `member_of(row)` is a reference to the member of the row that the column stores.
@@ -34,17 +39,17 @@ Column<Row> column(std::string name, const MemberOf& member_of) {
                            : std::is_same_v<Stored, double>     ? "REAL"
                                                                 : "TEXT";
   const std::string place = "column " + name;
-  return {std::move(name), type,
-          [member_of](SQLite::Statement& statement, const std::string& parameter, Row& row) {
-            statement.bind(parameter, to_stored(member_of(row)));
-          },
-          [member_of, place](const SQLite::Column& stored, Row& row) {
+  return {std::move(name), type, [member_of](Row& row) -> Value { return to_stored(member_of(row)); },
+          [](const SQLite::Column& stored, Value& value) {
             if constexpr (std::is_same_v<Stored, std::int64_t>)
-              from_stored(stored.getInt64(), member_of(row), place);
+              value = stored.getInt64();
             else if constexpr (std::is_same_v<Stored, double>)
-              from_stored(stored.getDouble(), member_of(row), place);
+              value = stored.getDouble();
             else
-              from_stored(stored.getString(), member_of(row), place);
+              value = stored.getString();
+          },
+          [member_of, place](const Value& value, Row& row) {
+            from_stored(std::get<Stored>(value), member_of(row), place);
           }};
 }
 
@@ -64,46 +69,128 @@ void add_counters(std::vector<Column<Row>>& columns, const std::string& prefix, 
   });
 }
 
+/// A row as it is stored.
+struct StoredRow {
+  std::vector<Value> values;
+  std::uint64_t found = 0, expected = 0;  ///< checksum of the values, and the one stored with them
+};
+
+/// A table. Rows are never removed, so the ids of n rows are between 0 and n.
 template <class Row>
 struct Table {
   std::string name;
-  std::string constraint;  ///< "" or a constraint of the table
-  std::string order;       ///< order of the rows when they are read
+  std::string constraint;          ///< "" or a constraint of the table
+  std::vector<std::string> order;  ///< columns that give the order in which rows are read, if it matters
   std::vector<Column<Row>> columns;
 
   void make(SQLite::Database& db) const {
     std::vector<std::string> definitions;
     for (const auto& each : columns)
       definitions.push_back(fmt::format("\"{}\" {} NOT NULL", each.name, each.type));
+    definitions.emplace_back("checksum INTEGER NOT NULL");
     if (!constraint.empty()) definitions.push_back(constraint);
     db.exec(fmt::format("CREATE TABLE {} ({}) STRICT", name, fmt::join(definitions, ", ")));
+    write_contents(db, name, {});
   }
 
-  /// Adds rows, or replaces those with the same primary key.
-  void write(SQLite::Database& db, std::vector<Row> rows) const {
-    std::vector<std::string> names;
-    std::vector<std::string> parameters;
-    for (const auto& each : columns) {
-      names.push_back(fmt::format("\"{}\"", each.name));
-      parameters.push_back(":" + each.name);
-    }
-    SQLite::Statement insert(db, fmt::format("INSERT OR REPLACE INTO {} ({}) VALUES ({})", name,
-                                             fmt::join(names, ", "), fmt::join(parameters, ", ")));
-    for (Row& row : rows) {
-      for (std::size_t i = 0; i < columns.size(); ++i) columns[i].write(insert, parameters[i], row);
-      insert.exec();
-      insert.reset();
-    }
+  /// Adds rows. Throws SQLite::Exception if the table has one of them.
+  void add(SQLite::Database& db, std::vector<Row> rows) const {
+    if (rows.empty()) return;
+    Contents contents = read_contents(db, name);
+    insert(db, rows, "", contents);
+    write_contents(db, name, contents);
   }
 
-  /// Passes every row to `take`.
+  /// Replaces the whole contents by rows with the same keys, and possibly more. Writes only rows that have changed.
+  void replace(SQLite::Database& db, std::vector<Row> rows) const {
+    std::vector<std::string> sets{"checksum = excluded.checksum"};
+    for (const auto& each : columns) sets.push_back(fmt::format("\"{0}\" = excluded.\"{0}\"", each.name));
+    Contents contents;
+    insert(db, rows,
+           fmt::format("ON CONFLICT DO UPDATE SET {} WHERE checksum <> excluded.checksum",
+                       fmt::join(sets, ", ")),
+           contents);
+    write_contents(db, name, contents);
+  }
+
+  /// Passes every row to `take`. Throws Damage if a row is not as it was written, or if rows are missing.
   void read(SQLite::Database& db, const std::function<void(Row&&)>& take) const {
-    SQLite::Statement rows(db, fmt::format("SELECT * FROM {} ORDER BY {}", name, order));
+    const Contents expected = read_contents(db, name);
+    Contents found;
+    // No index is used: it may be damaged where the rows are intact. `+` and NOT INDEXED forbid it.
+    std::string by;
+    for (const std::string& each : order)
+      by += fmt::format("{} +\"{}\"", by.empty() ? "ORDER BY" : ",", each);
+    SQLite::Statement rows(db, fmt::format("SELECT {} FROM {} NOT INDEXED {}", selected(), name, by));
     while (rows.executeStep()) {
-      Row row;
-      for (const auto& each : columns) each.read(rows.getColumn(each.name.c_str()), row);
-      take(std::move(row));
+      const StoredRow row = stored(rows);
+      if (row.found != row.expected)
+        throw Damage(fmt::format("a row of table {} does not match its checksum", name));
+      found.add(row.found);
+      take(made(row));
     }
+    if (found.rows != expected.rows)
+      throw Damage(fmt::format("found {} rows of table {}, expected {}", found.rows, name, expected.rows));
+    if (found != expected)
+      throw Damage(fmt::format("the rows of table {} are not those of the last save", name));
+  }
+
+  /// Passes every intact row to `take`, each once. `most` is the largest row id that is tried.
+  std::uint64_t salvage(SQLite::Database& db, std::uint64_t most,
+                        const std::function<void(Row&&)>& take) const {
+    std::set<std::uint64_t> taken;
+    // Each row is looked up on its own, because a damaged page ends a scan of the table.
+    SQLite::Statement row(db, fmt::format("SELECT {} FROM {} NOT INDEXED WHERE rowid = ?", selected(), name));
+    for (std::uint64_t id = 0; id <= most; ++id) {
+      row.tryReset();
+      row.bind(1, static_cast<std::int64_t>(id));
+      if (row.tryExecuteStep() != SQLITE_ROW) continue;
+      const StoredRow found = stored(row);
+      if (found.found == found.expected && taken.insert(found.found).second) take(made(found));
+    }
+    return taken.size();
+  }
+
+ private:
+  [[nodiscard]] std::string selected() const {
+    std::string list;
+    for (const auto& each : columns) list += fmt::format("\"{}\", ", each.name);
+    return list + "checksum";
+  }
+
+  /// Inserts rows, and adds them to `contents`.
+  void insert(SQLite::Database& db, std::vector<Row>& rows, const std::string& on_conflict,
+              Contents& contents) const {
+    SQLite::Statement statement(
+        db, fmt::format("INSERT INTO {} ({}) VALUES ({}?) {}", name, selected(),
+                        fmt::join(std::vector<std::string>(columns.size(), "?, "), ""), on_conflict));
+    std::vector<Value> values(columns.size());
+    for (Row& row : rows) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        values[i] = columns[i].get(row);
+        std::visit([&](const auto& value) { statement.bind(static_cast<int>(i) + 1, value); }, values[i]);
+      }
+      const std::uint64_t sum = checksum(name, values);
+      statement.bind(static_cast<int>(columns.size()) + 1, static_cast<std::int64_t>(sum));
+      statement.exec();
+      statement.reset();
+      contents.add(sum);
+    }
+  }
+
+  [[nodiscard]] StoredRow stored(SQLite::Statement& rows) const {
+    StoredRow row{std::vector<Value>(columns.size())};
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].read(rows.getColumn(static_cast<int>(i)), row.values[i]);
+    row.found = checksum(name, row.values);
+    row.expected = static_cast<std::uint64_t>(rows.getColumn(static_cast<int>(columns.size())).getInt64());
+    return row;
+  }
+
+  [[nodiscard]] Row made(const StoredRow& stored_row) const {
+    Row row;
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].set(stored_row.values[i], row);
+    return row;
   }
 };
 

@@ -7,15 +7,20 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <thread>
 
 #include "ccd/error.hpp"
-#include "tests/queries.hpp"
+#include "tests/reports/stored.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::info;
+using testing::shard;
+using testing::some_finding;
+using testing::some_statistics;
 using ::testing::ThrowsMessage;
 
 class StoreTest : public testing::TemporaryFolder {};
@@ -46,58 +51,6 @@ TEST_F(StoreTest, AFileOfAnotherKindIsNotReplaced) {
   EXPECT_EQ(read("a.db"), "precious");
 }
 
-const Query query = testing::falling_edge(0.1, -1.0 / 3);
-
-Statistics some_statistics(const std::string& subject) {
-  Statistics statistics;
-  Counts& counts = statistics.counts[{subject, Kind::edge_edge, "uniform"}];
-  counts.add({.verdict = {true, Stage::ve_minimum, 0.5}, .collision = true}, query,
-             [] { return "uniform:1:1"; });
-  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
-             [] { return "uniform:1:3"; });
-  counts.add({.verdict = Verdict::rejected(Rejection::culled)}, query, [] { return "uniform:1:5"; });
-  counts.times.add(Kind::edge_edge, "uniform", {3, 99});
-  OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
-  oracle.queries = 2;
-  oracle.collisions = 1;
-  oracle.by_stage[2] = 2;
-  oracle.near_bounds = 2;
-  counts.faults = {0, 1, 2, 3, 4};
-  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.times.add(time, query, [] { return "slow"; });
-  oracle.compared = 1;
-  oracle.compared_collisions = 1;
-  oracle.missed_by_parity = 1;
-  statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
-  statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
-  statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
-  statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
-  statistics.oracle_disagreements = 3;
-  statistics.mismatches_with_recorded_truth = 4;
-  return statistics;
-}
-
-/// A finding. Findings whose provenances have the same length are shrunk to the same query.
-Finding some_finding(const std::string& provenance) {
-  return {Finding::What::false_negative,
-          "basic",
-          "uniform",
-          query,
-          provenance,
-          0,
-          "ee simple-root inside crossing",
-          testing::falling_edge(static_cast<double>(provenance.size()), -1),
-          7};
-}
-
-const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
-const Shard shard{.index = 2,
-                  .count = 5,
-                  .cases = 77,
-                  .complete = true,
-                  .started = "2026-01-02T03:04:05Z",
-                  .seconds = 12.5,
-                  .environment = {{"cpu", "some"}}};
-
 TEST_F(StoreTest, GivesBackWhatWasSaved) {
   const std::vector findings{some_finding("uniform:1:5"), some_finding("uniform:1:3")};
   {
@@ -120,6 +73,23 @@ TEST_F(StoreTest, CanBeReadWhileItIsWritten) {
   Store store(file("a.db"), info, shard);
   store.save(some_statistics("wang"), shard, {});
   EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));
+}
+
+TEST_F(StoreTest, AReaderSeesOneSave) {
+  Store store(file("a.db"), info, shard);
+  const std::jthread writer([&](const std::stop_token& over) {
+    Statistics statistics;
+    while (!over.stop_requested()) {
+      statistics.merge(some_statistics("wang"));
+      const Finding finding = some_finding("x");
+      store.save(statistics, shard, std::span(&finding, 1));
+    }
+  });
+  for (int i = 0; i < 100; ++i) {
+    const Campaign read = load_campaign(file("a.db"));
+    const auto disagreements = some_statistics("wang").oracle_disagreements;
+    EXPECT_EQ(read.statistics.oracle_disagreements, disagreements * read.runs[0].findings.size());
+  }
 }
 
 TEST_F(StoreTest, IsWrittenByOneAtATime) {
@@ -222,13 +192,16 @@ TEST_F(StoreTest, RefusesWhatIsNoStore) {
 }
 
 TEST_F(StoreTest, RefusesAnotherVersion) {
-  write_campaign({}, file("old.db"));
-  sqlite3* db = nullptr;
-  sqlite3_open(file("old.db").c_str(), &db);
-  sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
-  sqlite3_close(db);
-  EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 13")));
+  write_campaign({}, file("other.db"));
+  for (const std::string version : {"7", "13", "15"}) {
+    sqlite3* db = nullptr;
+    sqlite3_open(file("other.db").c_str(), &db);
+    sqlite3_exec(db, ("PRAGMA user_version = " + version).c_str(), nullptr, nullptr, nullptr);
+    sqlite3_close(db);
+    EXPECT_THAT([&] { load_campaign(file("other.db")); },
+                ThrowsMessage<Error>(
+                    ::testing::EndsWith("other.db: found store version " + version + ", expected 14")));
+  }
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

@@ -1,0 +1,61 @@
+#include "reports/store/salvage.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/store/run_tables.hpp"
+#include "reports/store/statistics_tables.hpp"
+#include "reports/store/version.hpp"
+#include "reports/text/shell.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// What was lost of a table; "" if nothing.
+std::string lost(const Salvaged& table) {
+  if (!table.rows) return fmt::format("an unknown number of rows of {}", table.table);
+  if (table.intact >= *table.rows) return "";
+  return fmt::format("{} of {} rows of {}", *table.rows - table.intact, *table.rows, table.table);
+}
+
+void mark(std::vector<Run>& runs, const std::string& lost) {
+  if (runs.empty()) runs.emplace_back();
+  for (Run& run : runs) {
+    run.info.try_emplace("command", "unknown");
+    run.info[salvaged_fact] = "lost " + lost;
+  }
+}
+
+}  // namespace
+
+Salvage salvage_campaign(const std::filesystem::path& file) {
+  return naming(file, [&] {
+    SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
+    db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
+    const SQLite::Transaction one_save(db);  // another process may save meanwhile
+    check_version(db);
+    Reading read(db, true);
+    Salvage salvage{{read_runs(read), read_statistics(read)}, 0, ""};
+    for (const Salvaged& table : read.salvaged()) {
+      salvage.rows += table.intact;
+      if (const std::string each = lost(table); !each.empty())
+        salvage.lost += (salvage.lost.empty() ? "" : ", ") + each;
+    }
+    if (salvage.rows == 0) throw Error("found no intact row, so that nothing can be saved");
+    if (!salvage.lost.empty()) mark(salvage.campaign.runs, salvage.lost);
+    return salvage;
+  });
+}
+
+std::string advice(const std::filesystem::path& file) {
+  try {
+    const Salvage salvage = salvage_campaign(file);
+    return fmt::format("nearmiss merge NEW.db {} --salvage saves {} rows, without {}",
+                       shell_quoted(file.string()), salvage.rows,
+                       salvage.lost.empty() ? "any loss" : salvage.lost);
+  } catch (const std::exception&) {
+    return "nothing can be saved";
+  }
+}
+
+}  // namespace nearmiss

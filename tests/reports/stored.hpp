@@ -1,0 +1,63 @@
+// What the tests save in stores.
+#pragma once
+
+#include <string>
+
+#include "reports/campaign/campaign.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss::testing {
+
+inline const Query query = falling_edge(0.1, -1.0 / 3);
+
+inline Statistics some_statistics(const std::string& subject) {
+  Statistics statistics;
+  Counts& counts = statistics.counts[{subject, Kind::edge_edge, "uniform"}];
+  counts.add({.verdict = {true, Stage::ve_minimum, 0.5}, .collision = true}, query,
+             [] { return "uniform:1:1"; });
+  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
+             [] { return "uniform:1:3"; });
+  counts.add({.verdict = Verdict::rejected(Rejection::culled)}, query, [] { return "uniform:1:5"; });
+  counts.times.add(Kind::edge_edge, "uniform", {3, 99});
+  OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
+  oracle.queries = 2;
+  oracle.collisions = 1;
+  oracle.by_stage[2] = 2;
+  oracle.near_bounds = 2;
+  counts.faults = {0, 1, 2, 3, 4};
+  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.times.add(time, query, [] { return "slow"; });
+  oracle.compared = 1;
+  oracle.compared_collisions = 1;
+  oracle.missed_by_parity = 1;
+  statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
+  statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
+  statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
+  statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
+  statistics.oracle_disagreements = 3;
+  statistics.mismatches_with_recorded_truth = 4;
+  return statistics;
+}
+
+/// A finding. Findings whose provenances have the same length are shrunk to the same query.
+inline Finding some_finding(const std::string& provenance) {
+  return {Finding::What::false_negative,
+          "basic",
+          "uniform",
+          query,
+          provenance,
+          0,
+          "ee simple-root inside crossing",
+          falling_edge(static_cast<double>(provenance.size()), -1),
+          7};
+}
+
+inline const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
+inline const Shard shard{.index = 2,
+                         .count = 5,
+                         .cases = 77,
+                         .complete = true,
+                         .started = "2026-01-02T03:04:05Z",
+                         .seconds = 12.5,
+                         .environment = {{"cpu", "some"}}};
+
+}  // namespace nearmiss::testing
