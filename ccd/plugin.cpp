@@ -24,6 +24,7 @@ Plugin::Plugin(const std::string& path) : library_(dlopen(path.c_str(), RTLD_NOW
   if (subject_->name == nullptr || subject_->vertex_triangle == nullptr || subject_->edge_edge == nullptr)
     throw Error(path + ": found a null name or function, expected name, vertex_triangle and edge_edge");
   name_ = subject_->name;
+  if (subject_->version != nullptr) version_ = subject_->version;
 }
 
 const Plugin& Plugin::empty_plugin() {

@@ -22,6 +22,8 @@ class Plugin final : public Subject {
   explicit Plugin(const std::string& path);
 
   [[nodiscard]] const std::string& name() const override { return name_; }
+  /// The plug-in's own version; "" if it gives none.
+  [[nodiscard]] const std::string& version() const { return version_; }
 
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override;
@@ -48,7 +50,7 @@ class Plugin final : public Subject {
 
   std::unique_ptr<void, Unload> library_;
   const nearmiss_subject* subject_ = nullptr;  // owned by the library
-  std::string name_;
+  std::string name_, version_;
 };
 
 /// A plug-in's answer as a verdict.

@@ -1,6 +1,7 @@
 #include "fuzz/trial/shrunk_finding.hpp"
 
 #include "ccd/error.hpp"
+#include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrink.hpp"
 
@@ -19,6 +20,8 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, 
       const auto failure = judge.failure(query);
       late += failure && failure->signature.ends_with(fault_names[static_cast<std::size_t>(Fault::time)]);
       return failure == Failure{finding.what, finding.signature};
+    } catch (const isolation::PluginChanged&) {
+      throw;
     } catch (const Error&) {
       return false;
     }

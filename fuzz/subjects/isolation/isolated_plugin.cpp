@@ -13,6 +13,7 @@ namespace nearmiss {
 
 namespace {
 
+using isolation::PluginFile;
 using isolation::PluginLimits;
 using isolation::Request;
 using isolation::WorkerFailure;
@@ -42,11 +43,13 @@ class ExceptionTexts {
 
 class IsolatedPlugin final : public BatchSubject {
  public:
-  /// `first` is a worker with the plug-in at the path.
-  IsolatedPlugin(std::string path, const PluginLimits& limits, std::unique_ptr<WorkerProcess> first)
+  /// `first` is a worker with the plug-in in the file.
+  IsolatedPlugin(std::unique_ptr<PluginFile> file, const PluginLimits& limits,
+                 std::unique_ptr<WorkerProcess> first)
       : BatchSubject(first->name()),
-        path_(std::move(path)),
+        file_(std::move(file)),
         limits_(limits),
+        version_(first->version()),
         claims_bound_(first->claims_bound()) {
     idle_.push_back(std::move(first));
   }
@@ -94,6 +97,10 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
     return verdict.fault == Fault::exception ? exceptions_.text(verdict.fault_code) : "";
+  }
+
+  [[nodiscard]] PluginIdentity identity() const {
+    return {file_->path(), version_, file_->sha256(), file_->build_id()};
   }
 
  private:
@@ -161,6 +168,7 @@ class IsolatedPlugin final : public BatchSubject {
       }
       const std::uint32_t last = first + std::min(size - first, in_a_call_.load());
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
+      file_->expect_unchanged();  // a running process, too, may see what is written to its file
       adapt(last - first, *worker, failure);
       if (!failure || !failure->of_call) {
         const std::uint32_t end = failure ? failure->query : last;
@@ -169,7 +177,7 @@ class IsolatedPlugin final : public BatchSubject {
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
-      worker = std::make_unique<WorkerProcess>(path_, limits_);
+      worker = std::make_unique<WorkerProcess>(*file_, limits_);
       worker->give(batch);
     }
   }
@@ -192,7 +200,7 @@ class IsolatedPlugin final : public BatchSubject {
         return worker;
       }
     }
-    return std::make_unique<WorkerProcess>(path_, limits_);
+    return std::make_unique<WorkerProcess>(*file_, limits_);
   }
 
   void give_back(std::unique_ptr<WorkerProcess> worker) const {
@@ -200,8 +208,9 @@ class IsolatedPlugin final : public BatchSubject {
     idle_.push_back(std::move(worker));
   }
 
-  std::string path_;
+  std::unique_ptr<PluginFile> file_;
   PluginLimits limits_;
+  std::string version_;
   bool claims_bound_;
   mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
   mutable ExceptionTexts exceptions_;
@@ -212,7 +221,14 @@ class IsolatedPlugin final : public BatchSubject {
 }  // namespace
 
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const PluginLimits& limits) {
-  return std::make_unique<IsolatedPlugin>(path, limits, std::make_unique<WorkerProcess>(path, limits));
+  auto file = std::make_unique<PluginFile>(path);
+  auto first = std::make_unique<WorkerProcess>(*file, limits);
+  return std::make_unique<IsolatedPlugin>(std::move(file), limits, std::move(first));
+}
+
+std::optional<PluginIdentity> plugin_identity(const Subject& subject) {
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&subject);
+  return plugin == nullptr ? std::nullopt : std::optional(plugin->identity());
 }
 
 }  // namespace nearmiss

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ccd/subject.hpp"
@@ -12,7 +13,21 @@ namespace nearmiss {
 /// The plug-in at a path, with one worker process for each thread that asks at the same time. A failure
 /// becomes the verdict's fault, and the next query gets a new process. The plug-in's output is discarded.
 /// Throws Error if the plug-in cannot be loaded.
+///
+/// All answers come from the same bytes. If the file is changed, calls throw isolation::PluginChanged, and the answers
+/// of the call that was under way are not used.
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& path,
                                               const isolation::PluginLimits& limits = {});
+
+/// Which code a plug-in is.
+struct PluginIdentity {
+  std::string path;      ///< as it was given
+  std::string version;   ///< the plug-in's own; "" if it gives none
+  std::string sha256;    ///< of the file, in hexadecimal
+  std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
+};
+
+/// Which code a subject is, if make_isolated_plugin made it.
+std::optional<PluginIdentity> plugin_identity(const Subject& subject);
 
 }  // namespace nearmiss

@@ -63,7 +63,8 @@ struct Answers {
   std::uint64_t nanoseconds = 0;      ///< measured by decide_timed
   std::array<char, 256> exception{};  ///< what() of an exception that the plug-in did not catch
   // Written after loading, before any request:
-  std::array<char, 256> name{};  ///< the plug-in's own name
+  std::array<char, 256> name{};     ///< the plug-in's own name
+  std::array<char, 256> version{};  ///< the plug-in's own version
   bool claims_bound = false;
   std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can
 };

@@ -130,9 +130,15 @@ class WorkerProcess::Watch {
   steady_clock::time_point start_ = steady_clock::now();
 };
 
-WorkerProcess::WorkerProcess(const std::string& path, const PluginLimits& limits) : limits_(limits) {
-  start(path);
-  load(path);
+WorkerProcess::WorkerProcess(const PluginFile& file, const PluginLimits& limits) : limits_(limits) {
+  start(file.path());
+  try {
+    load(file.path());
+  } catch (const Error&) {
+    file.expect_unchanged();  // a change is the reason
+    throw;
+  }
+  file.expect_unchanged();  // otherwise it might have loaded other bytes
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -183,6 +189,7 @@ void WorkerProcess::load(const std::string& path) {
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error));
   name_ = text(answers_->name);
+  version_ = text(answers_->version);
   claims_bound_ = answers_->claims_bound;
 }
 

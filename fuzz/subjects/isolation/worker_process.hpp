@@ -12,6 +12,7 @@
 #include "ccd/subject.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
+#include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 
 namespace nearmiss::isolation {
@@ -43,14 +44,16 @@ struct WorkerFailure {
 /// A running worker. It cannot be used after a call failed.
 class WorkerProcess {
  public:
-  /// Throws Error if the plug-in cannot be used, and Stopped.
-  WorkerProcess(const std::string& path, const PluginLimits& limits);
+  /// Throws Error if the plug-in cannot be used, PluginChanged, and Stopped.
+  WorkerProcess(const PluginFile& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess();
 
   /// The plug-in's own name, printable.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// The plug-in's own version, printable.
+  [[nodiscard]] const std::string& version() const { return version_; }
   [[nodiscard]] bool claims_bound() const { return claims_bound_; }
 
   /// Gives the worker a batch of queries of one kind, at most batch_size.
@@ -101,7 +104,7 @@ class WorkerProcess {
   Status process_{};  ///< the plug-in's process, and how it ended
   std::uint64_t call_ = 0;
   Elapsed elapsed_;  ///< of the last call
-  std::string name_;
+  std::string name_, version_;
   bool claims_bound_ = false;
 };
 

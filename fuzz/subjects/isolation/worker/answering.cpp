@@ -191,6 +191,7 @@ std::unique_ptr<Plugin> load(const char* path) {
   try {
     auto plugin = std::make_unique<Plugin>(path);
     copy(plugin->name(), answers->name);
+    copy(plugin->version(), answers->version);
     answers->claims_bound = plugin->claims_bound();
     return plugin;
   } catch (const Error& error) {

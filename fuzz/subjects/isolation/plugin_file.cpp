@@ -1,0 +1,87 @@
+#include "fuzz/subjects/isolation/plugin_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include "fuzz/subjects/isolation/handles.hpp"
+#include "reports/sha256.hpp"
+
+namespace nearmiss::isolation {
+
+namespace {
+
+bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
+
+}  // namespace
+
+bool PluginFile::Stamp::operator==(const Stamp& other) const {
+  return device == other.device && inode == other.inode && size == other.size &&
+         is_same(written, other.written) && is_same(changed, other.changed);
+}
+
+PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
+  return {about.st_dev, about.st_ino, about.st_size, about.st_mtim, about.st_ctim};
+}
+
+struct PluginFile::Reading {
+  std::string bytes;
+  Stamp stamp;     ///< of the file before it was read
+  bool is_recent;  ///< at that time
+};
+
+PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
+  const Reading reading = read();
+  sha256_ = sha256_hex(reading.bytes);
+  build_id_ = gnu_build_id(reading.bytes);
+  stamp_ = reading.stamp;
+  is_recent_ = reading.is_recent;
+}
+
+bool PluginFile::is_recent(const Stamp& stamp) {
+  constexpr time_t coarsest_tick = 2;  // seconds; that of FAT
+  return std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick;
+}
+
+PluginFile::Reading PluginFile::read() const {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("{}: cannot load the plug-in: {}", path_, why));
+  };
+  const Descriptor file(open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat about {};
+  if (file.number() < 0 || fstat(file.number(), &about) != 0) refuse(std::strerror(errno));
+  if (!S_ISREG(about.st_mode)) refuse("found no regular file");
+  Reading reading{"", stamp_of(about), is_recent(stamp_of(about))};
+  std::array<char, 1 << 16> block{};
+  while (true) {
+    const ssize_t size = ::read(file.number(), block.data(), block.size());
+    if (size < 0) refuse(std::strerror(errno));
+    if (size == 0) return reading;
+    reading.bytes.append(block.data(), static_cast<std::size_t>(size));
+  }
+}
+
+void PluginFile::expect_unchanged() const {
+  const std::lock_guard lock(mutex_);
+  struct stat about {};
+  const bool exists = stat(path_.c_str(), &about) == 0;
+  if (exists && stamp_of(about) == stamp_ && !is_recent_) return;
+  const auto refuse = [&](const std::string& found) {
+    throw PluginChanged(
+        fmt::format("{}: the plug-in was changed while it was on trial: found {}, expected the file with "
+                    "sha256 {}",
+                    path_, found, sha256_));
+  };
+  if (!exists) refuse("no such file");
+  const Reading reading = read();
+  if (const std::string found = sha256_hex(reading.bytes); found != sha256_) refuse("sha256 " + found);
+  stamp_ = reading.stamp;
+  is_recent_ = reading.is_recent;
+}
+
+}  // namespace nearmiss::isolation

@@ -1,0 +1,161 @@
+// Which code a plug-in is, and that it stays the same while it is on trial.
+#include "fuzz/subjects/isolation/plugin_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <link.h>
+
+#include <cstring>
+
+#include "ccd/error.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "reports/sha256.hpp"
+#include "tests/queries.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+using isolation::gnu_build_id;
+using isolation::PluginChanged;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+namespace fs = std::filesystem;
+
+class PluginFile : public testing::TemporaryFolder {
+ protected:
+  static fs::path plugin(const std::string& name) { return fs::path(NEARMISS_PLUGINS) / (name + ".so"); }
+
+  /// Replaces p.so by a built plug-in, with a new inode.
+  void replace(const std::string& name) const {
+    fs::copy_file(plugin(name), file("new"));
+    fs::rename(file("new"), file("p.so"));
+  }
+
+  /// Overwrites the bytes of p.so.
+  void overwrite(const std::string& name) const {
+    fs::copy_file(plugin(name), file("p.so"), fs::copy_options::overwrite_existing);
+  }
+
+  [[nodiscard]] std::unique_ptr<Subject> make() const { return make_isolated_plugin(file("p.so").string()); }
+
+  const Query query = testing::falling_edge(1, -1);
+};
+
+TEST_F(PluginFile, IsIdentified) {
+  replace("example");
+  const auto subject = make();
+  const auto identity = plugin_identity(*subject).value();
+  EXPECT_EQ(identity.path, file("p.so").string());
+  EXPECT_EQ(identity.version, "1.0");
+  EXPECT_EQ(identity.sha256, sha256_hex(read("p.so")));
+  EXPECT_EQ(identity.build_id, gnu_build_id(read("p.so")));
+  EXPECT_EQ(plugin_identity(*make_subject("wang")), std::nullopt);
+}
+
+TEST_F(PluginFile, ThatWasReplacedIsNotAskedAgain) {
+  replace("always");
+  const auto subject = make();
+  EXPECT_TRUE(subject->decide(query).hit);
+  replace("never");
+  const std::string expected = "p.so: the plug-in was changed while it was on trial: found sha256 " +
+                               sha256_hex(read("p.so")) + ", expected the file with sha256 ";
+  for (int i = 0; i < 2; ++i)
+    EXPECT_THAT([&] { (void)subject->decide(query); }, ThrowsMessage<PluginChanged>(HasSubstr(expected)));
+  EXPECT_THAT([&] { (void)subject->ask_bound(query); }, ThrowsMessage<PluginChanged>(HasSubstr(expected)));
+}
+
+TEST_F(PluginFile, ThatWasOverwrittenIsNotAskedAgain) {
+  replace("always");
+  const auto subject = make();
+  overwrite("never");
+  EXPECT_THAT([&] { (void)subject->decide(query); }, ThrowsMessage<PluginChanged>(HasSubstr("found sha256")));
+}
+
+// The plug-in ends its process at each query, so that each query loads the file again.
+TEST_F(PluginFile, ThatWasReplacedIsNotLoadedAfterACrash) {
+  replace("bound_abort");
+  const auto subject = make();
+  EXPECT_EQ(subject->ask_bound(query).fault, Fault::crash);
+  for (const char* other : {"always", "no_function", "throwing_while_loaded"}) {
+    replace(other);
+    EXPECT_THAT([&] { (void)subject->ask_bound(query); },
+                ThrowsMessage<PluginChanged>(HasSubstr("found sha256")));
+  }
+}
+
+TEST_F(PluginFile, ThatWasRemovedIsNotAskedAgain) {
+  replace("always");
+  const auto subject = make();
+  fs::remove(file("p.so"));
+  EXPECT_THAT([&] { (void)subject->decide(query); },
+              ThrowsMessage<PluginChanged>(HasSubstr("found no such file")));
+}
+
+TEST_F(PluginFile, WithTheSameBytesIsTheSame) {
+  replace("always");
+  const auto subject = make();
+  replace("always");
+  EXPECT_TRUE(subject->decide(query).hit);
+  overwrite("always");
+  EXPECT_TRUE(subject->decide(query).hit);
+}
+
+TEST_F(PluginFile, LoadsLibrariesBesideIt) {
+  replace("finds_beside");
+  EXPECT_THAT([&] { (void)make(); }, ThrowsMessage<Error>(HasSubstr("libbeside.so")));
+  fs::copy_file(plugin("finds_beside").parent_path() / "libbeside.so", file("libbeside.so"));
+  EXPECT_TRUE(make()->decide(query).hit);
+}
+
+TEST_F(PluginFile, MustBeARegularFile) {
+  fs::create_directory(file("p.so"));
+  EXPECT_THAT([&] { (void)make(); },
+              ThrowsMessage<Error>(HasSubstr("p.so: cannot load the plug-in: found no regular file")));
+}
+
+/// An ELF file with these notes in its only segment.
+std::string elf_with(const std::string& notes) {
+  ElfW(Ehdr) header{};
+  std::memcpy(header.e_ident, ELFMAG, SELFMAG);
+  header.e_phoff = sizeof header;
+  header.e_phnum = 1;
+  ElfW(Phdr) segment{};
+  segment.p_type = PT_NOTE;
+  segment.p_offset = sizeof header + sizeof segment;
+  segment.p_filesz = notes.size();
+  std::string elf(reinterpret_cast<const char*>(&header), sizeof header);
+  return elf.append(reinterpret_cast<const char*>(&segment), sizeof segment) + notes;
+}
+
+std::string note(std::uint32_t type, std::string name, std::string content) {
+  const ElfW(Nhdr)
+      header{static_cast<std::uint32_t>(name.size()), static_cast<std::uint32_t>(content.size()), type};
+  name.resize((name.size() + 3) / 4 * 4);
+  content.resize((content.size() + 3) / 4 * 4);
+  return std::string(reinterpret_cast<const char*>(&header), sizeof header) + name + content;
+}
+
+const std::string gnu("GNU", 4);
+
+TEST(BuildId, IsTheContentOfItsNote) {
+  const std::string id = note(NT_GNU_BUILD_ID, gnu, "\x01\xab\xff");
+  EXPECT_EQ(gnu_build_id(elf_with(id)), "01abff");
+  EXPECT_EQ(gnu_build_id(elf_with(note(NT_GNU_ABI_TAG, gnu, "12345") + id)), "01abff");
+  EXPECT_EQ(gnu_build_id(elf_with(note(NT_GNU_BUILD_ID, "other", "1234"))), "");
+  EXPECT_EQ(gnu_build_id("no ELF file"), "");
+}
+
+TEST(BuildId, OfAFileThatEndsTooSoonIsCutOrEmpty) {
+  const std::string elf = elf_with(note(NT_GNU_BUILD_ID, gnu, "1234"));
+  for (std::size_t size = 0; size <= elf.size(); ++size)
+    EXPECT_EQ(std::string("31323334").rfind(gnu_build_id(elf.substr(0, size)), 0), 0) << size;
+  std::string endless = elf_with(note(0, std::string(4, 'x'), ""));
+  endless.replace(endless.size() - 16, 8, std::string(8, '\xff'));
+  EXPECT_EQ(gnu_build_id(endless), "");
+}
+
+}  // namespace
+}  // namespace nearmiss
