@@ -85,8 +85,8 @@ std::string list_of_families() {
 
 /// Everything that the campaign's results depend on. The time limit is left out, because it changes the
 /// number of rounds, not the result of a round.
-RunInfo info_of(const Options& options, const CampaignPlan& plan) {
-  RunInfo info = options.trial.run_info("fuzz");
+RunInfo info_of(const Options& options, const CampaignPlan& plan, const Subjects& subjects) {
+  RunInfo info = options.trial.run_info("fuzz", subjects);
   std::string& again = info["again"];
   info["seed"] = fmt::format("{}", plan.seed);
   again += fmt::format(" --seed {}", plan.seed);
@@ -125,9 +125,8 @@ int run(const Options& options) {
   plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
-  Record record(
-      options.record, info_of(options, plan),
-      {.index = plan.shard, .count = plan.shards, .environment = options.trial.plugin_paths(subjects)});
+  Record record(options.record, info_of(options, plan, subjects),
+                {.index = plan.shard, .count = plan.shards, .environment = plugin_environment(subjects)});
   plan.before = record.statistics();
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0;

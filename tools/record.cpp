@@ -19,6 +19,7 @@
 #include "reports/sections/summary.hpp"
 #include "reports/sections/sweep.hpp"
 #include "tools/commands.hpp"
+#include "tools/commit.hpp"
 
 namespace nearmiss::tools {
 
@@ -49,7 +50,9 @@ void RecordOptions::add_to(CLI::App& command) {
   command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
-RunInfo run_info(const std::string& command) { return {{"command", command}, {"version", NEARMISS_VERSION}}; }
+RunInfo run_info(const std::string& command) {
+  return {{"command", command}, {"version", NEARMISS_VERSION}, {"commit", commit()}};
+}
 
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
@@ -65,7 +68,12 @@ Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
 }
 
 Record::~Record() {
-  if (!store_ || saved_) return;
+  if (!store_) return;
+  try {
+    if (unsaved_) save();
+  } catch (const std::exception&) {  // such as a full disk, which has ended the command, too
+  }
+  if (saved_) return;
   store_.reset();
   std::error_code ignored;
   std::filesystem::remove(options_.db, ignored);
@@ -82,9 +90,7 @@ void Record::go_on() {
       throw Error(fmt::format("{}: found a run with {} '{}', expected '{}' to continue", options_.db.string(),
                               what, found, expected));
   };
-  for (const RunInfo* each : {&info_, &run.info})
-    for (const auto& [name, value] : *each)
-      if (name != "again") expect(name, run.info[name], info_[name]);  // "again" repeats the other facts
+  if (const auto fact = different_fact(run.info, info_)) expect(fact->name, fact->one, fact->other);
   const auto name = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
   expect("shard", name(run.shards.at(0)), name(shard_));
   shard_ = run.shards.at(0);
@@ -95,6 +101,7 @@ void Record::go_on() {
 }
 
 void Record::add(TrialResult&& result) {
+  unsaved_ = true;
   statistics_.merge(result.statistics);
   for (const auto& [key, counts] : result.statistics.counts)
     if (is_set_aside(statistics_.counts[key]) && set_aside_.insert(key).second)
@@ -116,6 +123,7 @@ void Record::save() {
   shard_.cases = statistics_.oracle_total().queries;
   if (store_) store_->save(statistics_, shard_, std::span(findings_).subspan(saved_findings_));
   saved_ = true;
+  unsaved_ = false;
   saved_findings_ = findings_.size();
   last_save_ = Clock::now();
 }

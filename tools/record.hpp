@@ -25,7 +25,7 @@ struct RecordOptions {
   void add_to(CLI::App& command);
 };
 
-/// The part of a run's description that all commands share: this version, and the command.
+/// The part of a run's description that all commands share: this version and commit, and the command.
 RunInfo run_info(const std::string& command);
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
@@ -35,7 +35,7 @@ class Record {
   Record(RecordOptions options, RunInfo info, const Shard& part = {});
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
-  /// Removes the store if nothing was ever saved in it.
+  /// Saves what was added, if an exception ends the command. Removes the store if nothing was ever saved in it.
   ~Record();
 
   /// The shard, with what earlier processes did of it.
@@ -62,7 +62,8 @@ class Record {
   Shard shard_;
   double seconds_before_ = 0;
   std::optional<Store> store_;
-  bool saved_ = false;
+  bool saved_ = false;    // ever
+  bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
   std::set<CountsKey> set_aside_;  // those that were announced
   std::vector<Finding> findings_;

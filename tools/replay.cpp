@@ -39,12 +39,12 @@ int run(const Options& options) {
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
-  RunInfo info = options.trial.run_info(command);
+  RunInfo info = options.trial.run_info(command, subjects);
   if (!options.bound.empty()) {
     info["bound"] = options.bound;
     info["again"] += " --bound " + options.bound;
   }
-  Record record(options.record, std::move(info), {.environment = options.trial.plugin_paths(subjects)});
+  Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;

@@ -91,14 +91,14 @@ class Export {
 };
 
 /// The options that the results of a run depend on, and the command that repeats the run.
-RunInfo run_info(const Options& options, std::optional<double> scene_bound) {
+RunInfo run_info(const Options& options, const SceneSubjects& all) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);
-  RunInfo info = options.trial.run_info(command);
+  RunInfo info = options.trial.run_info(command, all.subjects);
   std::string& again = info["again"];
   again += fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
   info["left out"] = options.leave_out;
-  if (scene_bound) info["scene's bound"] = fmt::format("{}", *scene_bound);
+  if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
   if (!options.thickness.empty()) {
     info["thickness"] = options.thickness;
     again += " --thickness " + options.thickness;
@@ -190,11 +190,12 @@ int run(Options options) {
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
   SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
-  const RunInfo plugin_paths = options.trial.plugin_paths(all.subjects);
+  const RunInfo info = run_info(options, all);
+  const RunInfo plugins = plugin_environment(all.subjects);
   if (!options.thickness.empty())
     keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects);
 
-  Record record(options.record, run_info(options, all.bound), {.environment = plugin_paths});
+  Record record(options.record, info, {.environment = plugins});
   const Verified verified = hold_trials(options, scene, all.subjects, record, stop);
   fmt::print("{}", describe(scene));
   if (record.statistics().counts.empty()) fmt::print("no subject was asked: the plan decides all pairs\n");

@@ -31,7 +31,13 @@ Subjects TrialOptions::make_subjects(const Stop& stop, std::optional<double> giv
   return tools::make_subjects(subjects, plugin_limits(stop), given_bound);
 }
 
-RunInfo TrialOptions::run_info(const std::string& what) const {
+namespace {
+
+std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }
+
+}  // namespace
+
+RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) const {
   RunInfo info = tools::run_info(what);
   const std::string names = fmt::format("{}", fmt::join(subjects, ","));
   info["subjects"] = names;
@@ -45,16 +51,24 @@ RunInfo TrialOptions::run_info(const std::string& what) const {
     info["query-memory"] = fmt::format("{}", limits.bytes);
     again += fmt::format(" --query-time {} --query-memory {}", limits.time, limits.bytes);
   }
+  for (const auto& subject : made)
+    if (const auto plugin = plugin_identity(*subject)) {
+      info[plugin_fact(subject->name()) + " sha256"] = plugin->sha256;
+      info[plugin_fact(subject->name()) + " version"] = plugin->version;
+    }
   return info;
 }
 
-RunInfo TrialOptions::plugin_paths(const Subjects& made) const {
-  RunInfo paths;
-  for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (is_plugin_path(subjects[i]))
-      paths["plug-in " + made[i]->name()] =
-          std::filesystem::absolute(subjects[i]).lexically_normal().string();
-  return paths;
+RunInfo plugin_environment(const Subjects& made) {
+  RunInfo environment;
+  for (const auto& subject : made) {
+    const auto plugin = plugin_identity(*subject);
+    if (!plugin) continue;
+    const std::string name = plugin_fact(subject->name());
+    environment[name] = std::filesystem::absolute(plugin->path).lexically_normal().string();
+    if (!plugin->build_id.empty()) environment[name + " build id"] = plugin->build_id;
+  }
+  return environment;
 }
 
 }  // namespace nearmiss::tools

@@ -27,12 +27,12 @@ struct TrialOptions {
   [[nodiscard]] Subjects make_subjects(const Stop& stop,
                                        std::optional<double> given_bound = std::nullopt) const;
 
-  /// Everything that a run's results depend on; `what` is the subcommand with its own arguments. The entry `again` is
-  /// the command that repeats the run.
-  [[nodiscard]] RunInfo run_info(const std::string& what) const;
-
-  /// The path of each plug-in on this machine, under "plug-in NAME".
-  [[nodiscard]] RunInfo plugin_paths(const Subjects& made) const;
+  /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is the
+  /// subcommand with its own arguments. The entry `again` is the command that repeats the run.
+  [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
+
+/// The path of each plug-in on this machine, and its build id.
+RunInfo plugin_environment(const Subjects& made);
 
 }  // namespace nearmiss::tools

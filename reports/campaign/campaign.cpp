@@ -38,7 +38,29 @@ std::string describe(const RunInfo& info) {
   return text;
 }
 
+/// The facts of a run that say what it was asked to do.
+RunInfo task_of(RunInfo info) {
+  std::erase_if(info, [](const auto& fact) { return says_which_code(fact.first); });
+  return info;
+}
+
 }  // namespace
+
+bool says_which_code(std::string_view fact) {
+  return fact == "version" || fact == "commit" || fact.starts_with(about_plugin);
+}
+
+std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other) {
+  const auto value = [](const RunInfo& info, const std::string& name) {
+    const auto fact = info.find(name);
+    return fact == info.end() ? std::string() : fact->second;
+  };
+  for (const RunInfo* each : {&one, &other})
+    for (const auto& [name, ignored] : *each)
+      if (name != "again" && value(one, name) != value(other, name))
+        return DifferentFact{name, value(one, name), value(other, name)};
+  return std::nullopt;
+}
 
 std::vector<Finding> Campaign::findings() const {
   std::vector<Finding> all;
@@ -57,6 +79,7 @@ namespace {
 class RunMerger {
  public:
   void add(const Run& each, const std::string& name) {
+    expect_same_code(each.info, name);
     Run& run = runs_[each.info];
     run.info = each.info;
     for (const Shard& shard : each.shards) add(shard, run, name);
@@ -76,6 +99,13 @@ class RunMerger {
   }
 
  private:
+  void expect_same_code(const RunInfo& info, const std::string& name) {
+    const auto& [other, other_name] = by_task_.try_emplace(task_of(info), info, name).first->second;
+    if (const auto fact = different_fact(other, info))
+      throw Error(fmt::format("{}: found {} '{}', expected '{}' as in {}, for the run with {}", name,
+                              fact->name, fact->other, fact->one, other_name, describe(task_of(info))));
+  }
+
   void add(const Shard& shard, Run& run, const std::string& name) {
     const auto [other, is_new] = from_.emplace(std::tuple(run.info, shard.index), name);
     if (!is_new)
@@ -89,6 +119,7 @@ class RunMerger {
   }
 
   std::map<RunInfo, Run> runs_;
+  std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< the first run of each task, and its input
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 

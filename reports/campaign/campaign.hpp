@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,21 @@ namespace nearmiss {
 
 /// Facts by name.
 using RunInfo = std::map<std::string, std::string>;
+
+/// Beginning of the names of facts about a plug-in: "plug-in NAME sha256" and "plug-in NAME version" in a run, and
+/// "plug-in NAME", its path, and "plug-in NAME build id" in the environment of a shard.
+inline constexpr std::string_view about_plugin = "plug-in ";
+
+/// Whether a fact of a run says which code ran, and not what it was asked to do: the version and the commit of nearmiss,
+/// and the bytes and the version of each plug-in.
+bool says_which_code(std::string_view fact);
+
+/// A fact that differs between two runs, and its two values; "" if a run does not have it. The command to repeat a run
+/// is not compared, because it repeats other facts.
+struct DifferentFact {
+  std::string name, one, other;
+};
+std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
 inline constexpr std::string_view until_the_time_is_over = "until the time is over";
@@ -32,7 +48,10 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A command with everything on which its results depend; equal runs give equal results.
+/// A command with everything on which its results depend; equal runs give equal results. This includes the code that
+/// ran: the commit of nearmiss, and the bytes of each plug-in (`says_which_code`). The compiler of nearmiss, its flags
+/// and the path of a plug-in belong to the environment of a shard: answers do not depend on them, so that different
+/// machines can share a run.
 struct Run {
   RunInfo info;
   std::vector<Shard> shards;                ///< by index
@@ -54,8 +73,9 @@ struct Campaign {
 
 /// Several campaigns as one: counters add up, shards of the same run come together, and the first findings of each
 /// signature are kept, so that all shards give the campaign that one machine would have run. The result does not depend
-/// on the order of the inputs. Throws Error, with the inputs' names, if two have the same shard of a run, or divide a run
-/// into different numbers of shards.
+/// on the order of the inputs. Throws Error, with the inputs' names, if two have the same shard of a run, divide a run
+/// into different numbers of shards, or have runs that differ only in the code that ran. Runs that were asked to do
+/// different things, as in different nights, stand side by side.
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
 /// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.

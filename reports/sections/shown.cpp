@@ -73,7 +73,8 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
 /// The path of a subject's plug-in on the machine that found it; nothing for a built-in subject.
 std::optional<std::string> plugin_path(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
-    if (const auto path = shard.environment.find("plug-in " + subject); path != shard.environment.end())
+    if (const auto path = shard.environment.find(std::string(about_plugin) + subject);
+        path != shard.environment.end())
       return path->second;
   return std::nullopt;
 }

@@ -102,6 +102,38 @@ TEST(Campaign, RunsThatDifferStandSideBySide) {
   EXPECT_EQ(both.runs[0].info.at("seed"), "0");
 }
 
+/// Shards 0 and 1 of a run, of which the second one has another value of a fact.
+std::vector<Campaign> shards_that_differ_in(const std::string& fact) {
+  std::vector campaigns{shard_of_three(0), shard_of_three(1)};
+  campaigns[0].runs[0].info[fact] = "a";
+  campaigns[1].runs[0].info[fact] = "b";
+  return campaigns;
+}
+
+TEST(Campaign, ShardsOfDifferentCodeAreRefused) {
+  const std::vector<std::string> names{"a.db", "b.db"};
+  for (const std::string fact : {"version", "commit", "plug-in boxes sha256", "plug-in boxes version"}) {
+    auto campaigns = shards_that_differ_in(fact);
+    EXPECT_THAT([&] { merge_campaigns(campaigns, names); },
+                ThrowsMessage<Error>("b.db: found " + fact +
+                                     " 'b', expected 'a' as in a.db, for the run with command fuzz, seed 1"));
+    campaigns[1].runs[0].info["seed"] = "2";  // another night
+    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 2);
+    campaigns[1] = campaigns[0];
+    campaigns[1].runs[0].shards[0].index = 1;
+    EXPECT_EQ(merge_campaigns(campaigns, names).runs.size(), 1);
+  }
+}
+
+TEST(Campaign, ARunWithoutAFactOfItsCodeIsRefused) {
+  std::vector campaigns{shard_of_three(0), shard_of_three(1)};
+  campaigns[1].runs[0].info["plug-in boxes sha256"] = "b";
+  const std::vector<std::string> names{"a.db", "b.db"};
+  EXPECT_THAT(
+      [&] { merge_campaigns(campaigns, names); },
+      ThrowsMessage<Error>(HasSubstr("b.db: found plug-in boxes sha256 'b', expected '' as in a.db")));
+}
+
 TEST(Campaign, ShowsOneOfThoseThatAreShrunkToTheSame) {
   const Campaign campaign{{{info,
                             {},
