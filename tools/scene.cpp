@@ -186,7 +186,7 @@ int run(Options options) {
   if (options.plan_only) options.trial.subjects = {"wang"};
   options.record.summary = !options.plan_only;
   const Stop stop(interrupted());
-  options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
+  (void)options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
   SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
