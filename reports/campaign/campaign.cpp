@@ -34,7 +34,8 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
+    if (name != "again")  // it repeats the other facts
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
 
