@@ -107,6 +107,13 @@ void Record::add(TrialResult&& result) {
   if (Clock::now() - last_save_ >= save_interval) save();
 }
 
+void Record::replace_findings(std::vector<Finding> findings) {
+  if (findings == findings_) return;
+  findings_ = std::move(findings);
+  saved_findings_ = findings_.size();
+  if (store_) store_->replace(findings_);
+}
+
 void Record::add(const ScenePicture& picture) {
   if (store_) store_->add(picture);
 }

@@ -42,6 +42,9 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
+  /// Replaces the findings so far.
+  void replace_findings(std::vector<Finding> findings);
+
   /// Adds a result; saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.

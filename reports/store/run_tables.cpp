@@ -54,11 +54,12 @@ Table<FindingRow> findings() {
   return {"finding",
           "FOREIGN KEY (run) REFERENCES run",
           "rowid",
-          {run_column<Finding>(), content_column("round", &Finding::round),
+          {run_column<Finding>(), content_column("place", &Finding::place),
            content_column("what", &Finding::what), content_column("subject", &Finding::subject),
            content_column("family", &Finding::family), content_column("query", &Finding::query),
            content_column("provenance", &Finding::provenance), content_column("ratio", &Finding::ratio),
-           content_column("signature", &Finding::signature), content_column("shrunk", &Finding::shrunk)}};
+           content_column("signature", &Finding::signature), content_column("shrunk", &Finding::shrunk),
+           content_column("is_shrunk", &Finding::is_shrunk)}};
 }
 
 Table<PictureRow> pictures() {
@@ -95,6 +96,11 @@ void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard) {
 
 void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> some) {
   findings().write(db, rows_of(run, some));
+}
+
+void replace_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> all) {
+  db.exec("DELETE FROM finding");
+  write_findings(db, run, all);
 }
 
 void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> some) {
