@@ -52,6 +52,7 @@ void expect_error(const fs::path& path, const std::string& message) {
 TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_number("0.1", ""), 0.1);
   EXPECT_EQ(parse_number("-0x1.8p-3", ""), -0.1875);
+  EXPECT_EQ(parse_number("0X1.8P-3", ""), 0.1875);
   EXPECT_EQ(parse_number("+1e3", ""), 1000);
   EXPECT_EQ(parse_number("4.9406564584124654e-324", ""), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(parse_number("1e-400", ""), 0);
