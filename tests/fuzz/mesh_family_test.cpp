@@ -93,7 +93,7 @@ TEST(MeshFamily, MovesPairsIntoContact) {
     if (pairs.contains(query.x) || collides(query) || distance_exceeds(query, 1e-14)) continue;
     ++just_apart[i % 2];
   }
-  for (const int count : just_apart) EXPECT_GT(count, 50);
+  for (const int count : just_apart) EXPECT_GT(count, 80);
 }
 
 TEST(MeshFamily, StaysFiniteWhereThePerturbationWouldNot) {
