@@ -192,7 +192,7 @@ TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
 
 TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {
   const auto elsewhere = std::filesystem::current_path();
-  std::filesystem::create_directories(file("here/.part"));  // in the way of a file of that name
+  std::filesystem::create_directories(file("here/.part/full"));  // in the way of a file of that name
   std::filesystem::current_path(file("here"));
   write_campaign({}, file("a.db"));
   std::filesystem::current_path(elsewhere);
