@@ -52,6 +52,7 @@ void expect_error(const fs::path& path, const std::string& message) {
 TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_number("0.1", ""), 0.1);
   EXPECT_EQ(parse_number("-0x1.8p-3", ""), -0.1875);
+  EXPECT_EQ(parse_number("0X1.8P-3", ""), 0.1875);
   EXPECT_EQ(parse_number("+1e3", ""), 1000);
   EXPECT_EQ(parse_number("4.9406564584124654e-324", ""), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(parse_number("1e-400", ""), 0);
@@ -93,6 +94,16 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
+TEST(CaseFile, MayHaveEmptyLines) {
+  Case each;
+  each.query = testing::falling_edge(0.1, -1);
+  std::istringstream lines(to_text(each));
+  std::string text = "\n";
+  for (std::string line; std::getline(lines, line);) text += line + "\n \n";
+  std::istringstream in(text);
+  EXPECT_EQ(parse_case(in, "x.case").query, each.query);
+}
+
 TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
   for (const char* why : {"\nsecond", "first\n", "first\n\nthird", "\n"}) {
     Case each;
@@ -131,11 +142,12 @@ TEST_F(Files, QueryFilesHaveCommentsAndWindowsLineEnds) {
 
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
-  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",8, -3,\t4,5,1,1\r\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n";
   const auto cases = read_all(write("vertex-face/data.csv", rows));
   ASSERT_EQ(cases.size(), 1U);
   EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);
   EXPECT_EQ(cases[0].truth, true);
+  EXPECT_THAT(cases[0].name, HasSubstr("data.csv:1"));
   EXPECT_EQ(cases[0].query.end(3), Vector3<double>(0.875, -0.75, 5));
 }
 

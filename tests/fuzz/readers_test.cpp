@@ -79,6 +79,8 @@ TEST_F(ReadersTest, FloatsOfPlyAreRoundedOnce) {
   expect_square(".ply", replaced(floats, "0 1 0.1", "0 1 1.000000059604644775390625001"), 1 + 0x1p-23);
 }
 
+TEST_F(ReadersTest, PlyNeedsNoVersion) { expect_square(".ply", replaced(text_ply, "ascii 1.0", "ascii")); }
+
 TEST_F(ReadersTest, APolygonBecomesAFan) {
   const Mesh mesh = read_text(".off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n");
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));

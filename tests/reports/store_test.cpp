@@ -190,6 +190,16 @@ TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
   EXPECT_EQ(again.statistics, campaign.statistics);
 }
 
+TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {
+  const auto elsewhere = std::filesystem::current_path();
+  std::filesystem::create_directories(file("here/.part/full"));  // in the way of a file of that name
+  std::filesystem::current_path(file("here"));
+  write_campaign({}, file("a.db"));
+  std::filesystem::current_path(elsewhere);
+  EXPECT_TRUE(load_campaign(file("a.db")).runs.empty());
+  EXPECT_FALSE(std::filesystem::exists(file("a.db.part")));
+}
+
 TEST_F(StoreTest, ACutFileIsRefused) {
   write_campaign({{{info, {shard}, {some_finding("x")}}}, some_statistics("wang")}, file("a.db"));
   const std::string whole = read("a.db");

@@ -189,6 +189,20 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
 }
 
+TEST_F(CommandLine, AFileIsReplacedAsAWhole) {
+  write("q.vt", hit);
+  write("a.json", "old");
+  std::filesystem::create_hard_link(file("a.json"), file("reader.json"));
+  EXPECT_EQ(run("replay q.vt --json a.json").code, 0);
+  EXPECT_EQ(read_json("a.json")["subjects"]["wang"]["vt"]["queries"], 1);
+  EXPECT_EQ(read("reader.json"), "old");
+}
+
+TEST_F(CommandLine, NeedsNoStandardInput) {
+  EXPECT_EQ(run("fuzz --cases 10 --db a.db --json a.json <&-").code, 0);
+  EXPECT_EQ(run("merge b.db a.db <&-").code, 0);
+}
+
 TEST_F(CommandLine, ADeviceIsWrittenNotReplaced) {
   write("q.vt", hit);
   const Output output = run("replay q.vt --json /dev/stdout | cat");
