@@ -164,8 +164,8 @@ int run(const Options& options) {
 void add_common(CLI::App& command, Options& options) {
   auto* limit = command.add_option_group("limit", "Length");
   auto* cases = add_count_option(*limit, "--cases", options.cases, 1, most_queries,
-                   "Total number of queries, divided among the families")
-      ->default_str("");
+                                 "Total number of queries, divided among the families")
+                    ->default_str("");
   add_count_option(*limit, "--first", options.first, 1, most_queries,
                    "Number of queries after which a campaign without --cases ends, as after a time limit")
       ->default_str("")

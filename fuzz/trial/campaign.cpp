@@ -85,7 +85,8 @@ class Cases {
     if (!rest_ || rest_->cases() == 0) rest_ = next_block();
     if (!rest_ || left_ == 0) return std::nullopt;
     Block slice = *rest_;
-    slice.last = slice.first + std::min({slice.cases(), std::uint64_t{pace.cases(slice.family->name)}, left_});
+    slice.last =
+        slice.first + std::min({slice.cases(), std::uint64_t{pace.cases(slice.family->name)}, left_});
     rest_->first = slice.last;
     left_ -= slice.cases();
     return slice;

@@ -17,8 +17,7 @@ TEST(Elementary, PowersOfTwoAreExactAtWholeNumbers) {
 }
 
 TEST(Elementary, PowersOfTwoAreWithinTheirError) {
-  for (double x = -999.3; x < 999; x += 0.0173)
-    ASSERT_NEAR(exp2_of(x) / std::exp2(x), 1, 0x1p-50) << x;
+  for (double x = -999.3; x < 999; x += 0.0173) ASSERT_NEAR(exp2_of(x) / std::exp2(x), 1, 0x1p-50) << x;
 }
 
 TEST(Elementary, LogarithmsAreWithinTheirError) {

@@ -74,9 +74,9 @@ AuditSample changed(Random& random, const AuditSample& sample) {
     if (random.one_in(2)) {
       draw_component(random, vector, i, size);
     } else {  // change the bits that decide about rounding
-      double& changed = vector.xv[i + 3 * random.integer(0, 1)];
       const double direction = random.uniform(-1, 1);
-      changed *= 1 + direction * random.log_uniform(1e-16, 1e-1);
+      const double change = direction * random.log_uniform(1e-16, 1e-1);
+      vector.xv[i + 3 * random.integer(0, 1)] *= 1 + change;
     }
   }
   return next.t <= 1 && next.within_bounds() ? next : sample;
