@@ -59,17 +59,20 @@ inline constexpr std::array<std::string_view, rejection_count> rejection_names{
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
-  error,   ///< it reported an error, or gave an invalid answer
-  crash,   ///< its process ended
-  time,    ///< it exceeded its time limit
-  memory,  ///< it exceeded its memory limit
+  error,      ///< it reported an error, or gave an invalid answer
+  crash,      ///< its process ended
+  time,       ///< it exceeded its time limit
+  memory,     ///< it exceeded its memory limit
+  exception,  ///< it threw an exception that it did not catch
+  protocol,   ///< it wrote to nearmiss's channels, or closed them
+  not_asked,  ///< it was set aside, because it exceeded its time limit too often
 };
 
-inline constexpr std::size_t fault_count = 5;
+inline constexpr std::size_t fault_count = 8;
 
 /// Names of the faults, in order, as used in files and reports.
-inline constexpr std::array<std::string_view, fault_count> fault_names{"none", "error", "crash", "time",
-                                                                       "memory"};
+inline constexpr std::array<std::string_view, fault_count> fault_names{
+    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked"};
 
 /// A subject's answer to one query.
 struct Verdict {
@@ -78,7 +81,9 @@ struct Verdict {
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] for a hit; NaN if unknown
   Fault fault = Fault::none;                               ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  std::int32_t fault_code = 0;  ///< return value of an error; signal or negated exit code of a crash
+  /// The return value of an error; the signal or negated exit code of a crash; a number that Subject::fault_text knows
+  /// for an exception.
+  std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
   static Verdict rejected(Rejection rejection) { return {.rejection = rejection}; }
@@ -145,6 +150,9 @@ class Subject {
 
   /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
+
+  /// What an exception said, of a verdict of this subject; "" for any other verdict.
+  [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
   /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
   /// lengths (D, ψ^½, S, μ^⅓), must be multiplied so that the subject just reports the query. It is at most 1

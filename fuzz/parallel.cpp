@@ -2,15 +2,47 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 namespace nearmiss {
 
-void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
-  // By default, the library starts at most one thread per core.
+namespace {
+
+/// Runs a parallel algorithm on `jobs` threads. By default, the library starts at most one thread per core.
+void on_threads(int jobs, const std::function<void()>& algorithm) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
-  tbb::task_arena(jobs).execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  tbb::task_arena(jobs).execute(algorithm);
+}
+
+}  // namespace
+
+void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
+  on_threads(jobs, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
+}
+
+void detail::in_order(int jobs, const std::function<Untyped()>& next, const std::function<void(void*)>& work,
+                      const std::function<void(void*)>& take) {
+  constexpr std::size_t on_their_way =
+      16;  // for each thread, so that one slow item does not hold up the others
+  const auto make = [&](tbb::flow_control& control) {
+    Untyped item = next();
+    if (!item) control.stop();
+    return item;
+  };
+  const auto pass = [&](Untyped item) {
+    work(item.get());
+    return item;
+  };
+  on_threads(jobs, [&] {
+    tbb::parallel_pipeline(
+        on_their_way * static_cast<std::size_t>(jobs),
+        tbb::make_filter<void, Untyped>(tbb::filter_mode::serial_in_order, make) &
+            tbb::make_filter<Untyped, Untyped>(tbb::filter_mode::parallel, pass) &
+            tbb::make_filter<Untyped, void>(tbb::filter_mode::serial_in_order,
+                                            [&](const Untyped& item) { take(item.get()); }));
+  });
 }
 
 }  // namespace nearmiss

@@ -3,10 +3,35 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace nearmiss {
 
 /// Calls work(0) to work(count - 1) on `jobs` threads. An exception is passed on to the caller.
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
+
+namespace detail {
+using Untyped = std::shared_ptr<void>;
+void in_order(int jobs, const std::function<Untyped()>& next, const std::function<void(void*)>& work,
+              const std::function<void(void*)>& take);
+}  // namespace detail
+
+/// Passes items through work(item) on `jobs` threads. next() makes the items until it returns nothing, and
+/// take(item) receives them after the work; both are called in the order of the items, by one thread at a time. Only
+/// a few items for each thread are on their way. An exception is passed on to the caller.
+template <class Item>
+void in_order(int jobs, const std::function<std::optional<Item>()>& next,
+              const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {
+  detail::in_order(
+      jobs,
+      [&]() -> detail::Untyped {
+        auto item = next();
+        return item ? std::make_shared<Item>(*std::move(item)) : nullptr;
+      },
+      [&](void* item) { work(*static_cast<Item*>(item)); },
+      [&](void* item) { take(*static_cast<Item*>(item)); });
+}
 
 }  // namespace nearmiss

@@ -16,8 +16,9 @@ namespace nearmiss {
 
 namespace {
 
-/// A text field, in quotes if it needs them.
-std::string field(const std::string& text) {
+/// A text field, in quotes if it needs them. An apostrophe keeps spreadsheets from computing what begins like a formula.
+std::string field(std::string text) {
+  if (text.find_first_of("=+-@") == 0) text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

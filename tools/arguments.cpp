@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <set>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -30,33 +32,21 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
 
 void add_jobs_option(CLI::App& command, int& jobs) {
   jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--jobs", jobs, "Number of threads")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str()
-      ->type_name("J");
+  add_count_option(command, "--jobs", jobs, 1, 4096, "Number of threads");
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
-  command
-      .add_option("--seed", seed,
-                  "Seed of the random queries; a query depends only on its family, seed and number")
-      ->capture_default_str()
-      ->type_name("S");
+  add_count_option(command, "--seed", seed, 0, std::numeric_limits<std::uint64_t>::max(),
+                   "Seed of the random queries; a query depends only on its family, seed and number");
 }
 
 void add_comparison_options(CLI::App& command, Comparison& comparison) {
-  command
-      .add_option(
-          "--compare", comparison.one_in,
-          fmt::format(
-              "Compare the oracle's exact methods on one query in N, and on {} times as large a part of the "
-              "queries that its filter leaves undecided; 1 compares all. Families near overflow and "
-              "underflow "
-              "are always compared.",
-              Comparison::more_of_undecided))
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
-      ->capture_default_str()
-      ->type_name("N");
+  add_count_option(
+      command, "--compare", comparison.one_in, 1, most_queries,
+      fmt::format("Compare the oracle's exact methods on one query in N, and on {} times as large a "
+                  "part of the queries that its filter leaves undecided; 1 compares all. Families "
+                  "near overflow and underflow are always compared.",
+                  Comparison::more_of_undecided));
   command.add_flag(
       "--compare-near-bounds", comparison.near_bounds,
       fmt::format(
@@ -101,14 +91,16 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->type_name("BYTES");
 }
 
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
+isolation::PluginLimits PluginLimitOptions::limits() const {
+  return {.time = parse_duration(time, "--query-time"), .bytes = bytes};
+}
+
+Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
-  const isolation::PluginLimits allowed{parse_duration(limits.time), limits.bytes};
   Subjects made;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    made.push_back(is_plugin_path(name) ? make_isolated_plugin(name, allowed)
-                                        : make_any_subject(name, given_bound));
+    made.push_back(make_any_subject(name, given_bound, limits));
     if (!seen.insert(made.back()->name()).second)
       throw Error(
           fmt::format("found two subjects named '{}', expected different names", made.back()->name()));
@@ -146,16 +138,6 @@ std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps
   for (const std::string& name : names)
     for (Family& step : sweep(find_family(name, known), steps)) found.push_back(std::move(step));
   return different(std::move(found), "--sweep");
-}
-
-std::chrono::duration<double> parse_duration(std::string_view text) {
-  double count = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  const std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
-  const double seconds = unit == "ms" ? 1e-3 : unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-  if (error != std::errc() || seconds == 0 || !(count > 0) || !(count * seconds <= 1e9))
-    throw Error(fmt::format("--time: found '{}', expected a time such as 30s, 2m or 8h", text));
-  return std::chrono::duration<double>(count * seconds);
 }
 
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text) {

@@ -38,6 +38,8 @@ struct PluginLimitOptions {
   std::uint64_t bytes = isolation::PluginLimits().bytes;
 
   void add_to(CLI::App& command);
+  /// Throws Error.
+  [[nodiscard]] isolation::PluginLimits limits() const;
 };
 
 /// --kind vt|ee and FILE|-: the kind, and the file with one query a line.
@@ -50,7 +52,7 @@ struct QueryInput {
 };
 
 /// Makes the named subjects; each plug-in runs in its own process. Throws Error, also if two have the same name.
-Subjects make_subjects(const std::vector<std::string>& names, const PluginLimitOptions& limits,
+Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
 /// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.
@@ -59,9 +61,6 @@ std::vector<Family> find_families(const std::vector<std::string>& names, std::sp
 /// Makes the families NAME@VALUE of the named sweeps. Throws Error.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known);
-
-/// Parses "500ms", "30s", "2m", "8h". Throws Error.
-std::chrono::duration<double> parse_duration(std::string_view text);
 
 /// Parses "0/4" .. "3/4" into the shard and the number of shards. Throws Error.
 std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text);

@@ -10,6 +10,7 @@
 #include "fuzz/studies/audit/tolerance_table.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -95,12 +96,10 @@ void add_audit(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "audit", "Derive the paper's rounding constants from our code, and search for the largest errors");
-  command->add_option("--queries", options->plan.queries, "Number of queries of each family")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--steps", options->plan.steps, "Steps of the hill climb for each constant")
-      ->check(CLI::Range(0, 100000000))
-      ->capture_default_str();
+  add_count_option(*command, "--queries", options->plan.queries, 1, 1'000'000,
+                   "Number of queries of each family");
+  add_count_option(*command, "--steps", options->plan.steps, 0, 100'000'000,
+                   "Steps of the hill climb for each constant");
   command->add_option("--seed", options->plan.seed, "Seed of all queries and steps")
       ->capture_default_str()
       ->type_name("S");

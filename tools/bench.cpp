@@ -14,6 +14,7 @@
 #include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -24,6 +25,7 @@ using Queries = std::map<Kind, std::vector<Query>>;
 struct Options {
   std::vector<std::filesystem::path> paths;
   std::vector<std::string> subjects{"basic", "wang"};
+  PluginLimitOptions limits;
   std::uint64_t queries = 20000;
   int runs = 31;
   std::filesystem::path json;
@@ -155,8 +157,7 @@ void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann
 }
 
 void run(const Options& options) {
-  Subjects subjects;  // plug-ins run in this process too, because a separate process would cost time
-  for (const std::string& name : options.subjects) subjects.push_back(make_any_subject(name));
+  const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
   const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();
   fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject", "ns/query",
@@ -180,13 +181,10 @@ void add_bench(CLI::App& app, int& /*exit_code*/) {
   command->add_option("PATH", options->paths,
                       "Files and folders of cases to time in addition to the random inputs");
   add_subject_option(*command, options->subjects);
-  command->add_option("--queries", options->queries, "Number of random queries of each kind")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--runs", options->runs, "Number of runs")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  options->limits.add_to(*command);
+  add_count_option(*command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
+                   "Number of random queries of each kind");
+  add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
   command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
   command->footer(
       "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");

@@ -6,6 +6,7 @@
 #include "corpus/query_text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -31,7 +32,6 @@ void run(const Options& options) {
 }  // namespace
 
 void add_family(CLI::App& app, int& /*exit_code*/) {
-  constexpr auto most = std::uint64_t{1} << 62;  // of `first` and `count` each, so that the sum fits
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "family",
@@ -45,14 +45,12 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
       ->required()
       ->check(CLI::IsMember({"vt", "ee"}));
   add_seed_option(*command, options->seed);
-  command->add_option("--count", options->count, "Number of indices; about half are of each kind")
+  add_count_option(*command, "--count", options->count, 1, most_queries,
+                   "Number of indices; about half are of each kind")
       ->required()
-      ->check(CLI::Range(std::uint64_t{1}, most))
-      ->type_name("N");
-  command->add_option("--first", options->first, "The first index; a campaign begins with 0")
-      ->check(CLI::Range(std::uint64_t{0}, most))
-      ->capture_default_str()
-      ->type_name("I");
+      ->default_str("");
+  add_count_option(*command, "--first", options->first, 0, most_queries,
+                   "The first index; a campaign begins with 0");
   command->footer(
       "\nThe provenance NAME:S:I in a report is query I of family NAME with seed S.\n"
       "Example: nearmiss family uniform --kind vt --count 1000 | nearmiss oracle --kind vt");

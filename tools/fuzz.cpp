@@ -7,6 +7,7 @@
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/trial/campaign.hpp"
+#include "fuzz/trial/sieve.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
@@ -14,6 +15,7 @@
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
 #include "tools/trial_options.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -25,21 +27,24 @@ struct Options {
   int steps = 17;
   bool search = false;
   std::vector<std::filesystem::path> mesh;
-  std::uint64_t cases = 0;
+  std::uint64_t cases = 0, first = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
   RecordOptions record;
 };
 
+/// The time limit of a campaign.
+using Time = std::optional<std::chrono::duration<double>>;
+
 /// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
-std::optional<double> part_done(const CampaignProgress& now, const CampaignPlan& plan) {
+std::optional<double> part_done(const CampaignProgress& now, const Time& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
-  if (plan.time) part = std::max(part.value_or(0), now.elapsed / *plan.time);
+  if (time) part = std::max(part.value_or(0), now.elapsed / *time);
   return part;
 }
 
-std::string show(const CampaignProgress& now, const CampaignPlan& plan, const Statistics& statistics) {
+std::string show(const CampaignProgress& now, const Time& time, const Statistics& statistics) {
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
   double farthest = 0;
   for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
@@ -50,12 +55,12 @@ std::string show(const CampaignProgress& now, const CampaignPlan& plan, const St
   if (const auto faults = statistics.faults(); faults != 0)
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
-  if (plan.time) left = now.of != 0 ? std::min(left, *plan.time - now.elapsed) : *plan.time - now.elapsed;
-  return line + ", " + show_duration(left) + " left";
+  if (time) left = now.of != 0 ? std::min(left, *time - now.elapsed) : *time - now.elapsed;
+  return line + ", " + show_duration(std::max(left, {})) + " left";
 }
 
 /// The families chosen with --family, --sweep, --mesh and --search.
-std::vector<Family> chosen_families(const Options& options, const Subjects& subjects) {
+std::vector<Family> chosen_families(const Options& options, const Subjects& subjects, const Stop& stop) {
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
@@ -63,7 +68,7 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
                                        : find_sweeps(options.sweeps, options.steps, known);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
-    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject));
+    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject, stop));
   return chosen;
 }
 
@@ -105,19 +110,25 @@ RunInfo info_of(const Options& options, const CampaignPlan& plan) {
     info["scene"] = start + " " + end;
     again += fmt::format(" --mesh {} {}", shell_quoted(start), shell_quoted(end));
   }
-  info["cases"] = plan.cases == 0 ? std::string(until_the_time_is_over) : fmt::format("{}", plan.cases);
-  if (plan.cases != 0) again += fmt::format(" --cases {}", plan.cases);
+  info["cases"] = std::string(until_the_time_is_over);
+  if (plan.cases != 0) {
+    info["cases"] = fmt::format("{}", plan.cases);
+    again += fmt::format(" --cases {}", plan.cases);
+  } else if (plan.first != 0) {
+    info["cases"] = fmt::format("the first {}", plan.first);
+    again += fmt::format(" --first {}", plan.first);
+  }
   return info;
 }
 
 int run(const Options& options) {
-  const auto& stop = interrupted();
-  const Subjects subjects = options.trial.make_subjects();
+  Stop stop(interrupted());
+  const Subjects subjects = options.trial.make_subjects(stop);
   CampaignPlan plan;
-  plan.families = chosen_families(options, subjects);
+  plan.families = chosen_families(options, subjects, stop);
   plan.seed = options.seed;
   plan.cases = options.cases;
-  if (!options.time.empty()) plan.time = parse_duration(options.time);
+  plan.first = options.first;
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
@@ -125,31 +136,40 @@ int run(const Options& options) {
   Record record(
       options.record, info_of(options, plan),
       {.index = plan.shard, .count = plan.shards, .environment = options.trial.plugin_paths(subjects)});
-  plan.rounds_before = record.shard().rounds;
+  plan.before = record.statistics();
   plan.findings_before = record.findings();
-  const bool only_time_ends_it = plan.cases == 0;
-  if (only_time_ends_it) *plan.time -= std::chrono::duration<double>(record.shard().seconds);
+  const bool only_time_ends_it = plan.cases == 0 && plan.first == 0;
+  Time time;
+  if (!options.time.empty()) time = parse_duration(options.time, "--time");
+  if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
+  if (time) stop.limit(*time);
+  Sieve(subjects, plan.jobs, stop).shrink(plan.findings_before);  // what an interrupted run left
+  record.replace_findings(plan.findings_before);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);
     reached = run_campaign(
         plan, subjects,
         [&](TrialResult&& result, const CampaignProgress& now) {
-          record.add(std::move(result), now.rounds);
-          if (progress.due()) progress.show(show(now, plan, record.statistics()), part_done(now, plan));
+          record.add(std::move(result));
+          if (progress.due()) progress.show(show(now, time, record.statistics()), part_done(now, time));
           return true;
         },
         stop);
   }
-  return record.finish(stop, reached.complete || (only_time_ends_it && !stop));
+  return record.finish(stop.is_requested(), reached.complete || (only_time_ends_it && !stop.is_requested()));
 }
 
 /// The options for the campaign's length, its shard, and where the results go.
 void add_common(CLI::App& command, Options& options) {
   auto* limit = command.add_option_group("limit", "Length");
-  limit->add_option("--cases", options.cases, "Total number of queries, divided among the families")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 62))
-      ->type_name("N");
+  auto* cases = add_count_option(*limit, "--cases", options.cases, 1, most_queries,
+                                 "Total number of queries, divided among the families")
+                    ->default_str("");
+  add_count_option(*limit, "--first", options.first, 1, most_queries,
+                   "Number of queries after which a campaign without --cases ends, as after a time limit")
+      ->default_str("")
+      ->excludes(cases);
   limit
       ->add_option(
           "--time", options.time,
@@ -201,11 +221,9 @@ void add_fuzz(CLI::App& app, int& exit_code) {
           ->delimiter(',')
           ->excludes(family)
           ->type_name("A,B,...");
-  command->add_option("--steps", options->steps, "Number of values of each parameter in a sweep")
-      ->needs(sweep)
-      ->check(CLI::Range(2, 10000))
-      ->capture_default_str()
-      ->type_name("N");
+  add_count_option(*command, "--steps", options->steps, 2, 10'000,
+                   "Number of values of each parameter in a sweep")
+      ->needs(sweep);
   command
       ->add_option(
           "--mesh", options->mesh,

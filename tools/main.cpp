@@ -1,8 +1,15 @@
 // nearmiss: the command line.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
@@ -20,6 +27,38 @@ constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 a false negative, a refuted bound or an oracle disagreement was found;\n"
     "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far is saved.";
 
+/// The number of letters to change, add or leave out to make one word of another.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Throws Error if the first word is no subcommand, and names the nearest one.
+void expect_subcommand(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::count(names, word) > 0) return;
+  const auto nearest =
+      std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(name, word); });
+  throw nearmiss::Error(fmt::format(
+      "found the subcommand '{}', expected one such as '{}' (see nearmiss --help)", word, *nearest));
+}
+
+/// Throws Error if something that was printed is lost.
+void expect_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw nearmiss::Error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+}
+
 int run(int argc, char** argv) {
   using namespace nearmiss::tools;
   CLI::App app(about, "nearmiss");
@@ -34,13 +73,19 @@ int run(int argc, char** argv) {
         add_tightness, add_bench, add_family, add_oracle, add_verdict, add_subjects})
     add(app, exit_code);
 
+  if (argc > 1) expect_subcommand(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (asked) return app.exit(error);
+    if (asked) {
+      app.exit(error);
+      expect_output();
+      return exit_code;
+    }
     throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", error.what()));
   }
+  expect_output();
   return exit_code;
 }
 

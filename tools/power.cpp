@@ -18,6 +18,7 @@
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -38,16 +39,18 @@ constexpr std::string_view search = "search";
 constexpr std::string_view libfuzzer = "libfuzzer";
 
 Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
-  const Subjects subjects = make_subjects({subject}, {});
+  Stop stop(interrupted());
+  const Subjects subjects = make_subjects({subject});
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
   if (way == all_families) plan.families.assign(families().begin(), families().end());
-  if (way == search) plan.families = {miss_search(*subjects.front()), far_search(*subjects.front())};
+  if (way == search)
+    plan.families = {miss_search(*subjects.front(), stop), far_search(*subjects.front(), stop)};
   plan.seed = options.seed;
-  plan.time = parse_duration(options.time);
   plan.jobs = options.jobs;
+  stop.limit(parse_duration(options.time, "--time"));
   Hunt result{.subject = subject, .way = way};
-  if (const auto first = find_first_failure(plan, subjects, interrupted())) {
+  if (const auto first = find_first_failure(plan, subjects, stop)) {
     result.failure = name(first->finding.what);
     result.seconds = first->seconds;
     result.cases = first->cases * (way == search ? search_evaluations : 1);

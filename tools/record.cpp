@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
+#include "fuzz/trial/patience.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
@@ -92,11 +94,24 @@ void Record::go_on() {
   saved_findings_ = findings_.size();
 }
 
-void Record::add(TrialResult&& result, std::uint64_t rounds) {
+void Record::add(TrialResult&& result) {
   statistics_.merge(result.statistics);
+  for (const auto& [key, counts] : result.statistics.counts)
+    if (is_set_aside(statistics_.counts[key]) && set_aside_.insert(key).second)
+      fmt::print(
+          stderr,
+          "{}nearmiss: {} exceeded its time limit {} times in {} ({}) and is not asked there any more\n",
+          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, Patience::most_late, key.family,
+          short_name(key.kind));
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
-  shard_.rounds = rounds;
   if (Clock::now() - last_save_ >= save_interval) save();
+}
+
+void Record::replace_findings(std::vector<Finding> findings) {
+  if (findings == findings_) return;
+  findings_ = std::move(findings);
+  saved_findings_ = findings_.size();
+  if (store_) store_->replace(findings_);
 }
 
 void Record::add(const ScenePicture& picture) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,11 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result; saves at intervals. `rounds` is the number of finished rounds of a campaign.
-  void add(TrialResult&& result, std::uint64_t rounds = 0);
+  /// Replaces the findings so far.
+  void replace_findings(std::vector<Finding> findings);
+
+  /// Adds a result; saves at intervals.
+  void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
@@ -63,6 +67,7 @@ class Record {
   std::optional<Store> store_;
   bool saved_ = false;
   Statistics statistics_;
+  std::set<CountsKey> set_aside_;  // those that were announced
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   Clock::time_point start_ = Clock::now();

@@ -33,8 +33,8 @@ std::string family_of(const std::string& name) {
 }
 
 int run(const Options& options) {
-  const auto& stop = interrupted();
-  const Subjects subjects = options.trial.make_subjects(parse_bound(options.bound));
+  const Stop stop(interrupted());
+  const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // checks all files before anything is written
     read_cases(path, [](const Case&) {});
   std::string command = "replay";
@@ -52,7 +52,7 @@ int run(const Options& options) {
     TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
     for (const fs::path& path : options.paths)
       read_cases(path, [&](const Case& each) {
-        if (stop) return;
+        if (stop.is_due()) return;
         stream.add(family_of(each.name), each.query, each.truth, [name = each.name] { return name; });
         ++count;
         if (progress.due())
@@ -61,7 +61,7 @@ int run(const Options& options) {
       });
     stream.finish();
   }
-  return record.finish(stop, !stop);
+  return record.finish(stop.is_requested(), !stop.is_requested());
 }
 
 }  // namespace

@@ -69,12 +69,12 @@ class Export {
     }
   }
   /// Writes the pairs of a step that subjects are asked about.
-  void add_all(const MovingMesh& mesh, LeaveOut leave_out, const std::atomic<bool>& stop) {
+  void add_all(const MovingMesh& mesh, LeaveOut leave_out, const Stop& stop) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
       for (const Query& query : pairs.queries) files_[pairs.kind].second << to_line(query) << '\n';
     };
-    follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.load(); });
+    follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.is_due(); });
   }
   /// Throws Error if something could not be written. Removes empty files.
   void finish() {
@@ -147,24 +147,24 @@ struct Verified {
 };
 
 /// Goes through all steps of a scene.
-Verified hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record) {
-  const auto& stop = interrupted();
+Verified hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
+                     const Stop& stop) {
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
   Export exported(options.export_to);
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
   SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
   SceneTrial trial(scene, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
-  for (std::size_t step = 0; step < scene.steps() && !stop; ++step) {
+  for (std::size_t step = 0; step < scene.steps() && !stop.is_due(); ++step) {
     const MovingMesh mesh = moving_mesh(scene, step);
     exported.add_all(mesh, leave_out, stop);
     const auto start = std::chrono::steady_clock::now();
     trial.hold(step, mesh, leave_out, [&](double part) { progress.asking(step, part); });
     verified.asking += std::chrono::steady_clock::now() - start;
-    if (options.verify_plan && !stop)
+    if (options.verify_plan && !stop.is_due())
       verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
         progress.verifying(step, part);
-        return !stop;
+        return !stop.is_due();
       }));
   }
   exported.finish();
@@ -185,20 +185,21 @@ std::string describe(const Scene& scene) {
 int run(Options options) {
   if (options.plan_only) options.trial.subjects = {"wang"};
   options.record.summary = !options.plan_only;
-  options.trial.make_subjects();  // unknown names are refused before meshes are read
+  const Stop stop(interrupted());
+  options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
-  SceneSubjects all = scene_subjects(options.trial, options.bounds, scene);
+  SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
   const RunInfo plugin_paths = options.trial.plugin_paths(all.subjects);
   if (!options.thickness.empty())
     keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects);
 
   Record record(options.record, run_info(options, all.bound), {.environment = plugin_paths});
-  const Verified verified = hold_trials(options, scene, all.subjects, record);
+  const Verified verified = hold_trials(options, scene, all.subjects, record, stop);
   fmt::print("{}", describe(scene));
   if (record.statistics().counts.empty()) fmt::print("no subject was asked: the plan decides all pairs\n");
-  const int code = record.finish(interrupted(), !interrupted());
-  if (!options.verify_plan || interrupted()) return code;
+  const int code = record.finish(stop.is_requested(), !stop.is_requested());
+  if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = verified.asking.count();
   const double verifying = verified.verification.seconds;
   fmt::print(

@@ -42,13 +42,14 @@ bool uses_bound(const std::string& name) {
 }  // namespace
 
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
-                             const Scene& scene) {
+                             const Scene& scene, const Stop& stop) {
   SceneSubjects all;
   std::set<std::string> names;
   const auto add = [&](const std::string& name) {
     if (names.insert(name).second)
-      all.subjects.push_back(std::move(
-          make_subjects({name}, trial.limits, name.ends_with(of_scene) ? all.bound : std::nullopt).front()));
+      all.subjects.push_back(std::move(make_subjects({name}, trial.plugin_limits(stop),
+                                                     name.ends_with(of_scene) ? all.bound : std::nullopt)
+                                           .front()));
   };
   for (const std::string& bound : bounds) {
     if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);

@@ -19,7 +19,7 @@ struct SceneSubjects {
 /// Makes the subjects with each of the bounds "pair", "scene" or a number. NAME uses each pair's own bound,
 /// NAME@scene the largest bound of the scene's pairs, and NAME@B the number. Throws Error.
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
-                             const Scene& scene);
+                             const Scene& scene, const Stop& stop);
 
 /// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of contact;
 /// prints the claim and the cost of each subject. Throws Error if there is no such subject, or if the

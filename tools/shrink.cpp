@@ -49,7 +49,7 @@ Finding find_failure(const Case& each, const Subject& subject) {
 }
 
 void run(const Options& options) {
-  const Subjects subjects = make_subjects({options.subject}, options.limits);
+  const Subjects subjects = make_subjects({options.subject}, options.limits.limits());
   const auto& subject = subjects.front();
   const Case each = read_one(options.in);
   const Finding finding = find_failure(each, *subject);

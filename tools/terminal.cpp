@@ -50,8 +50,9 @@ std::string cut(std::string line) {
 }  // namespace
 
 const std::atomic<bool>& interrupted() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    // A signal that is ignored from the start, as nohup(1) arranges, stays so.
+    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
   return stop;
 }
 

@@ -8,7 +8,7 @@
 
 namespace nearmiss::tools {
 
-/// SIGINT and SIGTERM set this flag, from the first call of this function on. A second signal, at least two
+/// SIGINT, SIGTERM and SIGHUP set this flag, from the first call of this function on. A second signal, at least two
 /// seconds later, ends the program at once.
 const std::atomic<bool>& interrupted();
 

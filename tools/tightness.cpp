@@ -8,6 +8,7 @@
 #include "tools/commands.hpp"
 #include "tools/record.hpp"
 #include "tools/terminal.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -26,7 +27,7 @@ int run(const Options& options) {
   TightnessPlan plan;
   plan.names = options.names == std::vector<std::string>{"all"} ? tightness_names() : options.names;
   plan.families.assign(families().begin(), families().end());
-  plan.time = parse_duration(options.time);
+  plan.time = parse_duration(options.time, "--time");
   plan.seed = options.seed;
   plan.jobs = options.jobs;
   RunInfo info = run_info("tightness");

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "ccd/plugin.hpp"
+#include "fuzz/trial/patience.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/record.hpp"
 
@@ -19,8 +20,15 @@ void TrialOptions::add_to(CLI::App& command) {
   add_jobs_option(command, jobs);
 }
 
-Subjects TrialOptions::make_subjects(std::optional<double> given_bound) const {
-  return tools::make_subjects(subjects, limits, given_bound);
+isolation::PluginLimits TrialOptions::plugin_limits(const Stop& stop) const {
+  isolation::PluginLimits plugin_limits = limits.limits();
+  plugin_limits.most_late = Patience::most_late;
+  plugin_limits.stop = &stop;
+  return plugin_limits;
+}
+
+Subjects TrialOptions::make_subjects(const Stop& stop, std::optional<double> given_bound) const {
+  return tools::make_subjects(subjects, plugin_limits(stop), given_bound);
 }
 
 RunInfo TrialOptions::run_info(const std::string& what) const {

@@ -20,8 +20,11 @@ struct TrialOptions {
 
   void add_to(CLI::App& command);
 
+  /// The limits of plug-ins in trials, which end when `stop` is due.
+  [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
+
   /// Throws Error for an unknown name.
-  Subjects make_subjects(std::optional<double> given_bound = std::nullopt) const;
+  Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
 
   /// Everything that a run's results depend on; `what` is the subcommand with its own arguments. The entry `again` is
   /// the command that repeats the run.

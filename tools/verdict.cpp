@@ -18,6 +18,7 @@ namespace {
 struct Options {
   QueryInput input;
   std::string subject = "wang", bound;
+  PluginLimitOptions limits;
   bool distance_bound = false;
   bool rounded = false;
 };
@@ -31,12 +32,15 @@ std::string show_distance_bound(const Subject& subject, const Judge& judge, cons
 }
 
 void run(const Options& options) {
-  const auto subject = make_any_subject(options.subject, parse_bound(options.bound));
+  const Subjects subjects =
+      make_subjects({options.subject}, options.limits.limits(), parse_bound(options.bound));
+  const Subject* const subject = subjects.front().get();
   const Judge judge(*subject);
   options.input.read([&](const Query& query) {
     const Verdict verdict = subject->decide(query);
     if (verdict.fault != Fault::none)
-      throw Error(fmt::format("{}: no answer: {}", subject->name(), fault_signature(query.kind, verdict)));
+      throw Error(fmt::format("{}: no answer: {}", subject->name(),
+                              fault_signature(query.kind, verdict, subject->fault_text(verdict))));
     std::string line = "0";
     if (verdict.hit)
       line = fmt::format("1 {} {}", stage_names[static_cast<std::size_t>(verdict.stage)],
@@ -59,6 +63,7 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
   command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
       ->capture_default_str();
   add_bound_option(*command, options->bound);
+  options->limits.add_to(*command);
   command->add_flag(
       "--distance-bound", options->distance_bound,
       "Add the distance bound of false positives, and 'claimed', or 'wang' if it is wang's bound "

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <nlopt.hpp>
+#include <optional>
 #include <vector>
 
+#include "ccd/elementary.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"
@@ -68,17 +72,26 @@ Query query_of(Kind kind, const SearchPoint& m) {
   return query;
 }
 
+/// A number from lo to hi, uniform on a logarithmic scale.
+double log_uniform(Random& random, double lo, double hi) {
+  return exp2_of(random.uniform(log2_of(lo), log2_of(hi)));
+}
+
 /// Draws primitives with sizes and speeds from `smallest` to 1. Some are thin, move in their plane, or stay
 /// near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw(Random& random, double smallest) {
-  const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
+  const auto some = [&](double lo, double hi) { return random.one_in(3) ? log_uniform(random, lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
-  const auto speed = [&] { return random.one_in(3) ? 0 : some(smallest, 1); };
+  // The order in which arguments and operands are computed is the compiler's choice, so each is drawn by itself.
+  const auto some_path = [&] {
+    const Vector start = random.vector(some(smallest, 1));
+    return path(start, random.one_in(3) ? 0 : some(smallest, 1));
+  };
   SearchPoint m;
-  m.q = path(random.vector(some(smallest, 1)), speed());
-  m.r = path(random.vector(some(smallest, 1)), speed());
+  m.q = some_path();
+  m.r = some_path();
   if (random.one_in(3)) {
     const double along = random.uniform(-1.5, 1.5);
     const double across = some(0.1 * smallest, 1e-1);
@@ -86,11 +99,13 @@ SearchPoint draw(Random& random, double smallest) {
   }
   for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
   m.w = random.vector(some(smallest, 1));
-  if (random.one_in(3))
-    m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
-          random.vector(some(0.1 * smallest, 1e-1));
+  if (random.one_in(3)) {
+    const Vector along_q = random.uniform(-1, 1) * m.q.at(m.place[2]);
+    const Vector along_r = random.uniform(-1, 1) * m.r.at(m.place[2]);
+    m.w = along_q + along_r + random.vector(some(0.1 * smallest, 1e-1));
+  }
   if (random.one_in(4)) {
-    const double out_of_plane = random.log_uniform(1e-4 * smallest * smallest, 1e-2);
+    const double out_of_plane = log_uniform(random, 1e-4 * smallest * smallest, 1e-2);
     for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
   }
   m.gap.setZero();
@@ -103,7 +118,7 @@ std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& 
   const Vector r = contact.r.at(contact.time);
   const Vector n = q.cross(r);
   const Vector relative = w - contact.velocity(kind);
-  const auto ratio = [](double a, double b) { return b > 0 ? std::log2(std::max(a / b, 0x1p-40)) : -40; };
+  const auto ratio = [](double a, double b) { return b > 0 ? log2_of(std::max(a / b, 0x1p-40)) : -40; };
   const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
   return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
           ratio(n.norm(), q.norm() * r.norm()),
@@ -151,7 +166,7 @@ class Maximiser {
   void optimise(bool beside) {
     constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
     constexpr int evaluations = 300;
-    const double step = random_.log_uniform(finest_step_, 0.5);
+    const double step = log_uniform(random_, finest_step_, 0.5);
     SearchPoint start = best_;
     if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
     std::vector<double> point;
@@ -208,6 +223,30 @@ class Maximiser {
   std::exception_ptr error_;  ///< thrown by the objective
 };
 
+/// The subject of a search, which is no longer asked when it has exceeded its time limit a few times.
+class Searched {
+ public:
+  Searched(const Subject& subject, const Stop& stop) : subject_(subject), stop_(stop) {}
+
+  [[nodiscard]] const Subject& operator*() const { return subject_; }
+  [[nodiscard]] const Subject* operator->() const { return &subject_; }
+
+  /// The answer to a query; nothing if the subject is not asked. Throws Stopped.
+  std::optional<Verdict> ask(const Query& query) const {
+    constexpr int most_late = 3;
+    stop_.check();
+    if (late_ >= most_late) return std::nullopt;
+    const Verdict verdict = subject_.decide(query);
+    if (verdict.fault == Fault::time) ++late_;
+    return verdict;
+  }
+
+ private:
+  const Subject& subject_;
+  const Stop& stop_;
+  mutable std::atomic<int> late_ = 0;
+};
+
 /// The largest distance of a subject's false positives: the bound that the subject claims, or wang's if it
 /// claims none.
 double reach(const Subject& subject, const Query& query) {
@@ -221,7 +260,7 @@ double smallest_for(const Subject& subject, Random random, Kind kind) {
   return std::min(usually_smallest, 1e-3 * reach(subject, query_of(kind, typical)));
 }
 
-Query search_miss(const Subject& subject, Random& random, Kind kind) {
+Query search_miss(const Searched& subject, Random& random, Kind kind) {
   std::array<double, 6> mixture{};
   for (double& weight : mixture) weight = random.one_in(2) ? random.uniform() : 0;
   const bool exactly = random.one_in(2);
@@ -230,39 +269,45 @@ Query search_miss(const Subject& subject, Random& random, Kind kind) {
     const SearchPoint m = placed(anywhere);
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
-    const bool hit = subject.decide(query).hit;
+    const auto answer = subject.ask(query);
+    if (!answer) return nothing;
+    if (answer->fault == Fault::time) return HUGE_VAL;
+    const bool hit = answer->hit;
     if (!(hit && exactly) && !collides(query)) return nothing;
     if (!hit) return HUGE_VAL;
-    const double needed = subject.needed_tolerance(query);
-    if (!std::isnan(needed)) return std::log2(needed);
+    const double needed = subject->needed_tolerance(query);
+    if (!std::isnan(needed)) return log2_of(needed);
     double sum = 0;
     const auto hard = hardness(kind, contact_of(kind, m), m.w);
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
     return sum;
   };
-  const double smallest = exactly ? usually_smallest : smallest_for(subject, random, kind);
+  const double smallest = exactly ? usually_smallest : smallest_for(*subject, random, kind);
   return query_of(
       kind, placed(Maximiser(random, true, smallest, objective).run([&] { return draw(random, smallest); })));
 }
 
-Query search_far(const Subject& subject, Random& random, Kind kind) {
+Query search_far(const Searched& subject, Random& random, Kind kind) {
   const auto objective = [&](const SearchPoint& m) {
     const Query query = query_of(kind, m);
     if (!is_finite(query)) return nothing;
-    if (!subject.decide(query).hit) {
-      const double needed = subject.needed_tolerance(query);
-      return std::isnan(needed) ? -1 : -std::log2(needed);
+    const auto answer = subject.ask(query);
+    if (!answer) return nothing;
+    if (answer->fault == Fault::time) return HUGE_VAL;
+    if (!answer->hit) {
+      const double needed = subject->needed_tolerance(query);
+      return std::isnan(needed) ? -1 : -log2_of(needed);
     }
     if (collides(query)) return 0.0;
-    const double bound = subject.claims_bound() ? subject.distance_bound(query) : reach(subject, query);
+    const double bound = subject->claims_bound() ? subject->distance_bound(query) : reach(*subject, query);
     const double ratio = closest_ratio(query, bound);
-    if (!subject.claims_bound()) return ratio;
+    if (!subject->claims_bound()) return ratio;
     return ratio >= 1 && distance_exceeds(query, bound) ? HUGE_VAL : std::min(ratio, 1.0);
   };
-  const double smallest = smallest_for(subject, random, kind);
+  const double smallest = smallest_for(*subject, random, kind);
   return query_of(kind, Maximiser(random, false, smallest, objective).run([&] {
     SearchPoint m = draw(random, smallest);
-    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(subject, query_of(kind, m)));
+    m.gap = random.vector(log_uniform(random, 1e-4, 2) * reach(*subject, query_of(kind, m)));
     return m;
   }));
 }
@@ -279,15 +324,19 @@ Family search(std::string name, std::string about, std::function<Query(Random&, 
 
 }  // namespace
 
-Family miss_search(const Subject& subject) {
+Family miss_search(const Subject& subject, const Stop& stop) {
   return search(std::string(miss_search_family) + subject.name(),
                 "collisions that are nearly missed, by directed search",
-                [&subject](Random& random, Kind kind) { return search_miss(subject, random, kind); });
+                [searched = std::make_shared<Searched>(subject, stop)](Random& random, Kind kind) {
+                  return search_miss(*searched, random, kind);
+                });
 }
 
-Family far_search(const Subject& subject) {
+Family far_search(const Subject& subject, const Stop& stop) {
   return search(std::string(far_search_family) + subject.name(), "far false positives, by directed search",
-                [&subject](Random& random, Kind kind) { return search_far(subject, random, kind); });
+                [searched = std::make_shared<Searched>(subject, stop)](Random& random, Kind kind) {
+                  return search_far(*searched, random, kind);
+                });
 }
 
 }  // namespace nearmiss

@@ -4,6 +4,7 @@
 
 #include "ccd/subject.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/stop.hpp"
 
 namespace nearmiss {
 
@@ -18,13 +19,14 @@ inline constexpr int search_evaluations = 2000;
 /// the primitives still meet. The search maximises the subject's needed tolerance. If the subject gives none,
 /// it maximises a random mixture of properties that make a contact hard: a grazing motion, a small angle
 /// between the primitives, a small weight, unequal edges, a time near 0 or 1. It starts at random points and
-/// continues from the best one so far. The subject must outlive the family.
-Family miss_search(const Subject& subject);
+/// continues from the best one so far. A search ends with a query over the subject's time limit; after a few of these,
+/// the subject is not asked any more. Making a query throws Stopped when `stop` is due. The subject and `stop` must
+/// outlive the family.
+Family miss_search(const Subject& subject, const Stop& stop = Stop::never());
 
 /// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
 /// the bound that the subject claims, or to wang's bound if it claims none. A false positive that refutes the
-/// bound ends the search. If a search finds no false positive, it returns another query. The subject must
-/// outlive the family.
-Family far_search(const Subject& subject);
+/// bound ends the search. If a search finds no false positive, it returns another query. Otherwise as miss_search.
+Family far_search(const Subject& subject, const Stop& stop = Stop::never());
 
 }  // namespace nearmiss

@@ -95,7 +95,7 @@ class CandidateFinder::Boxes {
 
   [[nodiscard]] std::size_t parts() const { return borders_.size() - 1; }
 
-  std::uint64_t find(std::size_t part, const CandidateSink& sink, const Stop& stop) const {
+  std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const {
     const auto at = [](const std::vector<Box>& boxes, std::size_t i) {
       return boxes.begin() + static_cast<std::ptrdiff_t>(i);
     };
@@ -112,13 +112,13 @@ class CandidateFinder::Boxes {
     // Up to this number of boxes, all pairs are compared. CGAL's default, 10, takes twice as long on meshes
     // of 64,000 triangles.
     constexpr std::ptrdiff_t scanned = 200;
-    CandidatePasser passer(mesh_, kind_, sink, stop);
+    CandidatePasser passer(mesh_, kind_, sink, is_over);
     const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };
     try {
       if (kind_ == Kind::edge_edge)
         CGAL::box_self_intersection_d(part_boxes.begin(), part_boxes.end(), pass, scanned);
       CGAL::box_intersection_d(near.begin(), near.end(), part_boxes.begin(), part_boxes.end(), pass, scanned);
-    } catch (const CandidatePasser::Stopped&) {
+    } catch (const Stopped&) {
     }
     return passer.sharing();
   }
@@ -137,16 +137,17 @@ CandidateFinder::~CandidateFinder() = default;
 
 std::size_t CandidateFinder::parts() const { return boxes_->parts(); }
 
-std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink, const Stop& stop) const {
-  return boxes_->find(part, sink, stop);
+std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
+                                    const IsOver& is_over) const {
+  return boxes_->find(part, sink, is_over);
 }
 
 std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                              const Stop& stop) {
+                              const IsOver& is_over) {
   const CandidateFinder finder(mesh, kind);
   std::uint64_t sharing = 0;
-  for (std::size_t part = 0; part < finder.parts() && !stop(); ++part)
-    sharing += finder.find(part, sink, stop);
+  for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
+    sharing += finder.find(part, sink, is_over);
   return sharing;
 }
 

@@ -2,30 +2,28 @@
 #pragma once
 
 #include "fuzz/scenes/candidates.hpp"
+#include "fuzz/stop.hpp"
 
 namespace nearmiss {
 
 /// Passes on pairs of primitives, and counts those that have a common vertex.
 class CandidatePasser {
  public:
-  CandidatePasser(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop)
-      : mesh_(mesh), kind_(kind), sink_(sink), stop_(stop) {}
+  CandidatePasser(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const IsOver& is_over)
+      : mesh_(mesh), kind_(kind), sink_(sink), is_over_(is_over) {}
 
   /// Passes on the pair of vertex i and triangle j, or of edges i and j. Throws Stopped if the search must
-  /// end.
+  /// end, because the enumerations of libraries cannot be left in another way.
   void pass(std::size_t i, std::size_t j);
 
   /// The number of pairs with a common vertex.
   [[nodiscard]] std::uint64_t sharing() const { return sharing_; }
 
-  /// Thrown to end a search, because the enumerations of libraries cannot be left in another way.
-  struct Stopped {};
-
  private:
   const MovingMesh& mesh_;
   Kind kind_;
   const CandidateSink& sink_;
-  const Stop& stop_;
+  const IsOver& is_over_;
   std::uint64_t passed_ = 0;
   std::uint64_t sharing_ = 0;
 };

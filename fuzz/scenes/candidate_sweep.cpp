@@ -73,11 +73,11 @@ void sweep(const std::vector<SweptBox>& all, CandidatePasser& passer) {
 }  // namespace
 
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                                       const Stop& stop) {
-  CandidatePasser passer(mesh, kind, sink, stop);
+                                       const IsOver& is_over) {
+  CandidatePasser passer(mesh, kind, sink, is_over);
   try {
     sweep(sorted_boxes(mesh, kind), passer);
-  } catch (const CandidatePasser::Stopped&) {
+  } catch (const Stopped&) {
   }
   return passer.sharing();
 }

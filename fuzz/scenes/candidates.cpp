@@ -30,7 +30,7 @@ std::optional<Candidate> edge_edge(const MovingMesh& mesh, std::size_t i, std::s
 
 void CandidatePasser::pass(std::size_t i, std::size_t j) {
   constexpr std::uint64_t now_and_then = 1 << 16;
-  if (++passed_ % now_and_then == 0 && stop_()) throw Stopped();
+  if (++passed_ % now_and_then == 0 && is_over_()) throw Stopped();
   const auto candidate =
       kind_ == Kind::vertex_triangle ? vertex_triangle(mesh_, i, j) : edge_edge(mesh_, i, j);
   if (candidate)
@@ -44,13 +44,13 @@ std::size_t pair_rows(const MovingMesh& mesh, Kind kind) {
 }
 
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
-                               const Stop& stop) {
-  CandidatePasser passer(mesh, kind, sink, stop);
+                               const IsOver& is_over) {
+  CandidatePasser passer(mesh, kind, sink, is_over);
   const bool of_edges = kind == Kind::edge_edge;
   const std::size_t end = of_edges ? mesh.edges.size() : mesh.triangles.size();
   try {
     for (std::size_t i = of_edges ? row + 1 : 0; i < end; ++i) passer.pass(row, i);
-  } catch (const CandidatePasser::Stopped&) {
+  } catch (const Stopped&) {
   }
   return passer.sharing();
 }

@@ -28,7 +28,7 @@ Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 using CandidateSink = std::function<void(const Candidate&)>;
 
 /// Returns whether to end early.
-using Stop = std::function<bool()>;
+using IsOver = std::function<bool()>;
 
 /// Finds the pairs of a kind whose swept boxes meet (closed boxes: touching counts). The search is divided
 /// into parts, which can be searched in any order and by any thread. The parts only depend on the mesh, which
@@ -43,9 +43,9 @@ class CandidateFinder {
   [[nodiscard]] std::size_t parts() const;
 
   /// Passes on each pair of a part without a common vertex once, and returns the number of pairs with a
-  /// common vertex. Nothing is stored, so a scene of any size can be streamed. `stop` is called now and then,
+  /// common vertex. Nothing is stored, so a scene of any size can be streamed. `is_over` is called now and then,
   /// and ends the search.
-  std::uint64_t find(std::size_t part, const CandidateSink& sink, const Stop& stop) const;
+  std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
   class Boxes;
@@ -53,7 +53,8 @@ class CandidateFinder {
 };
 
 /// Finds all candidates of a kind, part by part. Returns the number of pairs with a common vertex.
-std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop);
+std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
+                              const IsOver& is_over);
 
 /// Finds all candidates of both kinds, vertex-triangle pairs first.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
@@ -62,7 +63,7 @@ void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
 /// box with those that begin before it ends. The two searches share no code except the test for a common
 /// vertex.
 std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                                       const Stop& stop);
+                                       const IsOver& is_over);
 
 /// The number of rows of all pairs of a kind, whether their boxes meet or not. A row has the pairs of one
 /// vertex with all triangles, or of one edge with all edges after it.
@@ -71,6 +72,6 @@ std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 /// Passes on each pair of a row without a common vertex, and returns the number of pairs with a common
 /// vertex.
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
-                               const Stop& stop);
+                               const IsOver& is_over);
 
 }  // namespace nearmiss

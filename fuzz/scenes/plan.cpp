@@ -101,14 +101,14 @@ Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out) : mesh_(mesh), leave_out_
 }
 
 Funnels Plan::follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
-                     const Stop& stop) const {
+                     const IsOver& is_over) const {
   const auto [kind, number] = parts_[part];
   FateTeller teller(mesh_, kind, leave_out_, ask, decided);
   const CandidateSink take = [&](const Candidate& candidate) { teller.take(candidate); };
   const auto start = Clock::now();
   const std::uint64_t sharing = leave_out_ == LeaveOut::nothing
-                                    ? for_pairs_of_row(mesh_, kind, number, take, stop)
-                                    : finders_.at(kind).find(number, take, stop);
+                                    ? for_pairs_of_row(mesh_, kind, number, take, is_over)
+                                    : finders_.at(kind).find(number, take, is_over);
   const std::uint64_t finding_ns = since(start) - teller.nanoseconds();
   Funnel funnel = teller.finish();
   funnel[PairFate::share_vertex] = sharing;
@@ -127,14 +127,14 @@ Funnels Plan::rest(const Funnels& parts) const {
   return rest;
 }
 
-Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const Stop& stop) {
+Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const IsOver& is_over) {
   Funnels sum;
   const auto add = [&](const Funnels& funnels) {
     for (const auto& [kind, funnel] : funnels) sum[kind].merge(funnel);
   };
-  for (std::size_t part = 0; part < plan.parts() && !stop(); ++part)
-    add(plan.follow(part, ask, decided, stop));
-  if (!stop()) add(plan.rest(sum));
+  for (std::size_t part = 0; part < plan.parts() && !is_over(); ++part)
+    add(plan.follow(part, ask, decided, is_over));
+  if (!is_over()) add(plan.rest(sum));
   return sum;
 }
 

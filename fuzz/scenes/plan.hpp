@@ -50,8 +50,9 @@ class Plan {
 
   /// Passes on the pairs of a part. `ask` gets the pairs that a subject must decide, at most 1,000 at a time.
   /// `decided`, if given, gets the pairs that are decided without a subject. Nothing is stored. Pairs whose
-  /// boxes do not meet are in no part. `stop` is called now and then, and ends the part.
-  Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided, const Stop& stop) const;
+  /// boxes do not meet are in no part. `is_over` is called now and then, and ends the part.
+  Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
+                 const IsOver& is_over) const;
 
   /// The funnels of everything that is in no part: the pairs whose boxes do not meet, and the time that
   /// making the parts took. `parts` is the sum of all parts.
@@ -66,6 +67,6 @@ class Plan {
 };
 
 /// Follows all parts of a plan, one after the other.
-Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const Stop& stop);
+Funnels follow_plan(const Plan& plan, const AskSink& ask, const DecidedSink& decided, const IsOver& is_over);
 
 }  // namespace nearmiss

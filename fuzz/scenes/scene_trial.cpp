@@ -15,7 +15,7 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_o
   const std::string name = step_name(scene_, step);
   const Plan plan(mesh, leave_out);
   PartResult sum;
-  for (std::size_t first = 0; first < plan.parts() && !trials_.stop();) {
+  for (std::size_t first = 0; first < plan.parts() && !trials_.stop().is_due();) {
     std::vector<PartResult> parts(std::min(trials_.at_once(), plan.parts() - first));
     sink_(trials_.hold(parts.size(),
                        [&](std::size_t i) { return hold_part(name, plan, first + i, parts[i]); }));
@@ -27,7 +27,7 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_o
     progress(static_cast<double>(first) / static_cast<double>(plan.parts()));
   }
   TrialResult counted;
-  for (const Funnels& funnels : {sum.funnels, trials_.stop() ? Funnels{} : plan.rest(sum.funnels)})
+  for (const Funnels& funnels : {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan.rest(sum.funnels)})
     for (const auto& [kind, funnel] : funnels) counted.statistics.funnels[{name, kind}].merge(funnel);
   sink_(std::move(counted));
   if (sum.marks.size() > marks_.size()) {
@@ -63,7 +63,7 @@ TrialResult SceneTrial::hold_part(const std::string& name, const Plan& plan, std
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {
     if (collides) part.marks.add_collision(candidate);
   };
-  part.funnels = plan.follow(number, ask, decided, [&] { return trials_.stop().load(); });
+  part.funnels = plan.follow(number, ask, decided, [&] { return trials_.stop().is_due(); });
   return result;
 }
 

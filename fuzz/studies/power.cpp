@@ -18,7 +18,7 @@ std::uint64_t index_of(const Finding& finding) {
 }  // namespace
 
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
-                                               const std::atomic<bool>& stop) {
+                                               const Stop& stop) {
   std::optional<FirstFailure> first;
   CampaignProgress before;
   run_campaign(

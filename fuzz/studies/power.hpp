@@ -20,6 +20,6 @@ struct FirstFailure {
 /// Runs a campaign until a subject misses a collision or its distance bound is refuted; nothing if the
 /// campaign ends before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
-                                               const std::atomic<bool>& stop);
+                                               const Stop& stop);
 
 }  // namespace nearmiss

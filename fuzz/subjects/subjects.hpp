@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ccd/subject.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
 
 namespace nearmiss {
 
@@ -14,9 +15,10 @@ namespace nearmiss {
 std::vector<SubjectInfo> all_subjects();
 
 /// Makes a built-in subject, "NAME:SCALAR" (ladder/scalars.hpp), "defect:NAME" (defects.hpp), or the plug-in
-/// at a path, which runs in this process. `given_bound` is as for make_subject. Throws Error for an unknown
-/// name.
+/// at a path, which runs in processes of its own (isolation/) under `limits`. `given_bound` is as for
+/// make_subject. Throws Error for an unknown name.
 std::unique_ptr<Subject> make_any_subject(std::string_view name_or_path,
-                                          std::optional<double> given_bound = std::nullopt);
+                                          std::optional<double> given_bound = std::nullopt,
+                                          const isolation::PluginLimits& limits = {});
 
 }  // namespace nearmiss

@@ -17,10 +17,12 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
                                                             const Truth& truth) const {
   Outcome outcome{.verdict = verdict, .collision = truth.collision()};
+  if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
   if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
   const BoundAnswer unit = ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;
+  if (unit.fault != Fault::none) outcome.fault_text = subject_.fault_text(outcome.verdict);
   const bool counts = unit.fault == Fault::none && !std::isinf(unit.bound);
   return {outcome, counts ? std::optional(unit.bound) : std::nullopt};
 }
@@ -48,8 +50,9 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
   const Kind kind = truth.query().kind;
+  if (outcome.verdict.fault == Fault::not_asked) return std::nullopt;
   if (outcome.verdict.fault != Fault::none)
-    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict)};
+    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict, outcome.fault_text)};
   if (outcome.collision && !outcome.verdict.hit)
     return Failure{Finding::What::false_negative, truth.contact()};
   if (outcome.bound_refuted)

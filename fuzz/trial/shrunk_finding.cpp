@@ -8,11 +8,15 @@ namespace nearmiss {
 
 namespace {
 
-Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject) {
+/// What was found in the last moment of a campaign's time is still shrunk.
+constexpr std::chrono::milliseconds grace{1000};
+
+Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, const Stop& stop) {
   constexpr int most_late = 8;  // each query over its time limit takes the full limit
   int late = 0;
   const Judge judge(subject);
   const Query shrunk_query = shrunk(finding.query, [&](const Query& query) {
+    stop.check(grace);
     try {
       if (late == most_late) return false;
       const auto failure = judge.failure(query);
@@ -27,16 +31,17 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject) 
 
 }  // namespace
 
-Query shrunk_query(const Finding& finding, const Subject* subject) {
+Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop) {
   switch (finding.what) {
     case Finding::What::truth_mismatch:
       return finding.query;
     case Finding::What::oracle_disagreement:
       return shrunk(finding.query, [&](const Query& query) {
+        stop.check(grace);
         return oracle_failure(query) == Failure{finding.what, finding.signature};
       });
     default:
-      return shrunk_failure_of_subject(finding, *subject);
+      return shrunk_failure_of_subject(finding, *subject, stop);
   }
 }
 

@@ -3,13 +3,14 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
+#include "fuzz/stop.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
 
 /// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure
 /// of the oracle. A query that the subject refuses does not fail. A contradiction to a recorded truth cannot
-/// be shrunk, because the truth is known for one query only.
-Query shrunk_query(const Finding& finding, const Subject* subject);
+/// be shrunk, because the truth is known for one query only. Throws Stopped.
+Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop = Stop::never());
 
 }  // namespace nearmiss

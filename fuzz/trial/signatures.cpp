@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "oracle/features.hpp"
+#include "reports/text/printable.hpp"
 
 namespace nearmiss {
 
@@ -11,6 +12,20 @@ namespace {
 
 std::string signature(Kind kind, std::string_view features) {
   return std::string(short_name(kind)).append(" ").append(features);
+}
+
+/// The text with # for each number, and cut.
+std::string without_numbers(std::string_view text) {
+  constexpr std::size_t most = 80;
+  std::string result;
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    const bool goes_on = !result.empty() && result.back() == '#' && (digit || c == '.');
+    if (!goes_on) result += digit ? '#' : c;
+  }
+  if (result.size() <= most) return result;
+  result.resize(most);
+  return printable(result);
 }
 
 }  // namespace
@@ -24,7 +39,7 @@ std::string report_signature(Kind kind, Stage stage) {
   return signature(kind, stage_names[static_cast<std::size_t>(stage)]);
 }
 
-std::string fault_signature(Kind kind, const Verdict& verdict) {
+std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text) {
   const std::string name(fault_names[static_cast<std::size_t>(verdict.fault)]);
   switch (verdict.fault) {
     case Fault::crash: {
@@ -32,6 +47,8 @@ std::string fault_signature(Kind kind, const Verdict& verdict) {
       const char* const abbreviation = sigabbrev_np(verdict.fault_code);
       return signature(kind, name + " " + (abbreviation != nullptr ? abbreviation : "of an unknown signal"));
     }
+    case Fault::exception:
+      return signature(kind, name + " " + without_numbers(text));
     case Fault::error:
       return signature(kind, name + " " + std::to_string(verdict.fault_code));
     default:

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
@@ -17,9 +18,10 @@ std::string contact_signature(const Query& query);
 /// The signature of a report beyond the bound: the stage that accepted, such as "ee ve-minimum".
 std::string report_signature(Kind kind, Stage stage);
 
-/// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7" or
-/// "vt time".
-std::string fault_signature(Kind kind, const Verdict& verdict);
+/// The signature of a fault: why there is no answer, such as "ee crash SEGV", "vt exit 3", "ee error -7", "vt time" or
+/// "vt exception no root in [#, #]". `text` is what an exception said; its numbers become #, so that exceptions that
+/// differ by numbers alone have one signature.
+std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
 
 /// The signature of a disagreement between the exact methods, or between them and the filter if it decided.
 /// It lists the answers, such as "vt collision (no: filter; yes: exact, sturm, parity)"; "" if they agree.

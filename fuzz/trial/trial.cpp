@@ -80,20 +80,25 @@ void TrialResult::merge(TrialResult&& other) {
 
 namespace {
 
-/// A trial over one batch, step by step.
-class Trial {
+/// Judges the answers to a batch, step by step.
+class Judging {
  public:
-  Trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison)
-      : subjects_(subjects), batch_(batch), comparison_(comparison), decisions_(batch.queries.size()) {
-    for (const auto& subject : subjects)
-      counts_.push_back(&result_.statistics.counts[{subject->name(), batch.kind, batch.family}]);
+  using Answers = std::vector<std::vector<Verdict>>;
+
+  Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Answers& answers,
+          const std::vector<SubjectTimes>& times)
+      : subjects_(subjects),
+        batch_(batch),
+        comparison_(comparison),
+        answers_(answers),
+        decisions_(batch.queries.size()) {
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+      counts_.push_back(&result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}]);
+      counts_.back()->times = times[s];
+    }
   }
 
   TrialResult run() {
-    check_coordinates();
-    for (std::size_t s = 0; s < subjects_.size(); ++s) {
-      answers_.push_back(decide_all(*subjects_[s], batch_, counts_[s]->times));
-    }
     decide(batch_.queries, decisions_);
     if (comparison_.near_bounds) near_ = near_bounds(batch_, decisions_);
     for (const auto& subject : subjects_) {
@@ -112,15 +117,6 @@ class Trial {
   }
 
  private:
-  /// Checks all coordinates. This also fetches all queries from memory, which would otherwise count in the
-  /// time of the first subject.
-  void check_coordinates() const {
-    for (std::size_t i = 0; i < batch_.queries.size(); ++i)
-      if (!is_finite(batch_.queries[i]))
-        throw Error("found a coordinate that is not finite (" + batch_.provenance(i) +
-                    "), expected finite numbers");
-  }
-
   /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
   /// methods.
   void try_oracle(std::size_t i, Truth& truth) {
@@ -145,7 +141,7 @@ class Trial {
   }
 
   void compare_methods(std::size_t i, const Truth& truth, OracleCounts& counts) {
-    const Answers answers = truth.ask_methods();
+    const nearmiss::Answers answers = truth.ask_methods();
     ++counts.compared;
     counts.compared_collisions += answers.collision() ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
@@ -169,25 +165,49 @@ class Trial {
     const double ratio = outcome.bound_refuted ? outcome.ratio : 0;
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
+    result_.findings.back().place = i;
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }
 
   const Subjects& subjects_;
   const Batch& batch_;
   const Comparison& comparison_;
+  const Answers& answers_;  // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;                // by subject, in the result
-  std::vector<std::vector<Verdict>> answers_;  // by subject and query
-  std::vector<Judge> judges_;                  // by subject
-  std::vector<Rounded> rounded_;               // by subject
-  std::vector<Decision> decisions_;            // by query
-  std::vector<bool> near_;                     // by query; empty if not asked for
+  std::vector<Counts*> counts_;      // by subject, in the result
+  std::vector<Judge> judges_;        // by subject
+  std::vector<Rounded> rounded_;     // by subject
+  std::vector<Decision> decisions_;  // by query
+  std::vector<bool> near_;           // by query; empty if not asked for
 };
+
+/// Checks all coordinates. This also fetches all queries from memory, which would otherwise count in the time of the
+/// first subject.
+void check_coordinates(const Batch& batch) {
+  for (std::size_t i = 0; i < batch.queries.size(); ++i)
+    if (!is_finite(batch.queries[i]))
+      throw Error("found a coordinate that is not finite (" + batch.provenance(i) +
+                  "), expected finite numbers");
+}
 
 }  // namespace
 
+Trial::Trial(const Subjects& subjects, Batch batch, const Comparison& comparison)
+    : subjects_(subjects), batch_(std::move(batch)), comparison_(comparison), times_(subjects.size()) {}
+
+void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
+  check_coordinates(batch_);
+  const std::vector<Verdict> not_asked(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
+  for (std::size_t s = 0; s < subjects_.size(); ++s)
+    answers_.push_back(asks(s) ? decide_all(*subjects_[s], batch_, times_[s]) : not_asked);
+}
+
+TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }
+
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
-  return Trial(subjects, batch, comparison).run();
+  Trial trial(subjects, batch, comparison);
+  trial.ask([](std::size_t /*subject*/) { return true; });
+  return trial.judge();
 }
 
 }  // namespace nearmiss

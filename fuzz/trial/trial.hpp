@@ -30,7 +30,7 @@ struct Batch {
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 };
 
-/// The result of a trial.
+/// The result of a trial. The place of a finding is that of its query in the batch.
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
@@ -57,9 +57,34 @@ struct Comparison {
   }
 };
 
-/// Puts the subjects on trial over a batch. Each subject is timed over the whole batch, separately from the
-/// oracle. Every answer is judged by `Judge`. A subject that rounds coordinates is judged on the rounded
-/// query, which is also the query that is kept. Throws Error for a coordinate that is not finite.
+/// A trial in two steps, so that what a subject was asked can be changed between them.
+class Trial {
+ public:
+  Trial(const Subjects& subjects, Batch batch, const Comparison& comparison = {});
+
+  [[nodiscard]] std::size_t subjects() const { return subjects_.size(); }
+  [[nodiscard]] CountsKey key(std::size_t subject) const {
+    return {subjects_[subject]->name(), batch_.kind, batch_.family};
+  }
+
+  /// Asks the subjects. Each is timed over the whole batch, separately from the oracle. A subject for which `asks` is
+  /// false is not asked. Throws Error for a coordinate that is not finite.
+  void ask(const std::function<bool(std::size_t subject)>& asks);
+  /// A subject's answers, by query.
+  [[nodiscard]] std::vector<Verdict>& answers(std::size_t subject) { return answers_[subject]; }
+  /// Judges all answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is also the
+  /// query that is kept. Can be called again after the answers have changed.
+  TrialResult judge();
+
+ private:
+  const Subjects& subjects_;
+  Batch batch_;
+  Comparison comparison_;
+  std::vector<std::vector<Verdict>> answers_;  // by subject and query
+  std::vector<SubjectTimes> times_;            // by subject
+};
+
+/// Puts the subjects on trial over a batch. Throws Error for a coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
 
 }  // namespace nearmiss

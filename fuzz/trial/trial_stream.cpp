@@ -21,7 +21,7 @@ bool TrialStream::add(const std::string& family, const Query& query, std::option
     pending = {};
     if (full_.size() == trials_.at_once()) hold_trials();
   }
-  return !trials_.stop();
+  return !trials_.stop().is_due();
 }
 
 void TrialStream::finish() {

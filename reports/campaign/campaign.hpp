@@ -23,8 +23,7 @@ inline constexpr std::string_view until_the_time_is_over = "until the time is ov
 struct Shard {
   std::uint64_t index = 0;  ///< position among `count` shards, from 0
   std::uint64_t count = 1;
-  std::uint64_t rounds = 0;  ///< rounds of blocks that are done; a campaign resumes after them
-  std::uint64_t cases = 0;   ///< cases that the oracle decided
+  std::uint64_t cases = 0;  ///< cases that the oracle decided, in order; a campaign resumes after them
   bool complete = false;
   std::string started = {};  ///< date and time, for people only: clocks jump
   double seconds = 0;        ///< run time so far

@@ -39,7 +39,8 @@ struct Outcome {
   /// farthest and is not in the first bin. If the subject claims no bound, wang's bound for the same pair is
   /// used.
   double ratio = 0;
-  bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
+  bool bound_refuted = false;   ///< whether the distance certainly exceeds the claimed bound
+  std::string fault_text = {};  ///< what an exception said
 };
 
 /// Counters of one subject, kind and family.

@@ -41,25 +41,25 @@ Table<RunRow> runs() {
 }
 
 Table<ShardRow> shards() {
-  return {
-      "shard",
-      "PRIMARY KEY (run, \"index\"), FOREIGN KEY (run) REFERENCES run",
-      "run, \"index\"",
-      {run_column<Shard>(), content_column("index", &Shard::index), content_column("count", &Shard::count),
-       content_column("rounds", &Shard::rounds), content_column("cases", &Shard::cases),
-       content_column("complete", &Shard::complete), content_column("started", &Shard::started),
-       content_column("seconds", &Shard::seconds), content_column("environment", &Shard::environment)}};
+  return {"shard",
+          "PRIMARY KEY (run, \"index\"), FOREIGN KEY (run) REFERENCES run",
+          "run, \"index\"",
+          {run_column<Shard>(), content_column("index", &Shard::index),
+           content_column("count", &Shard::count), content_column("cases", &Shard::cases),
+           content_column("complete", &Shard::complete), content_column("started", &Shard::started),
+           content_column("seconds", &Shard::seconds), content_column("environment", &Shard::environment)}};
 }
 
 Table<FindingRow> findings() {
   return {"finding",
           "FOREIGN KEY (run) REFERENCES run",
           "rowid",
-          {run_column<Finding>(), content_column("round", &Finding::round),
+          {run_column<Finding>(), content_column("place", &Finding::place),
            content_column("what", &Finding::what), content_column("subject", &Finding::subject),
            content_column("family", &Finding::family), content_column("query", &Finding::query),
            content_column("provenance", &Finding::provenance), content_column("ratio", &Finding::ratio),
-           content_column("signature", &Finding::signature), content_column("shrunk", &Finding::shrunk)}};
+           content_column("signature", &Finding::signature), content_column("shrunk", &Finding::shrunk),
+           content_column("is_shrunk", &Finding::is_shrunk)}};
 }
 
 Table<PictureRow> pictures() {
@@ -96,6 +96,11 @@ void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard) {
 
 void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> some) {
   findings().write(db, rows_of(run, some));
+}
+
+void replace_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> all) {
+  db.exec("DELETE FROM finding");
+  write_findings(db, run, all);
 }
 
 void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> some) {

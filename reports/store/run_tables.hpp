@@ -22,6 +22,8 @@ void write_shard(SQLite::Database& db, std::uint64_t run, const Shard& shard);
 
 /// Appends findings to those of a run.
 void write_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> findings);
+/// Replaces all findings of the only run.
+void replace_findings(SQLite::Database& db, std::uint64_t run, std::span<const Finding> findings);
 
 /// Adds pictures of a run.
 void write_pictures(SQLite::Database& db, std::uint64_t run, std::span<const ScenePicture> pictures);

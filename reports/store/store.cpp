@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr int application_id = 0x6e656172;  // "near"
 
 /// Version of the tables and of their contents; every change raises it.
-constexpr int schema_version = 12;
+constexpr int schema_version = 13;
 
 void make_schema(SQLite::Database& db) {
   make_run_tables(db);
@@ -132,6 +132,10 @@ void Store::save(const Statistics& statistics, const Shard& shard, std::span<con
     write_shard(db, database_->run, shard);
     write_findings(db, database_->run, new_findings);
   });
+}
+
+void Store::replace(std::span<const Finding> findings) {
+  database_->change([&](SQLite::Database& db) { replace_findings(db, database_->run, findings); });
 }
 
 void Store::add(const ScenePicture& picture) {

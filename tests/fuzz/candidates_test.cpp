@@ -86,8 +86,8 @@ std::multiset<Candidate> candidates(const MovingMesh& mesh, Kind kind, const Fin
   return found;
 }
 
-std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const Stop& stop) {
-  return find_candidates(mesh, kind, sink, stop);
+std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink, const IsOver& is_over) {
+  return find_candidates(mesh, kind, sink, is_over);
 }
 
 TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {

@@ -15,7 +15,7 @@ std::optional<FirstFailure> first_failure(const std::string& subject, const std:
   CampaignPlan plan;
   plan.families = {find_family(family)};
   plan.cases = 20000;
-  return find_first_failure(plan, subjects, false);
+  return find_first_failure(plan, subjects, Stop::never());
 }
 
 TEST(FirstFailure, IsAMissOrARefutedBound) {

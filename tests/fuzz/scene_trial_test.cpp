@@ -23,12 +23,11 @@ struct Held {
 Held hold(const MovingMesh& mesh, int jobs) {
   Subjects subjects;
   for (const char* name : {"basic", "wang", "defect:lambda2*0.1"}) subjects.push_back(make_any_subject(name));
-  const std::atomic<bool> stop = false;
   Held held;
   const Scene scene{.name = "grids",
                     .mesh = {mesh.start, mesh.triangles, mesh.edges},
                     .points = [&](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
-  SiftedTrials trials(subjects, {.one_in = 16}, jobs, stop);
+  SiftedTrials trials(subjects, {.one_in = 16}, jobs, Stop::never());
   SceneTrial trial(scene, trials, [&](TrialResult&& result) { held.result.merge(std::move(result)); });
   double done = 0;
   trial.hold(0, mesh, LeaveOut::all, [&](double part) {

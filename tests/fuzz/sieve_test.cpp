@@ -32,7 +32,7 @@ std::vector<std::string> provenances(const std::vector<Finding>& findings) {
 
 TEST(Sieve, KeepsTheFirstOfEverySignature) {
   const Subjects subjects = basic();
-  const std::atomic<bool> stop{false};
+  const Stop& stop = Stop::never();
   Sieve sieve(subjects, 2, stop);
   std::vector<Finding> some{mismatch("a", 1), mismatch("a", 2), mismatch("b", 3)};
   sieve.sift(some);
@@ -44,7 +44,7 @@ TEST(Sieve, KeepsTheFirstOfEverySignature) {
 
 TEST(Sieve, CountsWhatWasKeptBefore) {
   const Subjects subjects = basic();
-  const std::atomic<bool> stop{false};
+  const Stop& stop = Stop::never();
   Sieve sieve(subjects, 2, stop);
   const std::vector<Finding> before{mismatch("a", 1), mismatch("a", 2)};
   sieve.know(before);
@@ -65,7 +65,7 @@ std::vector<Finding> missed(const Subjects& subjects) {
 
 TEST(Sieve, ShrinksWhatItKeeps) {
   const Subjects subjects = basic();
-  const std::atomic<bool> stop{false};
+  const Stop& stop = Stop::never();
   Sieve sieve(subjects, 2, stop);
   std::vector<Finding> findings = missed(subjects);
   const std::size_t before = findings.size();
@@ -81,7 +81,8 @@ TEST(Sieve, ShrinksWhatItKeeps) {
 
 TEST(Sieve, ShrinksNothingAfterARequestToStop) {
   const Subjects subjects = basic();
-  const std::atomic<bool> stop{true};
+  const std::atomic<bool> requested{true};
+  const Stop stop(requested);
   Sieve sieve(subjects, 2, stop);
   std::vector<Finding> findings = missed(subjects);
   sieve.sift(findings);

@@ -194,9 +194,8 @@ TEST(Trial, ComparesAllMethodsIfTheBatchAsksForIt) {
 
 TEST(TrialStream, DecidesEverythingInOrder) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
-  const std::atomic<bool> stop{false};
   TrialResult sum;
-  SiftedTrials trials(subjects, {}, 2, stop);
+  SiftedTrials trials(subjects, {}, 2, Stop::never());
   TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });
   constexpr int count = 12345;
   for (int i = 0; i < count; ++i)
@@ -212,7 +211,8 @@ TEST(TrialStream, DecidesEverythingInOrder) {
 
 TEST(TrialStream, DecidesNothingAfterARequestToStop) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
-  const std::atomic<bool> stop{true};
+  const std::atomic<bool> requested{true};
+  const Stop stop(requested);
   TrialResult sum;
   SiftedTrials trials(subjects, {}, 2, stop);
   TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });

@@ -7,6 +7,11 @@
 #ifndef ANSWER
 #define ANSWER 1
 #endif
+#ifdef BAD_NAME
+#define NAME "=1+1\033[31m\xff"
+#else
+#define NAME "always"
+#endif
 #ifndef ABI
 #define ABI NEARMISS_SUBJECT_ABI
 #endif
@@ -33,6 +38,6 @@ static double distance_bound(const double* x, int is_edge_edge) {
 #define distance_bound NULL
 #endif
 
-static const nearmiss_subject subject = {ABI, "always", "1.0", answer, answer, distance_bound};
+static const nearmiss_subject subject = {ABI, NAME, "1.0", answer, answer, distance_bound};
 
 const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }

@@ -26,7 +26,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   made.subject = "basic";
   made.provenance = provenance;
   made.signature = signature;
-  made.round = round;
+  made.place = round;
   made.shrunk = testing::falling_edge(shrunk, -1);
   return made;
 }
@@ -34,7 +34,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
 /// Shard `shard` of three, with a finding in each of its rounds 0 .. 9. The signature is "s", and "t" from
 /// round 5 on.
 Campaign shard_of_three(std::uint64_t shard) {
-  Run run{info, {{.index = shard, .count = 3, .rounds = 4, .complete = true}}, {}};
+  Run run{info, {{.index = shard, .count = 3, .complete = true}}, {}};
   for (std::uint64_t round = shard; round < 10; round += 3)
     for (const char* signature : {"s", "t"})
       if (round >= 5 || *signature == 's')

@@ -106,6 +106,12 @@ TEST(Csv, OneRowASubjectKindAndFamily) {
   EXPECT_THAT(text, HasSubstr("\nwang,vt,\"fam,\"\"ily\",3,2,2,1,"));
 }
 
+TEST(Csv, ANameThatBeginsLikeAFormulaIsText) {
+  for (const char* name : {"=1+1", "+1", "-1", "@SUM(A1)"})
+    EXPECT_THAT(statistics_csv(some_campaign(name).statistics),
+                HasSubstr(std::string("\n'") + name + ",vt,"));
+}
+
 TEST(Csv, AFindingHasItsShrunkQueryBesideItsOwn) {
   const std::string text = findings_csv(some_campaign("wang"));
   EXPECT_THAT(

@@ -92,7 +92,7 @@ Finding some_finding(const std::string& provenance) {
 const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
 const Shard shard{.index = 2,
                   .count = 5,
-                  .rounds = 77,
+                  .cases = 77,
                   .complete = true,
                   .started = "2026-01-02T03:04:05Z",
                   .seconds = 12.5,
@@ -102,7 +102,7 @@ TEST_F(StoreTest, GivesBackWhatWasSaved) {
   const std::vector findings{some_finding("uniform:1:5"), some_finding("uniform:1:3")};
   {
     Shard before = shard;
-    before.rounds = 3;
+    before.cases = 3;
     Store store(file("a.db"), info, before);
     store.save({}, before, std::span(findings).first(1));
     store.save(some_statistics("wang"), shard, std::span(findings).last(1));
@@ -137,7 +137,7 @@ TEST_F(StoreTest, GoesOn) {
   const Finding second = some_finding("second");
   Store(file("a.db"), info, shard).save({}, shard, std::span(&first, 1));
   Shard later = shard;
-  later.rounds = 78;
+  later.cases = 78;
   Store(file("a.db")).save(some_statistics("wang"), later, std::span(&second, 1));
   const Campaign campaign = load_campaign(file("a.db"));
   EXPECT_EQ(campaign.runs, (std::vector<nearmiss::Run>{{info, {later}, {first, second}, {}}}));
@@ -238,7 +238,7 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
   sqlite3_exec(db, "PRAGMA user_version = 7", nullptr, nullptr, nullptr);
   sqlite3_close(db);
   EXPECT_THAT([&] { load_campaign(file("old.db")); },
-              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 12")));
+              ThrowsMessage<Error>(HasSubstr("old.db: found store version 7, expected 13")));
 }
 
 TEST_F(StoreTest, AFolderThatIsNotThere) {

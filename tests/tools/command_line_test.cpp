@@ -209,7 +209,7 @@ TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
 }
 
 TEST_F(CommandLine, PowerResumesWhereItStopped) {
-  const std::string command = "power --time 1ms --way families,search --json new.json --subject ";
+  const std::string command = "power --time 1s --way families,search --json new.json --subject ";
   const Output output = run(command + "defect:vertex-edge");
   EXPECT_EQ(output.code, 0) << output.error;
   EXPECT_THAT(output.out, HasSubstr("found, of 1"));

@@ -116,6 +116,19 @@ TEST_F(Resume, TimeThatIsSpentIsNotGivenAgain) {
   EXPECT_EQ(timeless_report("a.db"), report);
 }
 
+TEST_F(Resume, AStopDoesNotWaitForASubject) {
+  const std::string hangs = "fuzz --family uniform --subject wang," + plugin("hang") +
+                            " --query-time 24h --query-memory 0 --db a.db --resume --time ";
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Background hanging(file(""), hangs + "24h");
+    ASSERT_TRUE(hanging.wait_for_a_change(file("a.db-wal")));
+    hanging.stop(signal);
+    EXPECT_EQ(hanging.code(), 130);
+    EXPECT_EQ(run("report a.db -o report").code, 0);
+  }
+  EXPECT_EQ(run(hangs + "1s").code, 0);
+}
+
 TEST_F(Resume, OneProcessWritesAStore) {
   Background first(file(""), "fuzz --time 24h --db a.db");
   ASSERT_TRUE(first.wait_for_a_change(file("a.db-wal")));

@@ -1,11 +1,11 @@
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <mutex>
 #include <vector>
 
-#include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
 
@@ -15,43 +15,64 @@ namespace {
 
 using isolation::PluginLimits;
 using isolation::Request;
-using isolation::Shared;
 using isolation::WorkerFailure;
 using isolation::WorkerProcess;
 
+/// What exceptions said, by numbers that a verdict can hold. Many threads use it at once.
+class ExceptionTexts {
+ public:
+  /// The number of a text. Texts beyond the first thousand share one.
+  std::int32_t number(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    auto known = std::find(texts_.begin(), texts_.end(), text);
+    if (known == texts_.end()) known = texts_.insert(texts_.size() < most ? known : known - 1, text);
+    return static_cast<std::int32_t>(known - texts_.begin());
+  }
+
+  std::string text(std::int32_t number) const {
+    const std::lock_guard lock(mutex_);
+    return texts_.at(static_cast<std::size_t>(number));
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  mutable std::mutex mutex_;
+  std::vector<std::string> texts_;
+};
+
 class IsolatedPlugin final : public BatchSubject {
  public:
-  /// `first` is a worker that has loaded the plug-in at the path.
+  /// `first` is a worker with the plug-in at the path.
   IsolatedPlugin(std::string path, const PluginLimits& limits, std::unique_ptr<WorkerProcess> first)
-      : BatchSubject(first->shared().name.data()),
+      : BatchSubject(first->name()),
         path_(std::move(path)),
         limits_(limits),
-        claims_bound_(first->shared().claims_bound) {
+        claims_bound_(first->claims_bound()) {
     idle_.push_back(std::move(first));
   }
 
   using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    perform(Request::decide, queries, [&](const BatchPart& part) { part.answer(verdicts); });
+    perform(Request::decide, queries, [&](const Done& done) { answer(done, verdicts); });
   }
 
   BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     BatchTime sum;
-    perform(Request::decide_timed, queries, [&](const BatchPart& part) {
-      part.answer(verdicts);
-      if (part.failure) return;
-      sum.queries += part.end - part.first;
-      sum.nanoseconds += part.shared.nanoseconds;
+    perform(Request::decide_timed, queries, [&](const Done& done) {
+      answer(done, verdicts);
+      if (done.failure) return;
+      sum.queries += done.end - done.first;
+      sum.nanoseconds += done.worker.measured();
     });
     return sum;
   }
 
   void time_each(std::span<const Query> queries,
                  std::span<std::optional<std::uint64_t>> nanoseconds) const override {
-    perform(Request::time_each, queries, [&](const BatchPart& part) {
-      for (std::uint32_t i = part.first; i < part.end; ++i)
-        nanoseconds[part.start + i] = part.shared.answers[i].nanoseconds;
-      if (part.failure) nanoseconds[part.start + part.end].reset();
+    perform(Request::time_each, queries, [&](const Done& done) {
+      for (std::uint32_t i = done.first; i < done.end; ++i)
+        nanoseconds[done.start + i] = done.worker.measured(i);
+      if (done.failure) nanoseconds[done.start + done.end].reset();
     });
   }
 
@@ -60,16 +81,43 @@ class IsolatedPlugin final : public BatchSubject {
   [[nodiscard]] double distance_bound(const Query& query) const override { return ask_bound(query).bound; }
 
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
-    std::unique_ptr<WorkerProcess> worker = take();
-    fill(worker->shared(), std::span(&query, 1));
-    if (const auto failure = worker->perform(Request::bounds))
-      return {.fault = failure->fault, .fault_code = failure->code};
-    const double bound = worker->shared().answers[0].number;
-    give_back(std::move(worker));
-    return BoundAnswer::given(bound);
+    BoundAnswer answer;
+    perform(Request::bounds, std::span(&query, 1), [&](const Done& done) {
+      if (done.failure) {
+        answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+      } else {
+        answer = BoundAnswer::given(done.worker.answer(0).number);
+      }
+    });
+    return answer;
+  }
+
+  [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
+    return verdict.fault == Fault::exception ? exceptions_.text(verdict.fault_code) : "";
   }
 
  private:
+  /// What a worker did of a batch: the queries [first, end), and a failure at `end` if there is one.
+  struct Done {
+    const WorkerProcess& worker;
+    std::size_t start;  ///< index of the batch's first query among all queries
+    std::uint32_t first, end;
+    const std::optional<WorkerFailure>& failure;
+  };
+
+  void answer(const Done& done, std::span<Verdict> verdicts) const {
+    for (std::uint32_t i = done.first; i < done.end; ++i) {
+      const isolation::PluginAnswer& given = done.worker.answer(i);
+      verdicts[done.start + i] = plugin_verdict(given.value, given.number);
+    }
+    if (done.failure)
+      verdicts[done.start + done.end] = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
+  }
+
+  std::int32_t code_of(const WorkerFailure& failure) const {
+    return failure.fault == Fault::exception ? exceptions_.number(failure.exception) : failure.code;
+  }
+
   /// The size of the next batch: queries of one kind, up to batch_size.
   static std::size_t batch_at(std::span<const Query> queries) {
     std::size_t count = 1;
@@ -78,51 +126,61 @@ class IsolatedPlugin final : public BatchSubject {
     return count;
   }
 
-  void fill(Shared& shared, std::span<const Query> queries) const {
-    shared.kind = queries.front().kind;
-    shared.first = 0;
-    shared.count = static_cast<std::uint32_t>(queries.size());
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (!is_finite(queries[i])) refuse_coordinates(name());
-      shared.queries[i] = queries[i].x;
-    }
-  }
-
-  /// The part of a batch that one worker completed: queries [first, end), and a failure at `end` if the
-  /// worker ended there.
-  struct BatchPart {
-    const Shared& shared;
-    std::size_t start;  ///< index of the batch's first query among all queries
-    std::uint32_t first, end;
-    const std::optional<WorkerFailure>& failure;
-
-    void answer(std::span<Verdict> verdicts) const {
-      for (std::uint32_t i = first; i < end; ++i)
-        verdicts[start + i] = plugin_verdict(shared.answers[i].value, shared.answers[i].number);
-      if (failure) verdicts[start + end] = {.fault = failure->fault, .fault_code = failure->code};
-    }
-  };
-
-  /// Performs a request for all queries, with a new worker after each query at which a worker ended.
+  /// Has all queries done, batch by batch, and passes on what is done.
   template <class Take>
-  void perform(Request request, std::span<const Query> queries, const Take& take_part) const {
+  void perform(Request request, std::span<const Query> queries, const Take& take_done) const {
+    for (const Query& query : queries)
+      if (!is_finite(query)) refuse_coordinates(name());
     std::unique_ptr<WorkerProcess> worker = take();
+    std::uint64_t late = 0;
     for (std::size_t start = 0; start < queries.size();) {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
-      fill(worker->shared(), batch);
-      for (std::uint32_t first = 0; first < batch.size();) {
-        worker->shared().first = first;
-        const std::optional<WorkerFailure> failure = worker->perform(request);
-        const auto end = failure ? failure->query : static_cast<std::uint32_t>(batch.size());
-        take_part(BatchPart{worker->shared(), start, first, end, failure});
-        if (!failure) break;
-        first = end + 1;
-        worker = std::make_unique<WorkerProcess>(path_, limits_);
-        fill(worker->shared(), batch);
-      }
+      perform_batch(worker, request, batch, late,
+                    [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure) {
+                      take_done(Done{*worker, start, first, end, failure});
+                    });
       start += batch.size();
     }
     give_back(std::move(worker));
+  }
+
+  /// The same for one batch. A worker that fails is replaced, and goes on behind the query at which it failed. A call
+  /// that takes too long as a whole is repeated with fewer queries, at last with one. `late` counts the queries over the
+  /// time limit.
+  template <class Take>
+  void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
+                     std::uint64_t& late, const Take& take_part) const {
+    const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
+    worker->give(batch);
+    const auto size = static_cast<std::uint32_t>(batch.size());
+    for (std::uint32_t first = 0; first < size;) {
+      if (limits_.most_late != 0 && late >= limits_.most_late) {
+        take_part(first, first, not_asked);
+        ++first;
+        continue;
+      }
+      const std::uint32_t last = first + std::min(size - first, in_a_call_.load());
+      const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
+      adapt(last - first, *worker, failure);
+      if (!failure || !failure->of_call) {
+        const std::uint32_t end = failure ? failure->query : last;
+        take_part(first, end, failure);
+        first = failure ? end + 1 : end;
+      }
+      if (!failure) continue;
+      late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
+      worker = std::make_unique<WorkerProcess>(path_, limits_);
+      worker->give(batch);
+    }
+  }
+
+  /// Chooses how many queries a call has from now on.
+  void adapt(std::uint32_t count, const WorkerProcess& worker,
+             const std::optional<WorkerFailure>& failure) const {
+    constexpr std::uint32_t fewer = 8;
+    if (failure && failure->of_call) in_a_call_ = std::max(1U, count / fewer);
+    const bool quick = !failure && fewer * worker.elapsed() < isolation::call_limit * limits_.time;
+    if (quick && count == in_a_call_) in_a_call_ = std::min<std::uint32_t>(2 * count, isolation::batch_size);
   }
 
   std::unique_ptr<WorkerProcess> take() const {
@@ -145,6 +203,8 @@ class IsolatedPlugin final : public BatchSubject {
   std::string path_;
   PluginLimits limits_;
   bool claims_bound_;
+  mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
+  mutable ExceptionTexts exceptions_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

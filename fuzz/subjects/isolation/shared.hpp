@@ -1,4 +1,4 @@
-// The memory and the socket that a worker process and the asking process share.
+// Memory and sockets that a worker process shares with nearmiss.
 #pragma once
 
 #include <array>
@@ -9,35 +9,59 @@
 
 namespace nearmiss::isolation {
 
-/// The file descriptors with which a worker starts.
-inline constexpr int socket_descriptor = 3;  ///< one byte requests a batch, one byte replies that it is done
-inline constexpr int memory_descriptor = 4;  ///< Shared
+/// File descriptors with which a worker starts.
+inline constexpr int reply_socket = 3;   ///< a `Call` requests a batch; its number is the reply
+inline constexpr int status_socket = 4;  ///< of the supervisor: a `Status` for each change
+inline constexpr int questions_memory = 5;
+inline constexpr int answers_memory = 6;
 
 inline constexpr std::size_t batch_size = 2048;
 
-/// A request of one byte: decide the queries; decide them and measure the total time; time each query
-/// separately; give bounds.
-enum class Request : char { decide = 'd', decide_timed = 't', time_each = 'e', bounds = 'b' };
+/// What a worker does with the queries of a batch.
+enum class Request : std::uint8_t {
+  decide,
+  decide_timed,  ///< decides, and measures the time of all queries together
+  time_each,     ///< measures the time of each query
+  bounds,        ///< gives the distance bound of each query
+};
+
+/// A message that requests something. The plug-in cannot know the number beforehand.
+struct Call {
+  std::uint64_t number;
+  Request request;
+};
+
+/// A message from the supervisor: the worker has started, or has ended.
+struct Status {
+  std::int32_t process;  ///< of the plug-in
+  std::int32_t code;     ///< si_code when it has ended, else 0
+  std::int32_t status;   ///< si_status
+};
+
+/// Written by nearmiss. The worker can only read it.
+struct Questions {
+  Kind kind{};
+  std::uint32_t first = 0;  ///< the request is about the queries [first, last)
+  std::uint32_t last = 0;
+  std::array<std::array<double, 24>, batch_size> queries{};
+};
 
 /// The plug-in's answer to one query.
 struct PluginAnswer {
-  std::int32_t value = 0;         ///< the plug-in's return value
+  std::uint64_t call = 0;         ///< the call that it answers
   std::uint64_t nanoseconds = 0;  ///< measured by time_each
   double number = 0;              ///< the time of impact, or the bound
+  std::int32_t value = 0;         ///< the plug-in's return value
 };
 
-/// Both sides write here in turn: the asking process before a request, the worker before its reply. The
-/// asking process only reads `current`, `calls` and `memory_refused` in between or after the worker died.
-struct Shared {
+/// Written by the worker, in whose process the plug-in can write anything here.
+struct Answers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
-  std::atomic<std::uint32_t> calls{0};           ///< number of started calls of the plug-in
+  std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
-  Kind kind{};
-  std::uint32_t first = 0;  ///< the queries [first, count) of the batch are requested
-  std::uint32_t count = 0;
-  std::array<std::array<double, 24>, batch_size> queries{};
-  std::array<PluginAnswer, batch_size> answers{};
-  std::uint64_t nanoseconds = 0;  ///< measured by decide_timed
+  std::array<PluginAnswer, batch_size> of{};
+  std::uint64_t nanoseconds = 0;      ///< measured by decide_timed
+  std::array<char, 256> exception{};  ///< what() of an exception that the plug-in did not catch
   // Written after loading, before any request:
   std::array<char, 256> name{};  ///< the plug-in's own name
   bool claims_bound = false;

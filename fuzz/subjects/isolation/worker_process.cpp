@@ -1,33 +1,31 @@
 #include "fuzz/subjects/isolation/worker_process.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <new>
 #include <system_error>
+#include <utility>
+#include <vector>
 
-#include "ccd/error.hpp"
+#include "reports/text/printable.hpp"
 
 namespace nearmiss::isolation {
 
 namespace {
 
+using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// The path of nearmiss-worker: next to this program, or else where it was built.
+/// The path of nearmiss-worker: beside this program, or else where it was built.
 std::string worker_executable() {
   std::error_code unknown;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
@@ -35,119 +33,264 @@ std::string worker_executable() {
   return std::filesystem::exists(beside, unknown) ? beside.string() : NEARMISS_WORKER;
 }
 
-void check(bool fine, const char* what) {
-  if (!fine) throw Error(fmt::format("no worker process: {}: {}", what, std::strerror(errno)));
+struct SocketPair {
+  Descriptor ours, theirs;
+
+  SocketPair() {
+    std::array<int, 2> sockets{};
+    check(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
+    ours = Descriptor(sockets[0]);
+    theirs = Descriptor(sockets[1]);
+  }
+};
+
+/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts.
+class Spawn {
+ public:
+  Spawn() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID);
+  }
+  Spawn(const Spawn&) = delete;
+  Spawn& operator=(const Spawn&) = delete;
+  ~Spawn() {
+    posix_spawnattr_destroy(&attributes_);
+    posix_spawn_file_actions_destroy(&actions_);
+  }
+
+  void pass(int descriptor, int number) {
+    // A number above those that are passed, so that none overwrites another one.
+    constexpr int above = 16;
+    passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
+    check(passed_.back().number() >= 0, "descriptor");
+    posix_spawn_file_actions_adddup2(&actions_, passed_.back().number(), number);
+  }
+
+  pid_t run(const std::string& program, std::vector<std::string> arguments) {
+    std::vector<char*> words;
+    for (std::string& each : arguments) words.push_back(each.data());
+    words.push_back(nullptr);
+    pid_t process = -1;
+    errno = posix_spawn(&process, program.c_str(), &actions_, &attributes_, words.data(), environ);
+    check(errno == 0, program.c_str());
+    return process;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+  std::vector<Descriptor> passed_;
+};
+
+/// Text that the worker wrote.
+template <std::size_t n>
+std::string text(const std::array<char, n>& written) {
+  return printable(std::string_view(written.data(), strnlen(written.data(), n)));
+}
+
+Duration computing_time(pid_t process) {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0)
+    return {};  // it died, as its supervisor is about to tell
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// The number of times that a request calls the plug-in for each query, at most.
+double calls_per_query(Request request) {
+  switch (request) {
+    case Request::decide_timed:
+      return 2;  // to warm up, and timed
+    case Request::time_each:
+      return 3;
+    default:
+      return 1;
+  }
 }
 
 }  // namespace
 
-WorkerProcess::Descriptor::~Descriptor() {
-  if (number >= 0) close(number);
+bool WorkerProcess::Elapsed::exceeds(Duration limit) const {
+  constexpr double patience = 10;
+  return computing >= limit || passed >= patience * limit;
 }
 
-void WorkerProcess::Unmap::operator()(Shared* memory) const { munmap(memory, sizeof(Shared)); }
+/// Measures from its construction.
+class WorkerProcess::Watch {
+ public:
+  explicit Watch(pid_t process) : process_(process), computing_(computing_time(process)) {}
+  [[nodiscard]] Elapsed elapsed() const {
+    return {std::max(Duration{}, computing_time(process_) - computing_), steady_clock::now() - start_};
+  }
 
-WorkerProcess::Child::~Child() {
-  if (id <= 0) return;
-  kill(id, SIGKILL);
-  waitpid(id, nullptr, 0);
-}
+ private:
+  pid_t process_;
+  Duration computing_;
+  steady_clock::time_point start_ = steady_clock::now();
+};
 
 WorkerProcess::WorkerProcess(const std::string& path, const PluginLimits& limits) : limits_(limits) {
-  const Descriptor memory{memfd_create("nearmiss-worker", MFD_CLOEXEC)};
-  check(memory.number >= 0 && ftruncate(memory.number, sizeof(Shared)) == 0, "memory");
-  void* const mapped = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, memory.number, 0);
-  check(mapped != MAP_FAILED, "memory");
-  shared_.reset(new (mapped) Shared);
-  start(path, memory.number);
-  const How how = wait();
-  if (how == How::dead) throw Error(path + ": the plug-in ended its process while it was loaded");
-  if (how == How::late) throw Error(path + ": the plug-in takes too long to load");
-  if (shared_->error[0] != '\0') throw Error(shared_->error.data());
+  start(path);
+  load(path);
 }
 
-void WorkerProcess::start(const std::string& path, int memory) {
-  std::array<int, 2> sockets{};
-  check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
-  socket_.number = sockets[0];
-  const Descriptor theirs{sockets[1]};
-  // Moves both descriptors above the numbers to which they are duplicated, so that one cannot overwrite the
-  // other.
-  const Descriptor socket_above{fcntl(theirs.number, F_DUPFD_CLOEXEC, 16)};
-  const Descriptor memory_above{fcntl(memory, F_DUPFD_CLOEXEC, 16)};
-  check(socket_above.number >= 0 && memory_above.number >= 0, "descriptor");
-
-  const std::string executable = worker_executable();
-  std::string name = "nearmiss-worker";
-  std::string plugin = path;
-  std::string bytes = std::to_string(limits_.bytes);
-  std::array<char*, 4> arguments{name.data(), plugin.data(), bytes.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, socket_above.number, socket_descriptor);
-  posix_spawn_file_actions_adddup2(&actions, memory_above.number, memory_descriptor);
-  pid_t id = -1;
-  errno = posix_spawn(&id, executable.c_str(), &actions, nullptr, arguments.data(), environ);
-  const bool started = errno == 0;
-  posix_spawn_file_actions_destroy(&actions);
-  check(started, executable.c_str());
-  process_.id = id;
+WorkerProcess::~WorkerProcess() {
+  if (supervisor_ <= 0) return;
+  status_.close();  // the supervisor then ends the process, what that started, and itself
+  constexpr int tries = 2000;
+  for (int i = 0; i < tries; ++i) {
+    if (waitpid(supervisor_, nullptr, WNOHANG) != 0) return;
+    poll(nullptr, 0, 1);
+  }
+  kill(supervisor_, SIGKILL);
+  if (process_.process > 0) kill(process_.process, SIGKILL);
+  waitpid(supervisor_, nullptr, 0);
 }
 
-std::chrono::duration<double> WorkerProcess::computed() const {
-  clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(process_.id, &clock) != 0 || clock_gettime(clock, &time) != 0)
-    return {};  // the process died, which the socket shows
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+void WorkerProcess::start(const std::string& path) {
+  SocketPair replies;
+  SocketPair status;
+  Spawn spawn;
+  spawn.pass(replies.theirs.number(), reply_socket);
+  spawn.pass(status.theirs.number(), status_socket);
+  spawn.pass(questions_.file(), questions_memory);
+  spawn.pass(answers_.file(), answers_memory);
+  replies_ = std::move(replies.ours);
+  status_ = std::move(status.ours);
+  const std::string program = worker_executable();
+  supervisor_ = spawn.run(program, {"nearmiss-worker", path, std::to_string(limits_.bytes)});
+  replies.theirs.close();
+  status.theirs.close();
+  // The first message names the process.
+  pollfd told{status_.number(), POLLIN, 0};
+  constexpr int patience_ms = 60'000;
+  const bool started = poll(&told, 1, patience_ms) > 0 &&
+                       recv(status_.number(), &process_, sizeof process_, MSG_DONTWAIT) == sizeof process_;
+  if (!started) throw Error(fmt::format("no worker process: {} does not start a process", program));
 }
 
-WorkerProcess::How WorkerProcess::wait() const {
-  constexpr int patience = 10;
+void WorkerProcess::load(const std::string& path) {
+  const End end = wait(0, limits_.loading, limits_.loading);
+  if (end == End::query_late || end == End::call_late)
+    throw Error(
+        fmt::format("{}: the plug-in takes longer than {:.0f} s to load", path, limits_.loading.count()));
+  if (end != End::done) {
+    const std::string exception = text(answers_->exception);
+    throw Error(path + ": the plug-in " +
+                (exception.empty() ? "ended its process" : "threw an exception: " + exception) +
+                " while it was loaded");
+  }
+  if (answers_->error[0] != '\0') throw Error(text(answers_->error));
+  name_ = text(answers_->name);
+  claims_bound_ = answers_->claims_bound;
+}
+
+void WorkerProcess::give(std::span<const Query> queries) {
+  questions_->kind = queries.front().kind;
+  for (std::size_t i = 0; i < queries.size(); ++i) questions_->queries[i] = queries[i].x;
+}
+
+std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32_t first,
+                                                    std::uint32_t last) {
+  questions_->first = first;
+  questions_->last = last;
+  answers_->current = first;
+  const Call call{++call_, request};
+  // If the worker is dead or does not read, no reply comes.
+  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
+  const Duration of_queries = limits_.time * calls_per_query(request);
+  End end = wait(call.number, limits_.time, last - first == 1 ? of_queries : call_limit * of_queries);
+  const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
+  for (std::uint32_t i = first; i < last && end == End::done; ++i)
+    if (!answers(i)) end = End::broken;
+  if (end == End::done) return std::nullopt;
+  // An honest worker has answered all queries before the current one.
+  std::uint32_t query = std::clamp<std::uint32_t>(answers_->current, first, last - 1);
+  for (std::uint32_t i = first; i < query; ++i)
+    if (!answers(i)) query = i;
+  return failure(end, query);
+}
+
+WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
+  if (answers_->memory_refused != 0 && end != End::broken) return {query, Fault::memory};
+  switch (end) {
+    case End::query_late:
+      return {query, Fault::time};
+    case End::call_late:
+      return {.query = query, .fault = Fault::time, .of_call = questions_->last - questions_->first > 1};
+    case End::dead: {
+      if (std::string exception = text(answers_->exception); !exception.empty())
+        return {.query = query, .fault = Fault::exception, .exception = std::move(exception)};
+      const bool exited = process_.code == CLD_EXITED;
+      return {query, Fault::crash, exited ? -process_.status : process_.status};
+    }
+    default:
+      return {query, Fault::protocol};
+  }
+}
+
+WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Duration of_call) {
   constexpr int look_again_ms = 10;
-  std::uint32_t calls = shared_->calls;
-  auto since = steady_clock::now();
-  auto computed_since = computed();
+  const Watch watch(process_.process);
+  std::uint32_t calls = answers_->calls;
+  Watch query_watch = watch;
   while (true) {
-    pollfd socket{socket_.number, POLLIN, 0};
-    const bool spoke = poll(&socket, 1, look_again_ms) > 0;
-    if (spoke) {
-      char byte = 0;
-      return read(socket_.number, &byte, 1) == 1 ? How::done : How::dead;
-    }
-    if (const std::uint32_t now = shared_->calls; now != calls) {
+    std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {status_.number(), POLLIN, 0}}};
+    const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
+    if (limits_.stop != nullptr) limits_.stop->check();
+    elapsed_ = watch.elapsed();
+    if (spoke)
+      if (const auto end = end_of(call)) return *end;
+    if (const std::uint32_t now = answers_->calls; now != calls) {
       calls = now;
-      since = steady_clock::now();
-      computed_since = computed();
-    } else if (computed() - computed_since >= limits_.time ||
-               steady_clock::now() - since >= patience * limits_.time) {
-      return How::late;
+      query_watch = Watch(process_.process);
+    } else if (query_watch.elapsed().exceeds(of_query)) {
+      return End::query_late;
     }
+    if (elapsed_.exceeds(of_call)) return End::call_late;
   }
 }
 
-std::optional<WorkerFailure> WorkerProcess::perform(Request request) const {
-  // A plug-in may overwrite the shared memory, so nothing read from there later is trusted.
-  const std::uint32_t first = shared_->first;
-  const std::uint32_t last = shared_->count - 1;
-  shared_->current = first;
-  const char byte = static_cast<char>(request);
-  static_cast<void>(send(socket_.number, &byte, 1, MSG_NOSIGNAL));  // a dead worker is noticed below
-  const How end = wait();
-  if (end == How::done) return std::nullopt;
-  const std::uint32_t query = std::clamp<std::uint32_t>(shared_->current, first, last);
-  WorkerFailure failure{query, Fault::time, 0};
-  if (end == How::dead) {
-    siginfo_t how{};
-    waitid(P_PID, static_cast<id_t>(process_.id), &how, WEXITED | WNOWAIT);
-    failure.fault = Fault::crash;
-    failure.code = how.si_code == CLD_EXITED ? -how.si_status : how.si_status;
+std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
+  pollfd replies{replies_.number(), POLLIN, 0};
+  if (poll(&replies, 1, 0) > 0) {
+    const End end = read_reply(call);
+    if (end != End::dead) return end;
+    // A process that dies closes its socket, and its supervisor tells so right after.
+    return ends_within(milliseconds(1000)) ? End::dead : End::broken;
   }
-  if (shared_->memory_refused != 0) {
-    failure.fault = Fault::memory;
-    failure.code = 0;
+  return ends_within(milliseconds(0)) ? std::optional(End::dead) : std::nullopt;
+}
+
+WorkerProcess::End WorkerProcess::read_reply(std::uint64_t call) const {
+  std::uint64_t reply = 0;
+  std::array<char, sizeof reply + 1> message{};
+  const auto size = recv(replies_.number(), message.data(), message.size(), MSG_DONTWAIT);
+  if (size == 0 || (size < 0 && errno != EAGAIN)) return End::dead;
+  std::memcpy(&reply, message.data(), sizeof reply);
+  char more = 0;
+  const bool is_alone = recv(replies_.number(), &more, sizeof more, MSG_PEEK | MSG_DONTWAIT) <= 0;
+  return size == sizeof reply && reply == call && is_alone ? End::done : End::broken;
+}
+
+bool WorkerProcess::ends_within(milliseconds time) {
+  const auto until = steady_clock::now() + time;
+  while (true) {
+    const auto left = std::chrono::duration_cast<milliseconds>(until - steady_clock::now());
+    pollfd status{status_.number(), POLLIN, 0};
+    if (poll(&status, 1, static_cast<int>(std::max(left, milliseconds(0)).count())) <= 0) return false;
+    Status told{};
+    if (recv(status_.number(), &told, sizeof told, MSG_DONTWAIT) != sizeof told)
+      return true;  // it ended, too
+    process_ = told;
+    if (told.code != 0) return true;
   }
-  return failure;
+}
+
+std::uint64_t WorkerProcess::limited(std::uint64_t nanoseconds) const {
+  const Duration most = std::max(elapsed_.computing, elapsed_.passed);
+  return std::min(nanoseconds, static_cast<std::uint64_t>(most.count() * 1e9));
 }
 
 }  // namespace nearmiss::isolation

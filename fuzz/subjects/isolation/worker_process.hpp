@@ -1,71 +1,108 @@
-// One worker process, as the asking process sees it.
+// One worker process, as nearmiss sees it. It trusts nothing that the worker writes.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "ccd/subject.hpp"
+#include "fuzz/stop.hpp"
+#include "fuzz/subjects/isolation/handles.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 
 namespace nearmiss::isolation {
 
-/// The limits of a plug-in.
+using Duration = std::chrono::duration<double>;
+
+/// The limits of a plug-in. Times are computing times of its process; ten times as long may pass.
 struct PluginLimits {
-  /// Limit of the process's computing time per query. The elapsed time may be at most ten times longer.
-  std::chrono::duration<double> time{1};
-  std::uint64_t bytes = std::uint64_t{1}
-                        << 30;  ///< limit of memory in addition to what loading took; 0 means no limit
+  Duration time{1};                              ///< for a query
+  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
+  Duration loading{30};                          ///< for loading
+  /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
+  std::uint64_t most_late = 0;
+  const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
 };
+
+/// A call with several queries may take this many times the limit of a query.
+inline constexpr double call_limit = 10;
 
 /// Why a query has no answer.
 struct WorkerFailure {
   std::uint32_t query;  ///< its index in the batch
   Fault fault;
-  std::int32_t code;  ///< for a crash: the signal, or the negated exit code
+  std::int32_t code = 0;       ///< for a crash: the signal, or the negated exit code
+  std::string exception = {};  ///< for an exception: what it says
+  bool of_call = false;        ///< the whole call took too long; which query is to blame is not known
 };
 
-/// A running worker. It cannot be used after a request has failed.
+/// A running worker. It cannot be used after a call failed.
 class WorkerProcess {
  public:
-  /// Throws Error if the plug-in cannot be used.
+  /// Throws Error if the plug-in cannot be used, and Stopped.
   WorkerProcess(const std::string& path, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
-  ~WorkerProcess() = default;
+  ~WorkerProcess();
 
-  [[nodiscard]] Shared& shared() const { return *shared_; }
+  /// The plug-in's own name, printable.
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] bool claims_bound() const { return claims_bound_; }
 
-  /// Performs a request for the queries in shared(). Returns why one failed; nothing if all were completed.
-  std::optional<WorkerFailure> perform(Request request) const;
+  /// Gives the worker a batch of queries of one kind, at most batch_size.
+  void give(std::span<const Query> queries);
+
+  /// Has the queries [first, last) of the batch done. Returns why one failed; nothing if all are done. Throws
+  /// Stopped.
+  std::optional<WorkerFailure> perform(Request request, std::uint32_t first, std::uint32_t last);
+
+  /// The answer to a query of the batch.
+  [[nodiscard]] const PluginAnswer& answer(std::uint32_t i) const { return answers_->of[i]; }
+  /// Times that the worker measured in the last call, in ns, of the call or of a query; at most the time that the call
+  /// took.
+  [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds); }
+  [[nodiscard]] std::uint64_t measured(std::uint32_t i) const { return limited(answers_->of[i].nanoseconds); }
+  /// The computing time of the last call.
+  [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
  private:
-  struct Descriptor {
-    int number = -1;
-    ~Descriptor();
-  };
-  struct Unmap {
-    void operator()(Shared* memory) const;
-  };
-  struct Child {
-    pid_t id = -1;
-    ~Child();
-  };
+  /// How a call ended: it is done; the process died; a query or the whole call took too long; or the worker closed its
+  /// socket, or wrote to it what is no reply.
+  enum class End : std::uint8_t { done, dead, query_late, call_late, broken };
 
-  /// How waiting for the worker ended: it is done, it died, or a query exceeded a limit.
-  enum class How : std::uint8_t { done, dead, late };
-  void start(const std::string& path, int memory);
-  [[nodiscard]] How wait() const;
-  [[nodiscard]] std::chrono::duration<double> computed() const;
+  /// The worker's computing time, and the time that passed.
+  struct Elapsed {
+    Duration computing{}, passed{};
+    [[nodiscard]] bool exceeds(Duration limit) const;
+  };
+  class Watch;
+
+  void start(const std::string& path);
+  void load(const std::string& path);
+  /// Waits for the reply to a call.
+  End wait(std::uint64_t call, Duration of_query, Duration of_call);
+  /// How the call ended, if a message says so.
+  [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
+  [[nodiscard]] End read_reply(std::uint64_t call) const;
+  /// Whether the supervisor has told within a time that the process has ended.
+  bool ends_within(std::chrono::milliseconds time);
+  [[nodiscard]] WorkerFailure failure(End end, std::uint32_t query);
+  [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds) const;
 
   PluginLimits limits_;
-  std::unique_ptr<Shared, Unmap> shared_;
-  Descriptor socket_;
-  Child process_;
+  SharedMemory<Questions> questions_{false};
+  SharedMemory<Answers> answers_{true};
+  Descriptor replies_, status_;
+  pid_t supervisor_ = -1;
+  Status process_{};  ///< the plug-in's process, and how it ended
+  std::uint64_t call_ = 0;
+  Elapsed elapsed_;  ///< of the last call
+  std::string name_;
+  bool claims_bound_ = false;
 };
 
 }  // namespace nearmiss::isolation

@@ -1,0 +1,49 @@
+// When long work ends.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+
+namespace nearmiss {
+
+/// Thrown by work that ends before it is done, because its `Stop` is due.
+struct Stopped {};
+
+/// Says when work ends: at a request, or when its time is over. Many threads ask it at once.
+class Stop {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `requested` must outlive the Stop.
+  explicit Stop(const std::atomic<bool>& requested) : requested_(requested) {}
+
+  /// A Stop that is never due.
+  static const Stop& never() {
+    static const std::atomic<bool> no{false};
+    static const Stop never(no);
+    return never;
+  }
+
+  /// From now on, the work has this much time. Must be called before threads ask.
+  void limit(std::chrono::duration<double> time) {
+    // A longer time than the clock can tell is no limit.
+    constexpr std::chrono::hours longest{24 * 365 * 10};
+    if (time < longest) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
+  }
+
+  [[nodiscard]] bool is_requested() const { return requested_; }
+  /// `grace` is granted in addition to the time, but not after a request.
+  [[nodiscard]] bool is_due(std::chrono::milliseconds grace = {}) const {
+    return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + grace);
+  }
+  /// Throws Stopped if it is due.
+  void check(std::chrono::milliseconds grace = {}) const {
+    if (is_due(grace)) throw Stopped();
+  }
+
+ private:
+  const std::atomic<bool>& requested_;
+  Clock::time_point end_ = Clock::time_point::max();
+};
+
+}  // namespace nearmiss

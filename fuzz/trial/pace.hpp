@@ -1,0 +1,41 @@
+// How many cases to try at once.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace nearmiss {
+
+/// Chooses the size of slices of cases such that one takes about a tenth of a second: work looks at its limits between
+/// slices. No result except run times depends on it. Many threads use it at once.
+class Pace {
+ public:
+  using Duration = std::chrono::duration<double>;
+
+  /// The number of cases of a family to try next.
+  [[nodiscard]] std::size_t cases(const std::string& family) const {
+    const std::lock_guard lock(mutex_);
+    const auto known = cases_.find(family);
+    return known == cases_.end() ? first : known->second;
+  }
+
+  /// Notes how long a slice took.
+  void took(const std::string& family, std::size_t cases, Duration time) {
+    constexpr Duration wanted{0.1};
+    constexpr std::size_t growth = 4;
+    const auto longest = static_cast<double>(growth * cases);
+    const double fitting = time.count() > 0 ? static_cast<double>(cases) * (wanted / time) : longest;
+    const std::lock_guard lock(mutex_);
+    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, longest));
+  }
+
+ private:
+  static constexpr std::size_t first = 16;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::size_t> cases_;
+};
+
+}  // namespace nearmiss

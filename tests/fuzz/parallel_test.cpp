@@ -1,0 +1,63 @@
+// Work in parallel whose results come in order.
+#include "fuzz/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace nearmiss {
+namespace {
+
+struct Item {
+  int number;
+  int square = 0;
+};
+
+std::function<std::optional<Item>()> count_to(int end) {
+  return [next = 0, end]() mutable { return next < end ? std::optional(Item{next++}) : std::nullopt; };
+}
+
+TEST(InOrder, TakesEveryItemAfterItsWork) {
+  for (const int jobs : {1, 3}) {
+    std::vector<int> taken;
+    in_order<Item>(
+        jobs, count_to(1000),
+        [](Item& item) {
+          for (int i = 0; i < item.number; ++i) {
+            item.square += item.number;
+            if (item.number % 7 == 0) std::this_thread::yield();
+          }
+        },
+        [&](Item& item) {
+          EXPECT_EQ(item.square, item.number * item.number);
+          taken.push_back(item.number);
+        });
+    std::vector<int> all(1000);
+    std::iota(all.begin(), all.end(), 0);
+    EXPECT_EQ(taken, all);
+  }
+}
+
+TEST(InOrder, LetsOnlyAFewItemsWaitForASlowOne) {
+  std::atomic<int> taken{0};
+  in_order<Item>(
+      2, count_to(1000), [&](Item& item) { EXPECT_LE(item.number, taken + 32); }, [&](Item&) { ++taken; });
+  EXPECT_EQ(taken, 1000);
+}
+
+TEST(InOrder, PassesOnAnException) {
+  EXPECT_THROW(in_order<Item>(
+                   2, count_to(100),
+                   [](Item& item) {
+                     if (item.number == 50) throw std::runtime_error("fifty");
+                   },
+                   [](Item& item) { EXPECT_LT(item.number, 50); }),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,141 @@
+// Subjects that exceed their time limit again and again are set aside.
+#include "fuzz/trial/patience.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+
+#include "fuzz/families/search.hpp"
+#include "fuzz/trial/campaign.hpp"
+#include "oracle/agreement.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Exceeds its time limit at the queries that are chosen.
+class Late final : public Subject {
+ public:
+  explicit Late(std::function<bool(const Query&)> is_chosen) : is_chosen_(std::move(is_chosen)) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    ++asked;
+    return {.fault = is_chosen_(query) ? Fault::time : Fault::none};
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+  mutable std::atomic<std::uint64_t> asked = 0;
+
+ private:
+  std::string name_ = "late";
+  std::function<bool(const Query&)> is_chosen_;
+};
+
+std::uint64_t faults(const Counts& counts, Fault fault) {
+  return counts.faults[static_cast<std::size_t>(fault)];
+}
+
+CampaignPlan plan_of(int jobs) {
+  CampaignPlan plan;
+  plan.families = {find_family("uniform"), find_family("sliver")};
+  plan.cases = 4000;
+  plan.jobs = jobs;
+  return plan;
+}
+
+/// The statistics of wang and of a subject that is late in every 20th query or so; without times. A stop is requested
+/// when that subject has been asked so often.
+Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
+  std::atomic<bool> requested{false};
+  std::atomic<std::uint64_t> asked{0};
+  Subjects subjects;
+  subjects.push_back(make_subject("wang"));
+  subjects.push_back(std::make_unique<Late>([&](const Query& query) {
+    if (++asked == stop_after) requested = true;
+    return is_sampled(query, 20);
+  }));
+  Statistics statistics;
+  run_campaign(
+      plan, subjects,
+      [&](TrialResult&& result, const CampaignProgress& /*now*/) {
+        statistics.merge(result.statistics);
+        return true;
+      },
+      Stop(requested));
+  for (auto& [key, counts] : statistics.counts) counts.times = {};
+  return statistics;
+}
+
+TEST(Patience, EndsAfterAFewQueriesOfAFamilyAndKind) {
+  for (const auto& [key, counts] : run(plan_of(2)).counts) {
+    EXPECT_EQ(counts.queries, 1000) << key.family;
+    EXPECT_EQ(faults(counts, Fault::time), key.subject == "late" ? Patience::most_late : 0) << key.family;
+    EXPECT_EQ(faults(counts, Fault::not_asked) > 500, key.subject == "late") << key.family;
+    EXPECT_EQ(is_set_aside(counts), key.subject == "late") << key.family;
+  }
+}
+
+TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
+  const Statistics one = run(plan_of(1));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(run(plan_of(4)), one);
+}
+
+TEST(Patience, IsThatOfTheWholeCampaignAfterAResume) {
+  CampaignPlan plan = plan_of(2);
+  const Statistics whole = run(plan);
+  for (const std::uint64_t queries : {20, 50, 80}) {
+    plan.before = {};
+    Statistics sum = run(plan, queries);
+    EXPECT_LT(sum.oracle_total().queries, 4000) << queries;
+    plan.before = sum;
+    sum.merge(run(plan));
+    EXPECT_EQ(sum, whole) << queries;
+  }
+}
+
+TEST(Patience, NotAskingIsNoFailure) {
+  Subjects subjects;
+  subjects.push_back(std::make_unique<Late>([](const Query&) { return true; }));
+  CampaignPlan plan = plan_of(2);
+  std::uint64_t seen = 0;
+  run_campaign(
+      plan, subjects,
+      [&](TrialResult&& result, const CampaignProgress& /*now*/) {
+        for (const auto& [signature, times] : result.statistics.seen) seen += times;
+        return true;
+      },
+      Stop::never());
+  EXPECT_EQ(seen, 4 * Patience::most_late);
+}
+
+TEST(Patience, OfASearchEndsToo) {
+  const Late late([](const Query&) { return true; });
+  for (const auto search : {miss_search, far_search}) {
+    late.asked = 0;
+    const Family family = search(late, Stop::never());
+    for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
+    EXPECT_EQ(late.asked, 3);
+  }
+}
+
+TEST(Stop, IsDueOnRequestOrWhenItsTimeIsOver) {
+  std::atomic<bool> requested{false};
+  Stop stop(requested);
+  EXPECT_FALSE(stop.is_due());
+  stop.limit(std::chrono::hours(1));
+  EXPECT_FALSE(stop.is_due());
+  stop.limit(std::chrono::seconds(0));
+  EXPECT_TRUE(stop.is_due());
+  EXPECT_FALSE(stop.is_requested());
+  EXPECT_THROW(stop.check(), Stopped);
+  Stop other(requested);
+  other.limit(std::chrono::duration<double>(1e300));
+  EXPECT_FALSE(other.is_due());
+  requested = true;
+  EXPECT_TRUE(other.is_due());
+  EXPECT_TRUE(other.is_requested());
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,65 @@
+/* A subject that reports every query. At the first one with x > 0.9 it does to nearmiss what no plug-in should. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "ccd/nearmiss_subject.h"
+
+#define MOST_FILES 64
+
+#if defined(MOVE_ON)
+/* The memory to which the worker writes its answers; it begins with the number of the query and of the calls. */
+static volatile uint32_t* answers(void) {
+  FILE* const maps = fopen("/proc/self/maps", "r");
+  char line[512];
+  void* memory = NULL;
+  while (memory == NULL && fgets(line, sizeof line, maps) != NULL)
+    if (strstr(line, "rw-s") != NULL && strstr(line, "nearmiss-worker") != NULL) sscanf(line, "%p", &memory);
+  fclose(maps);
+  return memory;
+}
+#endif
+
+static void intrude(void) {
+#if defined(WRITE)
+  char text[100] = {0};
+  for (int file = 0; file < MOST_FILES; ++file)
+    for (int i = 0; i < 10000; ++i)
+      if (send(file, text, sizeof text, MSG_DONTWAIT) < 0 && write(file, text, 0) < 0) break;
+#elif defined(TRUNCATE)
+  for (int file = 0; file < MOST_FILES; ++file) ftruncate(file, 0);
+#elif defined(CLOSE)
+  for (int file = 0; file < MOST_FILES; ++file) close(file);
+#elif defined(MOVE_ON)
+  volatile uint32_t* const shared = answers();
+  while (1) ++shared[1];
+#elif defined(FORK)
+  for (int i = 0; i < 150; ++i)
+    if (fork() == 0) {
+      setsid();
+      if (fork() != 0) _exit(0);
+      while (1) pause();
+    }
+  raise(SIGSEGV);
+#endif
+}
+
+static int answer(const double* x, double* toi) {
+  static int done = 0;
+  if (x[0] > 0.9 && !done) {
+    done = 1;
+    intrude();
+  }
+  *toi = 0.5;
+  return 1;
+}
+
+static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "intruding", "1", answer, answer, NULL};
+const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }

@@ -1,0 +1,33 @@
+// Text from elsewhere is valid UTF-8 without control characters.
+#include "reports/text/printable.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nearmiss {
+namespace {
+
+TEST(Printable, LeavesTextAsItIs) {
+  for (const char* text : {"", "wang-tight:p24", "naïve CCD", "ψ ≤ 41 B ε^¼", "𝕏"})
+    EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, ReplacesControlCharacters) {
+  EXPECT_EQ(printable("a\nb\tc"), "a b c");
+  EXPECT_EQ(printable("\x1b[31mred\x7f\r"), "?[31mred??");
+  EXPECT_EQ(printable("a\u0085b"), "a??b");   // a line end of its own
+  EXPECT_EQ(printable("a\u202eb"), "a???b");  // turns the text that follows around
+  EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in scripts
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
+}
+
+TEST(Printable, ReplacesBytesThatAreNotUtf8) {
+  EXPECT_EQ(printable("\xff"), "?");
+  EXPECT_EQ(printable("a\xc3"), "a?");               // cut
+  EXPECT_EQ(printable("\xc0\xaf"), "??");            // a slash with too many bytes
+  EXPECT_EQ(printable("\xed\xa0\x80"), "???");       // a surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");  // beyond Unicode
+  EXPECT_EQ(printable("\xe0\x80\xafx"), "???x");
+}
+
+}  // namespace
+}  // namespace nearmiss

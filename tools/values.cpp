@@ -1,0 +1,57 @@
+#include "tools/values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+/// The number that digits give; nothing if there are other characters, or more than 64 bits.
+std::optional<std::uint64_t> digits(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The number that DIGITS or DIGITSeDIGITS gives.
+std::optional<std::uint64_t> count(std::string_view text) {
+  const std::size_t e = text.find_first_of("eE");
+  auto value = digits(text.substr(0, e));
+  if (e == std::string_view::npos || !value) return value;
+  const auto zeros = digits(text.substr(e + 1));
+  constexpr std::uint64_t most_zeros = 19;
+  if (!zeros || *zeros > most_zeros) return std::nullopt;
+  for (std::uint64_t i = 0; i < *zeros; ++i)
+    if (__builtin_mul_overflow(*value, std::uint64_t{10}, &*value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::uint64_t parse_count(std::string_view text, std::string_view option, std::uint64_t least,
+                          std::uint64_t most) {
+  const auto value = count(text);
+  if (!value || *value < least || *value > most)
+    throw Error(
+        fmt::format("{}: found '{}', expected a whole number from {} to {}", option, text, least, most));
+  return *value;
+}
+
+std::chrono::duration<double> parse_duration(std::string_view text, std::string_view option) {
+  double number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  const double seconds = unit == "ms" ? 1e-3 : unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+  if (error != std::errc() || seconds == 0 || !(number > 0) || !(number * seconds <= 1e9))
+    throw Error(fmt::format("{}: found '{}', expected a time such as 500ms, 30s, 2m or 8h", option, text));
+  return std::chrono::duration<double>(number * seconds);
+}
+
+}  // namespace nearmiss::tools
