@@ -70,8 +70,9 @@ class Campaign:
     def __init__(self, number, seed, seconds, machine):
         draw = random.Random(f'{seed} campaign {number}')
         self.number, self.machine = number, machine
-        self.size = int(draw.uniform(0.2, 1) * 1000 * seconds)
         plugin = draw.choice([*CHOSEN_BY_QUERY, *CHOSEN_BY_CHANCE])
+        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # time limits are waited for
+        self.size = int(draw.uniform(0.2, 1) * rate * seconds)
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]
         self.options += ['--subject', f'wang,basic,{machine.plugins / plugin}.so']
