@@ -43,16 +43,17 @@ class Machine:
             if largest_file is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
 
-        return subprocess.Popen(
-            [self.nearmiss, *command],
-            cwd=self.folder,
-            env=environment,
-            stdout=subprocess.DEVNULL,
-            stderr=(self.folder / 'said').open('w', encoding='utf-8'),
-            preexec_fn=prepare,
-            restore_signals=largest_file
-            is None,  # Python ignores the signal of a file that is too large
-        )
+        with (self.folder / 'said').open('w', encoding='utf-8') as said:
+            return subprocess.Popen(
+                [self.nearmiss, *command],
+                cwd=self.folder,
+                env=environment,
+                stdout=subprocess.DEVNULL,
+                stderr=said,
+                preexec_fn=prepare,
+                restore_signals=largest_file
+                is None,  # Python ignores that of a file that is too large
+            )
 
     def call(self, command, campaign):
         """Runs a command to its end."""
