@@ -35,7 +35,7 @@ sleep_until_next_second() { local now=$EPOCHSECONDS; while ((EPOCHSECONDS == now
 cat >build/release/nearmiss <<END_OF_SCRIPT
 #!/usr/bin/env bash
 for ((i = 1; i <= \$#; ++i)); do
-  if [[ \${!i} == --time ]]; then exec "$nearmiss" "\${@:1:i-1}" --cases 300 "\${@:i+2}"; fi
+  if [[ \${!i} == --time ]]; then exec "$nearmiss" "\${@:1:i-1}" --cases 60 "\${@:i+2}"; fi
 done
 exec "$nearmiss" "\$@"
 END_OF_SCRIPT
