@@ -138,8 +138,9 @@ void add_context(ordered_json& json, const Campaign& campaign, const ReportConte
   if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
   if (!since) return;
   json["baseline"] = changes_json(*since);
-  json["baseline"]["runs"] = runs_json(context.baseline->runs);
-  json["baseline"]["subjects"] = before_and_now(campaign.statistics, context.baseline->statistics);
+  const Campaign baseline = add_up(context.baseline);
+  json["baseline"]["runs"] = runs_json(baseline.runs);
+  json["baseline"]["subjects"] = before_and_now(campaign.statistics, baseline.statistics);
 }
 
 }  // namespace
@@ -148,7 +149,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   const Statistics& statistics = campaign.statistics;
   ordered_json json = summary_json({campaign.runs, by_shown_family(statistics)});
   std::optional<Changes> since;
-  if (context.baseline) since = changes(campaign, *context.baseline);
+  if (!context.baseline.empty()) since = changes(campaign, context.baseline);
   const Headline line = headline(statistics, since);
   json["headline"] = {{"clean", line.clean}, {"text", line.text}};
   json["verdicts"] = verdicts_json(statistics);

@@ -15,9 +15,9 @@ namespace nearmiss {
 
 /// Data that a report shows in addition to its campaign.
 struct ReportContext {
-  std::optional<Campaign> baseline = {};
-  std::vector<Hunt> hunts = {};  ///< hunts for known defects
-  std::string audit = {};        ///< audit of rounding constants (audit_table.hpp)
+  std::vector<Campaign> baseline = {};  ///< earlier campaigns, the oldest first
+  std::vector<Hunt> hunts = {};         ///< hunts for known defects
+  std::string audit = {};               ///< audit of rounding constants (audit_table.hpp)
   std::vector<Environment> environments = {};
 };
 

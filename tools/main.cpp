@@ -13,6 +13,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
+#include "fuzz/stop.hpp"
 #include "tools/commands.hpp"
 
 namespace {
@@ -102,6 +103,8 @@ int main(int argc, char** argv) {
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);
+  } catch (const nearmiss::Stopped&) {  // before there was anything to save
+    return nearmiss::tools::exit_interrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nearmiss: %s\n", error.what());
     return nearmiss::tools::exit_bad_input;

@@ -14,23 +14,23 @@ namespace nearmiss::tools {
 namespace {
 
 struct Options {
-  std::vector<std::filesystem::path> stores;
-  std::filesystem::path folder, baseline, power, audit, environments;
+  std::vector<std::filesystem::path> stores, baseline;
+  std::filesystem::path folder, power, audit, environments;
 };
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context;
-  if (!options.baseline.empty()) context.baseline = load_campaign(options.baseline);
+  for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
   if (!options.audit.empty()) context.audit = load_audit(options.audit);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics));
   int exit_code = exit_fine;
-  if (context.baseline) {
-    const Changes since = changes(campaign, *context.baseline);
+  if (!context.baseline.empty()) {
+    const Changes since = changes(campaign, context.baseline);
     fmt::print("{}", describe(since));
     if (since.for_the_worse()) exit_code = exit_found;
   }
@@ -52,8 +52,11 @@ void add_report(CLI::App& app, int& exit_code) {
   const auto add_file = [&](const char* name, std::filesystem::path& file, const char* help) {
     return command->add_option(name, file, help)->type_name("FILE");
   };
-  add_file("--baseline", options->baseline,
-           "Show changes since this store; exit code 1 if there is a new way to fail or a rate is worse")
+  command
+      ->add_option("--baseline", options->baseline,
+                   "Show changes since this store; exit code 1 if there is a new way to fail or a rate is "
+                   "worse; may be repeated, the oldest store first")
+      ->allow_extra_args(false)
       ->type_name("DB");
   add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");

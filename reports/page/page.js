@@ -44,10 +44,13 @@ function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
   show("baseline");
-  const ways = (list) => list.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}`);
+  const ways = (list) => list.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}` +
+    (each.first_seen ? ` (first seen ${each.first_seen}, last seen ${each.last_seen})` : ""));
   const worse = baseline.changed_rates.filter((each) => each.worse).length;
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   for (const way of ways(baseline.new_signatures)) say(`New: ${way}.`, true);
+  for (const way of ways(baseline.lasting_signatures)) say(`As before: ${way}.`, true);
+  for (const subject of baseline.absent_subjects) say(`Not in the baseline: ${subject}.`);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
   if (baseline.unseen_signatures.length > 0)
     say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but no more frequent than chance explains ` +

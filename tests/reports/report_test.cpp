@@ -219,9 +219,9 @@ TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {
   const Campaign before = some_campaign("wang");
   Campaign now = before;
   now.statistics.seen.begin()->second += 1;  // one more failure in a known way
-  EXPECT_TRUE(report_json(now, {.baseline = before})["baseline"]["new_signatures"].empty());
+  EXPECT_TRUE(report_json(now, {.baseline = {before}})["baseline"]["new_signatures"].empty());
   now.statistics.seen[{Finding::What::fault, "wang", "vt crash SEGV"}] = 1;
-  const auto json = report_json(now, {.baseline = before});
+  const auto json = report_json(now, {.baseline = {before}});
   ASSERT_EQ(json["baseline"]["new_signatures"].size(), 1);
   EXPECT_EQ(json["baseline"]["new_signatures"][0]["signature"], "vt crash SEGV");
   EXPECT_EQ(json["baseline"]["subjects"][0]["before"]["false_positive_rate"], 1);

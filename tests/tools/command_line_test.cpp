@@ -118,6 +118,17 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
   EXPECT_TRUE(report["baseline"]["new_signatures"].empty());
 }
 
+TEST_F(CommandLine, AReportHasSeveralStoresAsItsBaseline) {
+  for (const char* seed : {"1", "2", "3"})
+    EXPECT_EQ(run(std::string("fuzz --cases 1100 --seed ") + seed + " --db " + seed + ".db").code, 0);
+  EXPECT_EQ(run("report --baseline 1.db --baseline 2.db 3.db -o report").code, 0);
+  const json baseline = read_json("report/report.json")["baseline"];
+  ASSERT_EQ(baseline["runs"].size(), 2);
+  for (const json& subject : baseline["subjects"])
+    EXPECT_EQ(subject["before"]["queries"], 2 * subject["now"]["queries"].get<int>());
+  expect_refused("report 3.db --baseline 1.db --baseline 1.db -o report", {"run with seed 1 twice"});
+}
+
 TEST_F(CommandLine, FuzzSweepsParameters) {
   const Output output = run(
       "fuzz --sweep needle,end-contact --steps 3 --cases 600 --subject wang,exact --db a.db --json new.json");

@@ -4,6 +4,9 @@
 # temporary folder.
 # Usage: slurm_test.sh NEARMISS. Exit code 77: there is no Slurm, or it cannot start.
 set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
 nearmiss=$(realpath "$1")
 tools=$(cd "$(dirname "$0")/../../tools/slurm" && pwd)
 folder=$(mktemp -d)
