@@ -146,6 +146,10 @@ Batch batch_of(const CampaignPlan& plan, const Block& block, Kind kind, const St
   return batch;
 }
 
+bool are_shrunk(const std::vector<Finding>& findings) {
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; });
+}
+
 /// Runs a campaign: slices are tried on all threads, and count in their order.
 class CampaignRun {
  public:
@@ -160,6 +164,7 @@ class CampaignRun {
     progress_.of = cases_of_shard(plan);
     patience_.know(plan.before);
     sieve_.know(plan.findings_before);
+    all_are_shrunk_ = are_shrunk(plan.findings_before);
   }
 
   CampaignProgress run() {
@@ -167,7 +172,8 @@ class CampaignRun {
         plan_.jobs, [&] { return next(); }, [&](Slice& slice) { hold(slice); },
         [&](Slice& slice) { take(slice); });
     if (progress_.cases != passed_on_) pass_on();
-    progress_.complete = (plan_.cases != 0 || plan_.first != 0) && progress_.cases == progress_.of;
+    progress_.complete =
+        (plan_.cases != 0 || plan_.first != 0) && progress_.cases == progress_.of && all_are_shrunk_;
     return progress_;
   }
 
@@ -225,6 +231,7 @@ class CampaignRun {
   /// Passes the results on that have come since the last time.
   void pass_on() {
     sieve_.sift(sum_.findings);
+    all_are_shrunk_ = all_are_shrunk_ && are_shrunk(sum_.findings);
     progress_.elapsed = Clock::now() - start_;
     passed_on_ = progress_.cases;
     if (!sink_(std::exchange(sum_, {}), progress_)) is_over_ = true;
@@ -243,6 +250,7 @@ class CampaignRun {
   TrialResult sum_;           // not passed on yet
   CampaignProgress progress_;
   std::uint64_t passed_on_ = 0;
+  bool all_are_shrunk_ = true;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
   std::atomic<bool> is_over_ = false;

@@ -35,7 +35,7 @@ struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
   std::uint64_t of = 0;            ///< all cases of this shard; 0 if there is no end
-  bool complete = false;           ///< whether this shard is completed
+  bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
   std::chrono::duration<double> elapsed{};
 };
 
