@@ -28,15 +28,10 @@ int run(const Options& options) {
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics));
-  int exit_code = exit_fine;
-  if (context.baseline) {
-    const Changes since = changes(campaign, *context.baseline);
-    fmt::print("{}", describe(since));
-    if (since.for_the_worse()) exit_code = exit_found;
-  }
+  if (context.baseline) fmt::print("{}", describe(changes(campaign, *context.baseline)));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
-  return exit_code;
+  return found_anything(campaign.statistics) ? exit_found : exit_fine;
 }
 
 }  // namespace
@@ -53,7 +48,9 @@ void add_report(CLI::App& app, int& exit_code) {
     return command->add_option(name, file, help)->type_name("FILE");
   };
   add_file("--baseline", options->baseline,
-           "Show changes since this store; exit code 1 if there is a new way to fail or a rate is worse")
+           "Show changes since this store: a line 'new: ...' for each new way to fail, and a line 'worse: "
+           "...' for "
+           "each rate that is worse")
       ->type_name("DB");
   add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");

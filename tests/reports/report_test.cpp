@@ -100,6 +100,15 @@ TEST(Summary, AMismatchWithTheRecordedTruthIsAFinding) {
   EXPECT_THAT(summary_table(statistics), HasSubstr("FAIL oracle: 1 MISMATCH"));
 }
 
+TEST(Summary, AFaultAloneFailsItsSubjectAndIsNoFinding) {
+  Statistics statistics;
+  statistics.counts[{"mute", Kind::edge_edge, "f"}].add({.verdict = {.fault = Fault::crash}}, query,
+                                                        [] { return ""; });
+  EXPECT_FALSE(found_anything(statistics));
+  EXPECT_THAT(summary_table(statistics),
+              HasSubstr("FAIL mute: no miss in 0 collisions, NO ANSWER to 1 query"));
+}
+
 TEST(Csv, OneRowASubjectKindAndFamily) {
   const std::string text = statistics_csv(some_campaign("wang").statistics);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);

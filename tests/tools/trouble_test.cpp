@@ -181,7 +181,7 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_EQ(output.code, 2);
   EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
   EXPECT_THAT(output.error, HasSubstr("a.db: "));
-  EXPECT_EQ(run("merge b.db a.db").code, 0);
+  EXPECT_EQ(run("merge b.db a.db").code, 1);
   write("q.vt", hit);
   const Output no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
   EXPECT_EQ(no_room.code, 2);
