@@ -14,6 +14,7 @@
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "tools/commands.hpp"
+#include "tools/terminal.hpp"
 
 namespace {
 
@@ -97,6 +98,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nearmiss::tools::occupy_standard_streams();
   if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty())
     std::fprintf(
         stderr,

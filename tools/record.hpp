@@ -12,12 +12,14 @@
 #include "fuzz/trial/trial.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/store.hpp"
+#include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
-/// --json FILE, --db FILE and --quiet
+/// --json FILE|-, --db FILE and --quiet
 struct RecordOptions {
-  std::filesystem::path json, db;
+  JsonOutput json = {};
+  std::filesystem::path db = {};
   bool quiet = false;   ///< shows no progress
   bool summary = true;  ///< prints the table of subjects
   bool resume = false;  ///< continues the run in `db`, if the file exists
@@ -48,7 +50,7 @@ class Record {
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Saves, writes the JSON file, prints the summary and the first findings, and returns the exit code.
+  /// Saves, writes the JSON, prints the summary and the first findings, and returns the exit code.
   int finish(bool interrupted, bool complete);
 
  private:
