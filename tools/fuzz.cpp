@@ -168,6 +168,7 @@ void add_common(CLI::App& command, Options& options) {
       ->capture_default_str()
       ->type_name("I/N");
   options.record.add_to(command);
+  options.record.can_resume = true;
   command
       .add_flag(
           "--resume", options.record.resume,

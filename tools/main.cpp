@@ -55,8 +55,23 @@ void expect_subcommand(const CLI::App& app, std::string_view word) {
   if (word.starts_with('-') || std::ranges::count(names, word) > 0) return;
   const auto nearest =
       std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(name, word); });
-  throw nearmiss::Error(fmt::format(
-      "found the subcommand '{}', expected one such as '{}' (see nearmiss --help)", word, *nearest));
+  throw nearmiss::Error(
+      fmt::format("found the subcommand '{}', expected one such as '{}' (see nearmiss --help)",
+                  nearmiss::excerpt(word), *nearest));
+}
+
+/// The message of the command line's parser, with the long words of the user cut.
+std::string with_short_words(std::string_view text) {
+  constexpr std::size_t most = 200;  // the longest word of the parser itself is a list of choices
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = std::min(text.find(' '), text.size());
+    result += nearmiss::excerpt(text.substr(0, length), most);
+    const std::size_t blanks = std::min(text.find_first_not_of(' ', length), text.size()) - length;
+    result.append(blanks, ' ');
+    text.remove_prefix(length + blanks);
+  }
+  return result;
 }
 
 /// Throws Error if something that was printed is lost.
@@ -89,7 +104,7 @@ int run(int argc, char** argv) {
       expect_output();
       return exit_code;
     }
-    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", error.what()));
+    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", with_short_words(error.what())));
   }
   expect_output();
   return exit_code;

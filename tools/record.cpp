@@ -58,7 +58,7 @@ Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
   if (options_.resume && Store::exists(options_.db))
     go_on();
   else if (!options_.db.empty())
-    store_.emplace(options_.db, info_, shard_);
+    begin();
 }
 
 Record::~Record() {
@@ -66,6 +66,15 @@ Record::~Record() {
   store_.reset();
   std::error_code ignored;
   std::filesystem::remove(options_.db, ignored);
+}
+
+/// Makes the store. Throws Error if it exists.
+void Record::begin() {
+  if (options_.can_resume && Store::exists(options_.db))
+    throw Error(
+        fmt::format("{}: exists already, expected a new file, or --resume to continue the campaign in it",
+                    options_.db.string()));
+  store_.emplace(options_.db, info_, shard_);
 }
 
 /// Loads the run in the store as the beginning of this run. Throws Error if the store has another run.

@@ -20,9 +20,10 @@ namespace nearmiss::tools {
 struct RecordOptions {
   JsonOutput json = {};
   std::filesystem::path db = {};
-  bool quiet = false;   ///< shows no progress
-  bool summary = true;  ///< prints the table of subjects
-  bool resume = false;  ///< continues the run in `db`, if the file exists
+  bool quiet = false;       ///< shows no progress
+  bool summary = true;      ///< prints the table of subjects
+  bool resume = false;      ///< continues the run in `db`, if the file exists
+  bool can_resume = false;  ///< whether the command has the option --resume
 
   void add_to(CLI::App& command);
 };
@@ -56,6 +57,7 @@ class Record {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void begin();
   void go_on();
   void save();
 

@@ -28,7 +28,7 @@ int parse_size(const std::string& text, const BuiltInScene& scene) {
   const auto size = parse_integer<int>(word);
   if (!size || *size < scene.smallest || *size > scene.largest)
     throw Error(fmt::format("{}: found size {}, expected {} to {}", text,
-                            size ? std::string(word) : fmt::format("'{}'", word), scene.smallest,
+                            size ? std::string(word) : fmt::format("'{}'", excerpt(word)), scene.smallest,
                             scene.largest));
   return *size;
 }
