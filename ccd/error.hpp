@@ -2,8 +2,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
-#include <string_view>
 
 namespace nearmiss {
 
@@ -13,14 +11,5 @@ class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// A word of the input as messages show it: one of more than `most` bytes is cut, at a border of UTF-8 sequences, and ends
-/// in "...".
-inline std::string excerpt(std::string_view word, std::size_t most = 40) {
-  if (word.size() <= most) return std::string(word);
-  std::size_t end = most;
-  while (end > most - 4 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80U) --end;
-  return std::string(word.substr(0, end)) + "...";
-}
 
 }  // namespace nearmiss

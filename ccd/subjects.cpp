@@ -7,6 +7,7 @@
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/stopwatch.hpp"
 #include "ccd/subject.hpp"

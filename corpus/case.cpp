@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {

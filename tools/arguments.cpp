@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"

@@ -13,6 +13,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
 

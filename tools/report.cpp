@@ -41,7 +41,9 @@ void add_report(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("report", "Write a report of stores: index.html, report.json, CSV files, cases");
   command->add_option("DB", options->stores, "Stores to add up")->required()->type_name("DB...");
-  command->add_option("-o,--output", options->folder, "Folder of the report; replaces an earlier report")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder of the report; the files of an earlier report in it are replaced, and no others")
       ->required()
       ->type_name("DIR");
   const auto add_file = [&](const char* name, std::filesystem::path& file, const char* help) {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss::tools {
 

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/tables.hpp"
 

@@ -1,4 +1,5 @@
 #include "fuzz/meshes/lines.hpp"
+#include "ccd/excerpt.hpp"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "fuzz/families/search.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/defects.hpp"

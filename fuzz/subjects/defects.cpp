@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/wang.hpp"
 #include "corpus/query_text.hpp"
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss {
 

@@ -15,7 +15,7 @@
 #include "reports/json.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/summary.hpp"
-#include "tests/queries.hpp"
+#include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
@@ -27,26 +27,9 @@ using ::testing::ThrowsMessage;
 
 class ReportTest : public testing::TemporaryFolder {};
 
-const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
-const Query simple = testing::falling_vertex(0.5, 0.5, 1, -1);
-
-/// A campaign in which `subject` finds one collision, misses one, and has one false positive at half of the
-/// bound.
-Campaign some_campaign(const std::string& subject) {
-  Campaign campaign;
-  campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
-  Counts& counts = campaign.statistics.counts[{subject, Kind::vertex_triangle, "fam,\"ily"}];
-  counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, [] { return "f:1:0"; });
-  counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, [] { return "f:1:2"; });
-  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.5}, query,
-             [] { return "f:1:4"; });
-  counts.times.add(Kind::vertex_triangle, "fam,\"ily", {3, 300});
-  auto& findings = campaign.runs.front().findings;
-  findings.push_back({Finding::What::false_negative, subject, "fam,\"ily", query, "f:1:2", 0,
-                      "vt simple-root inside in-face", simple});
-  campaign.statistics.seen[signature_of(findings.back())] = 1234;
-  return campaign;
-}
+using testing::query;
+using testing::simple;
+using testing::some_campaign;
 
 TEST(Summary, HasTheFieldsThatScriptsDependOn) {
   const auto json = summary_json(some_campaign("wang"));
@@ -142,7 +125,6 @@ TEST_F(ReportTest, WritesEverythingThatItPromises) {
   }
   EXPECT_THAT(read("report/farthest/wang-vt-fam__ily.case"), HasSubstr("at 0.5 of the bound"));
   EXPECT_THAT(read("report/index.html"), Not(HasSubstr("src=\"http")));
-  EXPECT_FALSE(std::filesystem::exists(file("report.part")));
 }
 
 TEST_F(ReportTest, NamesFilesThatItHasWritten) {
@@ -207,21 +189,6 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(json["farthest"][1]["shown_family"], "search-far");
   EXPECT_THAT(statistics_csv(campaign.statistics), HasSubstr("\nwang:p24,vt,search-far-wang,3,"));
   EXPECT_TRUE(summary_json(campaign)["subjects"]["wang:p24"]["vt"]["families"].contains("search-far-wang"));
-}
-
-TEST_F(ReportTest, ReplacesAnEarlierReportWhole) {
-  write_report(some_campaign("wang"), {}, file("report"));
-  write("report/cases/old.case", "");
-  write_report(some_campaign("basic"), {}, file("report"));
-  EXPECT_FALSE(std::filesystem::exists(file("report/cases/old.case")));
-  EXPECT_THAT(read("report/report.json"), HasSubstr("basic"));
-}
-
-TEST_F(ReportTest, NeverReplacesAnythingElse) {
-  write("home/letter.txt", "precious");
-  EXPECT_THAT([&] { write_report(some_campaign("wang"), {}, file("home")); },
-              ThrowsMessage<Error>(HasSubstr("found something that is not a report")));
-  EXPECT_EQ(read("home/letter.txt"), "precious");
 }
 
 TEST_F(ReportTest, TheBaselineShowsWhatIsNew) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/themes.hpp"
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/scalar_name.hpp"
 
 namespace nearmiss {
