@@ -57,15 +57,11 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
 }
 
 ordered_json farthest_json(const ShownFarthest& each) {
-  return {{"subject", each.key.subject},
-          {"kind", short_name(each.key.kind)},
-          {"family", each.key.family},
-          {"shown_family", shown_family(each.key.family)},
-          {"ratio", each.far.ratio},
-          {"provenance", each.far.provenance},
-          {"query", each.far.query.x},
-          {"time", moment(each.far.query)},
-          {"file", "farthest/" + each.exported.file}};
+  return {{"subject", each.key.subject},       {"kind", short_name(each.key.kind)},
+          {"family", each.key.family},         {"shown_family", shown_family(each.key.family)},
+          {"ratio", each.far.ratio},           {"bound_of_distances", name(each.bound_of)},
+          {"provenance", each.far.provenance}, {"query", each.far.query.x},
+          {"time", moment(each.far.query)},    {"file", "farthest/" + each.exported.file}};
 }
 
 /// The rates of each subject and kind in the baseline and now.

@@ -23,10 +23,13 @@ using nlohmann::ordered_json;
 
 /// The rates that are compared, for one subject, kind and family.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
-  return {{"false negatives", {counts.false_negatives, counts.collisions}},
-          {"false positives", {counts.false_positives, counts.others()}},
-          {"false positives beyond the bound", {counts.distances.at_least_one(), counts.others()}},
-          {"no answer", {counts.faults_total(), counts.queries}}};
+  return {
+      {"false negatives", {counts.false_negatives, counts.collisions}},
+      {"false positives", {counts.false_positives, counts.others()}},
+      {counts.bound_of() == BoundOf::subject ? "false positives beyond the bound"
+                                             : "false positives beyond wang's bound, which it does not claim",
+       {counts.distances.at_least_one(), counts.others()}},
+      {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
 /// All rates that both campaigns have, whether changed or not.

@@ -92,6 +92,44 @@ TEST(Summary, AFaultAloneFailsItsSubjectAndIsNoFinding) {
               HasSubstr("FAIL mute: no miss in 0 collisions, NO ANSWER to 1 query"));
 }
 
+/// A campaign of a subject that has one false positive at 2.5 times its unit, and may or may not claim a bound.
+Statistics one_far_report(bool measured_by_wang) {
+  Statistics statistics;
+  Counts& counts = statistics.counts[{"mine", Kind::vertex_triangle, "f"}];
+  counts.add({.verdict = {true, Stage::vv, 0.5}, .ratio = 2.5, .measured_by_wang = measured_by_wang}, query,
+             [] { return "f:1:0"; });
+  return statistics;
+}
+
+TEST(Summary, ADistanceInUnitsOfWangsBoundIsNotAPartOfAClaim) {
+  const std::string by_wang = summary_table(one_far_report(true));
+  EXPECT_THAT(by_wang, HasSubstr("the farthest at 2.5 of wang's bound (it claims none)\n"));
+  EXPECT_THAT(by_wang, HasSubstr(" 2.5**  "));
+  EXPECT_THAT(
+      by_wang,
+      HasSubstr("\n** in units of wang's bound for the same pair, because the subject claims no bound\n"));
+  const std::string claimed = summary_table(one_far_report(false));
+  EXPECT_THAT(claimed, HasSubstr("the farthest at 2.5 of the bound\n"));
+  EXPECT_THAT(claimed, Not(HasSubstr("wang")));
+  EXPECT_THAT(claimed, Not(HasSubstr("**")));
+}
+
+TEST(Summary, JsonAndCsvSayWhoseBoundIsTheUnit) {
+  for (const bool by_wang : {true, false}) {
+    const std::string unit = by_wang ? "wang" : "claimed";
+    const Statistics statistics = one_far_report(by_wang);
+    const auto counts = summary_json({{}, statistics})["subjects"]["mine"]["vt"];
+    EXPECT_EQ(counts["bound_of_distances"], unit);
+    EXPECT_EQ(counts["families"]["f"]["bound_of_distances"], unit);
+    EXPECT_EQ(counts["false_positives_measured_by_wang"], by_wang ? 1 : 0);
+    EXPECT_EQ(report_json({{}, statistics})["farthest"][0]["bound_of_distances"], unit);
+    EXPECT_THAT(distances_csv(statistics), HasSubstr(",1," + unit + "\n"));
+  }
+  Statistics both = one_far_report(true);
+  both.merge(one_far_report(false));
+  EXPECT_EQ(summary_json({{}, both})["subjects"]["mine"]["vt"]["bound_of_distances"], "claimed or wang");
+}
+
 TEST(Csv, OneRowASubjectKindAndFamily) {
   const std::string text = statistics_csv(some_campaign("wang").statistics);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);

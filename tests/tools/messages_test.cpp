@@ -70,7 +70,7 @@ TEST_F(Messages, ANanIsCalledOne) {
   const auto bound_of = [&](const std::string& name, const std::string& words) {
     expect_refused("verdict --kind vt --distance-bound miss.vt --subject " + plugin(name), {words});
   };
-  bound_of("bound_nan", "always: found the distance bound nan, expected 0 or more");
+  bound_of("bound_nan", "always: found the distance bound NaN, expected 0 or more");
   bound_of("bound_negative", "always: found the distance bound -1, expected 0 or more");
   bound_of("bound_abort", "always: no distance bound: vt crash ABRT");
 }
