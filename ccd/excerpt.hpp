@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// A word of the input as messages show it: one of more than `most` bytes is cut, at a border of UTF-8 sequences, and ends
-/// in "...".
+/// A word of the input as messages show it: one of more than `most` bytes is cut, at a border of UTF-8 sequences,
+/// and ends in "...".
 inline std::string excerpt(std::string_view word, std::size_t most = 40) {
   if (word.size() <= most) return std::string(word);
   std::size_t end = most;

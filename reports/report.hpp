@@ -32,8 +32,8 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 ///  - statistics.csv, distances.csv and findings.csv, with all counters and findings;
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
-/// The files of an earlier report are replaced, and no others (report_folder.hpp). Throws Error if the folder is something
-/// else, if another file is in the way, or if the files cannot be written.
+/// The files of an earlier report are replaced, and no others (report_folder.hpp). Throws Error if the folder is
+/// something else, if another file is in the way, or if the files cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,
                   const std::filesystem::path& folder);
 

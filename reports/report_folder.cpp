@@ -76,8 +76,8 @@ void write_beside(const fs::path& part, const std::map<std::string, std::string>
   replace_file(part / data_file, files.at(std::string(data_file)));
 }
 
-/// Moves all files from `part` to the folder. The earlier or the new report.json names each of the report's files at any
-/// moment, so that an interrupted replacement can be completed.
+/// Moves all files from `part` to the folder. The earlier or the new report.json names each of the report's files at
+/// any moment, so that an interrupted replacement can be completed.
 void put_in_place(const fs::path& part, const fs::path& folder, const ReportPaths& own,
                   const std::map<std::string, std::string>& files) {
   for (const char* sub_folder : sub_folders) fs::create_directories(folder / sub_folder);
