@@ -26,13 +26,10 @@ constexpr const char* about =
     "Try: nearmiss fuzz --subject basic,wang --cases 100000";
 
 constexpr const char* exit_codes =
-    "\nExit codes: 0 fine; 1 the results have a false negative, a refuted bound, an oracle disagreement or "
-    "a\n"
-    "mismatch with a recorded truth; 2 bad usage or bad input, or output that cannot be written (one line "
-    "on\n"
-    "stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does not answer "
-    "are\n"
-    "counted, and are no reason for 1.";
+    "\nExit codes: 0 fine; 1 the results have a false negative, a refuted bound, an oracle disagreement,\n"
+    "or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be written (one\n"
+    "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
+    "not answer are counted, and are no reason for 1.";
 
 /// The number of letters to change, add or leave out to make one word of another.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
