@@ -37,7 +37,9 @@ TEST_F(JsonToStdout, OfScenes) {
   write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n");
   write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 9 -1\nf 1 2 3\nf 4 5 6\n");
   EXPECT_EQ(json_of("scene start.obj end.obj --verify-plan", "plan verified: ")["scenes"].size(), 1);
-  EXPECT_EQ(json_of("scene start.obj end.obj --thickness 1e9", "contact thickness 1e+09")["scenes"].size(),
+  EXPECT_EQ(json_of("scene start.obj end.obj --leave-out boxes --thickness 1e9 --subject wang",
+                    "contact thickness 1e+09")["scenes"]
+                .size(),
             1);
 }
 
