@@ -143,7 +143,7 @@ TEST_F(Files, AByteOrderMarkIsSkipped) {
   for (int i = 0; i < 8; ++i) rows += "1,2,1,2,1,2,0\n";
   EXPECT_EQ(read_all(write("edge-edge/a.csv", mark + rows)).at(0).query.x[0], 0.5);
   expect_error(write("c.ee", mark + "x\n"), "c.ee:1: found 'x'");
-  expect_error(write("d.ee", line + "\n" + mark + line + "\n"), "d.ee:2: found '" + mark + "0x");
+  expect_error(write("d.ee", line + "\n" + mark + line + "\n"), "d.ee:2: found '" + mark);
   expect_error(write("e.ee", mark), "e.ee:1: found no query");
 }
 

@@ -38,9 +38,8 @@ TEST_F(CommandLine, FaultsAloneGiveExitCodeZeroWhereverTheyAreShown) {
   EXPECT_EQ(run("merge b.db a.db").code, 0);
   EXPECT_EQ(run("report b.db -o report").code, 0);
   EXPECT_EQ(run("replay q.vt --db wang.db").code, 0);
-  const Output since = run("report b.db -o report --baseline wang.db");
-  EXPECT_EQ(since.code, 0);
-  EXPECT_THAT(since.out, HasSubstr("\nnew: fault of always, vt error -7\n"));
+  for (const char* baseline : {"a.db", "wang.db"})
+    EXPECT_EQ(run(std::string("report b.db -o report --baseline ") + baseline).code, 0) << baseline;
 }
 
 TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {

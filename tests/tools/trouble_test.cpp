@@ -209,7 +209,7 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   EXPECT_EQ(deaf.code, 0) << deaf.error;
   const Output silent = run(replay + "b.db", "", "2>&-");
   EXPECT_EQ(silent.code, 0);
-  EXPECT_EQ(silent.out, deaf.out);
+  EXPECT_THAT(silent.out, HasSubstr(" ok  wang: no miss in 1 collision"));
   // Nothing that is printed gets into the store or its lock.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})
