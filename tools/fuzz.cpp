@@ -46,12 +46,17 @@ std::optional<double> part_done(const CampaignProgress& now, const Time& time) {
 
 std::string show(const CampaignProgress& now, const Time& time, const Statistics& statistics) {
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
-  double farthest = 0;
-  for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
+  std::string farthest = times_the_bound(0);
+  double largest = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (counts.max_ratio() > largest) {
+      largest = counts.max_ratio();
+      farthest = times_the_bound(largest, counts.bound_of());
+    }
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
   line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest {}", rate,
-                      with_separators(statistics.false_negatives()), times_the_bound(farthest));
+                      with_separators(statistics.false_negatives()), farthest);
   if (const auto faults = statistics.faults(); faults != 0)
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
@@ -182,6 +187,7 @@ void add_common(CLI::App& command, Options& options) {
       ->capture_default_str()
       ->type_name("I/N");
   options.record.add_to(command);
+  options.record.can_resume = true;
   command
       .add_flag(
           "--resume", options.record.resume,

@@ -28,15 +28,10 @@ int run(const Options& options) {
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics));
-  int exit_code = exit_fine;
-  if (!context.baseline.empty()) {
-    const Changes since = changes(campaign, context.baseline);
-    fmt::print("{}", describe(since));
-    if (since.for_the_worse()) exit_code = exit_found;
-  }
+  if (!context.baseline.empty()) fmt::print("{}", describe(changes(campaign, context.baseline)));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
-  return exit_code;
+  return found_anything(campaign.statistics) ? exit_found : exit_fine;
 }
 
 }  // namespace
@@ -46,7 +41,9 @@ void add_report(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("report", "Write a report of stores: index.html, report.json, CSV files, cases");
   command->add_option("DB", options->stores, "Stores to add up")->required()->type_name("DB...");
-  command->add_option("-o,--output", options->folder, "Folder of the report; replaces an earlier report")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder of the report; the files of an earlier report in it are replaced, and no others")
       ->required()
       ->type_name("DIR");
   const auto add_file = [&](const char* name, std::filesystem::path& file, const char* help) {
@@ -54,7 +51,7 @@ void add_report(CLI::App& app, int& exit_code) {
   };
   command
       ->add_option("--baseline", options->baseline,
-                   "Show changes since this store; exit code 1 if there is a new way to fail or a rate is "
+                   "Show changes since this store: a line for each new way to fail, and for each rate that is "
                    "worse; may be repeated, the oldest store first")
       ->allow_extra_args(false)
       ->type_name("DB");

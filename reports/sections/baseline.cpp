@@ -22,11 +22,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
+constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
+
 /// The rates that are compared, for one subject, kind and family.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
-          {"false positives beyond the bound", {counts.distances.at_least_one(), counts.others()}},
+          {beyond_the_bound, {counts.distances.at_least_one(), counts.others()}},
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
@@ -238,6 +241,15 @@ std::string sightings_text(const Changes& changes, const Signature& signature) {
   return fmt::format(", first seen {}, last seen {}", known->second.first, known->second.last);
 }
 
+/// Names the bound of subjects that claim none.
+void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
+  std::set<std::string> claim_nothing;
+  for (const auto& [key, counts] : now.counts)
+    if (counts.bound_of() != BoundOf::subject) claim_nothing.insert(key.subject);
+  for (ChangedRate& each : rates)
+    if (each.what == beyond_the_bound && claim_nothing.contains(each.subject)) each.what = beyond_wangs_bound;
+}
+
 }  // namespace
 
 bool Changes::for_the_worse() const {
@@ -285,6 +297,7 @@ Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
   changes.compared_rates = changes.rates.size();
   const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, changes.rates.size()));
   std::erase_if(changes.rates, [&](const ChangedRate& each) { return each.p >= level; });
+  name_bounds(changes.rates, now.statistics);
   return changes;
 }
 

@@ -16,8 +16,9 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  std::string_view
-      what;  ///< "false negatives", "false positives", "false positives beyond the bound", or "no answer"
+  /// "false negatives", "false positives", "false positives beyond the bound", or "no answer". For a subject that
+  /// claims no bound: "false positives beyond wang's bound (no claim)".
+  std::string_view what;
   std::string subject, kind, family;
   Proportion before, now;
   double p = 1;  ///< p-value of an exact test: the probability of such a difference if the rates are equal

@@ -140,6 +140,24 @@ TEST_F(Files, QueryFilesHaveCommentsAndWindowsLineEnds) {
   EXPECT_THAT(cases[1].name, HasSubstr("a.ee:4"));
 }
 
+TEST_F(Files, AByteOrderMarkIsSkipped) {
+  const std::string mark = "\xef\xbb\xbf";
+  Case each;
+  each.query = testing::falling_edge(1, -1);
+  const std::string line = to_line(each.query);
+  EXPECT_EQ(read_all(write("a.ee", mark + line + "\n")).at(0).query, each.query);
+  EXPECT_EQ(read_all(write("b.ee", mark + "# comment\n" + line + "\n")).at(0).name, folder() + "/b.ee:2");
+  EXPECT_EQ(read_all(write("a.case", mark + to_text(each))).at(0).query, each.query);
+  each.why = "a reason";
+  EXPECT_EQ(read_all(write("b.case", mark + to_text(each))).at(0).why, "a reason");
+  std::string rows;
+  for (int i = 0; i < 8; ++i) rows += "1,2,1,2,1,2,0\n";
+  EXPECT_EQ(read_all(write("edge-edge/a.csv", mark + rows)).at(0).query.x[0], 0.5);
+  expect_error(write("c.ee", mark + "x\n"), "c.ee:1: found 'x'");
+  expect_error(write("d.ee", line + "\n" + mark + line + "\n"), "d.ee:2: found '" + mark);
+  expect_error(write("e.ee", mark), "e.ee:1: found no query");
+}
+
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
   for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n";

@@ -102,11 +102,12 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
 
 // The number of false positives is the same, but a few of them are far away.
 TEST(Changes, AFewFarFalsePositivesAreNoticed) {
-  const auto with = [](std::uint64_t far) {
+  const auto with = [](std::uint64_t far, std::uint64_t measured_by_wang = 0) {
     std::map<CountsKey, Counts> all;
     for (int i = 0; i < 10; ++i) {
       Counts c = counts(20000, 10000, 0, 1000);
       for (std::uint64_t k = 0; k < 1000; ++k) c.distances.add(k < far ? 1 : 1e-3);
+      c.measured_by_wang = measured_by_wang;
       all[{"basic", Kind::edge_edge, "family " + std::to_string(i)}] = c;
     }
     return campaign("1", std::move(all));
@@ -116,6 +117,9 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(found.rates[0].what, "false positives beyond the bound");
   EXPECT_THAT(found.rates[0].now.count, 20);
   EXPECT_THAT(changes(with(1), with(0)).rates, IsEmpty());
+  const Changes unclaimed = changes(with(2, 1000), with(0, 1000));
+  ASSERT_THAT(unclaimed.rates, SizeIs(1));
+  EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
 // p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.

@@ -174,11 +174,3 @@ class Campaign:
             report.pop('findings_total', None)
             report['findings'] = self.findings(store)
         return leaves(without(report, self.left_out))
-
-    @staticmethod
-    def findings(store):
-        """The findings in a store, as they were before they were shrunk."""
-        with sqlite3.connect(store) as database:
-            database.row_factory = sqlite3.Row
-            rows = [dict(row) for row in database.execute('SELECT * FROM finding ORDER BY rowid')]
-        return [{**row, 'shrunk': None, 'query': str(row['query'])} for row in rows]

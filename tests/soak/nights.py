@@ -163,7 +163,6 @@ class Night:
                 self.end, {INTERRUPTED}
             )
         machine.wait_until_alone()
-        campaign.was_stopped |= code == INTERRUPTED or self.end == 'time limit'
         if code not in {0, FOUND} | expected:
             raise Failure(f'{campaign}: {self}, and the exit code is {code}: {machine.said()}')
         return code

@@ -53,6 +53,19 @@ async function checkTables(page, report) {
   assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
 }
 
+/** Every section with distances says that basic claims no bound, and its distances are marked. */
+async function checkUnits(page) {
+  const notes = await page.locator(".units:visible").allTextContents();
+  assert.ok(notes.length >= 4);
+  for (const note of notes) assert.match(note, /^\*\* basic claims no bound\. These distances are in units of wang's bound/);
+  const marks = (name) => page.locator(`#counts tbody tr:has(td:first-child:text-is("${name}")) td:has-text("**")`);
+  assert.ok((await marks("basic").count()) > 0);
+  assert.equal(await marks("wang").count(), 0);
+  const far = (name) => page.locator(`#farthest tbody tr:has-text("${name} vt")`).textContent();
+  assert.match(await far("basic"), /at [\d.]+ of wang's bound \(basic claims none\)/);
+  assert.match(await far("wang"), /at [\d.]+ of the bound/);
+}
+
 async function checkFindings(page, report) {
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
@@ -116,6 +129,7 @@ export async function showsFindings(browser) {
   await checkVerdicts(page, report);
   await checkCharts(page, report);
   await checkTables(page, report);
+  await checkUnits(page);
   await checkFindings(page, report);
   await checkThatAPictureTurns(page, report);
   const command = await page.locator("#findings code").first().textContent();
