@@ -3,6 +3,8 @@
 # compilers and flags of the environment. $OUT receives each target, its seeds, its options, its dictionary
 # and its libraries. Arguments name targets; without arguments, all are built.
 set -euo pipefail
+source tools/options.sh
+options '' "$@"
 
 # Ubuntu's libraries are built with libstdc++, so a program that links them must use it too. Warnings of a
 # newer clang must not stop the build, hence -w.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "ccd/elementary.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -87,17 +88,16 @@ struct Loosened {
 /// does not change between 2^-40 and 2^8, the nearer of the two is returned.
 template <class Hits>
 double least_loosening(const Hits& hits) {
-  using std::exp2;
   double lo = -40;
   double hi = 8;
-  if (hits(exp2(lo))) return exp2(lo);
+  if (hits(exp2_of(lo))) return exp2_of(lo);
   (hits(1.0) ? hi : lo) = 0;
-  if (lo == 0 && !hits(exp2(hi))) return exp2(hi);
+  if (lo == 0 && !hits(exp2_of(hi))) return exp2_of(hi);
   while (hi - lo > 1.0 / 64) {
     const double middle = lo + (hi - lo) / 2;
-    (hits(exp2(middle)) ? hi : lo) = middle;
+    (hits(exp2_of(middle)) ? hi : lo) = middle;
   }
-  return exp2(lo < 0 ? hi : lo);
+  return exp2_of(lo < 0 ? hi : lo);
 }
 
 /// a <= b, used by every comparison that accepts.

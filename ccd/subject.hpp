@@ -191,7 +191,7 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
 /// A name without its suffix "@B" or "@scene", and the bound of the suffix, or the given bound if there is no
-/// suffix.
+/// suffix, as in the path of a plug-in. Throws Error if B is a number that is not positive and finite.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;

@@ -7,6 +7,7 @@
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/stopwatch.hpp"
 #include "ccd/subject.hpp"
@@ -171,13 +172,15 @@ const Subject& Subject::empty() const {
 
 SplitName split_bound(std::string_view name, std::optional<double> given_bound) {
   const auto at = name.rfind('@');
-  if (at == std::string_view::npos) return {name, given_bound};
+  if (at == std::string_view::npos || is_plugin_path(name)) return {name, given_bound};
   if (name.substr(at) == of_scene && given_bound) return {name.substr(0, at), given_bound};
   double bound = 0;
   const char* const end = name.data() + name.size();
   const auto [rest, error] = std::from_chars(name.data() + at + 1, end, bound);
-  if (error != std::errc() || rest != end || !(bound > 0) || !std::isfinite(bound))
-    return {name, given_bound};
+  if (error == std::errc::invalid_argument || rest != end) return {name, given_bound};
+  if (error != std::errc() || !(bound > 0) || !std::isfinite(bound))
+    throw Error("subject '" + excerpt(name) + "': found the bound '" + excerpt(name.substr(at + 1)) +
+                "', expected a positive finite number");
   return {name.substr(0, at), bound};
 }
 
@@ -202,7 +205,7 @@ void refuse_coordinates(std::string_view name) {
 void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {
   std::string names;
   for (const SubjectInfo& info : known) names += (names.empty() ? "" : ", ") + std::string(info.name);
-  throw Error("unknown subject '" + std::string(name) + "', expected one of " + names +
+  throw Error("unknown subject '" + excerpt(name) + "', expected one of " + names +
               " or the path of a plug-in such as ./plugin.so");
 }
 

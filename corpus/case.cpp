@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 
@@ -55,14 +56,15 @@ Case parse_case(std::istream& in, const std::string& file) {
   bool kind_seen = false;
   std::array<bool, 8> seen{};
   int number = 0;
-  for (std::string text; std::getline(in, text);) {
+  for (std::string line; std::getline(in, line);) {
     const std::string where = fmt::format("{}:{}", file, ++number);
+    const std::string_view text = number == 1 ? without_byte_order_mark(line) : line;
     const auto [label, value] = split_line(text);
     if (label.empty()) continue;
     if (label.starts_with('#')) {
       if (why_seen) result.why += '\n';
       why_seen = true;
-      result.why += trimmed(std::string_view(text).substr(text.find('#') + 1));
+      result.why += trimmed(text.substr(text.find('#') + 1));
       continue;
     }
     if (label == "kind") {
@@ -70,7 +72,7 @@ Case parse_case(std::istream& in, const std::string& file) {
       kind_seen = true;
     } else if (label == "truth") {
       if (value != "0" && value != "1")
-        throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, value));
+        throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, excerpt(value)));
       result.truth = value == "1";
     } else if (label == "provenance") {
       result.provenance = value;
@@ -79,7 +81,7 @@ Case parse_case(std::istream& in, const std::string& file) {
       const auto i = static_cast<std::size_t>(point);
       if (i == 8)
         throw Error(fmt::format("{}: found '{}', expected kind, truth, provenance, or x0 .. x3, y0 .. y3",
-                                where, label));
+                                where, excerpt(label)));
       if (seen[i]) throw Error(fmt::format("{}: found a second {}, expected one", where, label));
       seen[i] = true;
       parse_numbers(value, std::span(result.query.x).subspan(3 * i, 3), where);

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss {
 
@@ -28,7 +29,9 @@ std::string_view next_word(std::string_view& rest) {
 /// A finite double or float. Throws Error that says what was expected.
 template <class Number>
 Number parse(std::string_view text, std::string_view where, std::string_view expected) {
-  const auto fail = [&] { return Error(fmt::format("{}: found '{}', expected {}", where, text, expected)); };
+  const auto fail = [&] {
+    return Error(fmt::format("{}: found '{}', expected {}", where, excerpt(text), expected));
+  };
   std::string_view digits = text;
   const bool negative = digits.starts_with('-');
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
@@ -56,6 +59,11 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
 }
 
 }  // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
 
 double parse_number(std::string_view text, std::string_view where) {
   return parse<double>(text, where, "a finite number");
@@ -97,7 +105,7 @@ Query parse_line(Kind kind, std::string_view line, std::string_view where) {
 Kind parse_kind(std::string_view text, std::string_view where) {
   for (const Kind kind : kinds)
     if (text == short_name(kind)) return kind;
-  throw Error(fmt::format("{}: found kind '{}', expected vt or ee", where, text));
+  throw Error(fmt::format("{}: found kind '{}', expected vt or ee", where, excerpt(text)));
 }
 
 }  // namespace nearmiss

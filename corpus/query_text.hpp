@@ -11,6 +11,9 @@
 
 namespace nearmiss {
 
+/// The text without the byte order mark of UTF-8, with which some editors begin a file.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// A finite number, decimal or C hex float ("0x1.8p-3"), rounded to the nearest double. The locale has no
 /// influence. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);

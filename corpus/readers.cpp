@@ -62,7 +62,8 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
   bool any = false;
   for (std::string line; std::getline(in, line);) {
     std::string where = fmt::format("{}:{}", name, ++number);
-    const auto text = std::string_view(line).substr(0, line.find('#'));
+    std::string_view text = number == 1 ? without_byte_order_mark(line) : line;
+    text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(" \t\r,") == std::string_view::npos) continue;
     Case each;
     each.query = parse_line(kind, text, where);

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
+#include "corpus/query_text.hpp"
 
 namespace nearmiss {
 
@@ -23,7 +25,7 @@ Kind kind_of_folder(const std::filesystem::path& path) {
                   path.string(), folder.string()));
 }
 
-std::vector<std::string> split_commas(const std::string& line) {
+std::vector<std::string> split_commas(std::string_view line) {
   std::vector<std::string> words(1);
   for (const char c : line) {
     if (c == ',')
@@ -39,14 +41,14 @@ double exact_quotient(const std::string& numerator, const std::string& denominat
                       const std::string& where) {
   mpz_class n, d;
   if (n.set_str(numerator, 10) != 0 || d.set_str(denominator, 10) != 0 || d == 0)
-    throw Error(fmt::format("{}: found '{},{}', expected two integers, the second not 0", where, numerator,
-                            denominator));
+    throw Error(fmt::format("{}: found '{},{}', expected two integers, the second not 0", where,
+                            excerpt(numerator), excerpt(denominator)));
   mpq_class quotient(n, d);
   quotient.canonicalize();
   const double value = quotient.get_d();
   if (!std::isfinite(value) || mpq_class(value) != quotient)
-    throw Error(fmt::format("{}: found {}/{}, expected a number that is a double exactly", where, numerator,
-                            denominator));
+    throw Error(fmt::format("{}: found {}/{}, expected a number that is a double exactly", where,
+                            excerpt(numerator), excerpt(denominator)));
   return value;
 }
 
@@ -61,11 +63,11 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
   long number = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string where = fmt::format("{}:{}", file, ++number);
-    const auto words = split_commas(line);
+    const auto words = split_commas(number == 1 ? without_byte_order_mark(line) : line);
     if (words.size() == 1 && words[0].empty()) continue;
     if (words.size() != 7) throw Error(fmt::format("{}: found {} columns, expected 7", where, words.size()));
     if (words[6] != "0" && words[6] != "1")
-      throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, words[6]));
+      throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, excerpt(words[6])));
     const bool truth = words[6] == "1";
     if (row == 0) {
       each = Case{};

@@ -27,17 +27,18 @@ class Stop {
   /// From now on, the work has this much time. Must be called before threads ask.
   void limit(std::chrono::duration<double> time) {
     // A longer time than the clock can tell is no limit.
-    constexpr std::chrono::hours longest{24 * 365 * 100};
+    constexpr std::chrono::hours longest{24 * 365 * 10};
     if (time < longest) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
   }
 
   [[nodiscard]] bool is_requested() const { return requested_; }
-  [[nodiscard]] bool is_due() const {
-    return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_);
+  /// `grace` is granted in addition to the time, but not after a request.
+  [[nodiscard]] bool is_due(std::chrono::milliseconds grace = {}) const {
+    return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + grace);
   }
   /// Throws Stopped if it is due.
-  void check() const {
-    if (is_due()) throw Stopped();
+  void check(std::chrono::milliseconds grace = {}) const {
+    if (is_due(grace)) throw Stopped();
   }
 
  private:

@@ -135,12 +135,14 @@ std::string statistics_csv(const Statistics& statistics) {
 }
 
 std::string distances_csv(const Statistics& statistics) {
-  std::string text = "subject,kind,family,distance_over_bound_from,distance_over_bound_to,false_positives\n";
+  std::string text =
+      "subject,kind,family,distance_over_bound_from,distance_over_bound_to,false_positives,bound\n";
   for (const auto& [key, counts] : statistics.counts)
     for (std::size_t i = 0; i < Histogram::bin_count; ++i)
       if (const auto count = counts.distances.bins[i]; count != 0)
-        text += fmt::format("{},{},{},{},{},{}\n", field(key.subject), short_name(key.kind),
-                            field(key.family), Histogram::border(i), Histogram::border(i + 1), count);
+        text +=
+            fmt::format("{},{},{},{},{},{},{}\n", field(key.subject), short_name(key.kind), field(key.family),
+                        Histogram::border(i), Histogram::border(i + 1), count, name(counts.bound_of()));
   return text;
 }
 

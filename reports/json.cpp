@@ -38,7 +38,7 @@ std::optional<std::string> command_to_repeat(const Run& run) {
   const auto cases = run.info.find("cases");
   if (cases == run.info.end() || cases->second != until_the_time_is_over) return again->second;
   if (run.shards.size() != 1 || run.shards.front().count != 1) return std::nullopt;
-  return fmt::format("{} --cases {}", again->second, run.shards.front().cases);
+  return fmt::format("{} --first {}", again->second, run.shards.front().cases);
 }
 
 }  // namespace

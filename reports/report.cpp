@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
-#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
 #include "reports/page/page.hpp"
+#include "reports/report_folder.hpp"
 #include "reports/sections/baseline.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/decider_table.hpp"
@@ -57,15 +57,11 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
 }
 
 ordered_json farthest_json(const ShownFarthest& each) {
-  return {{"subject", each.key.subject},
-          {"kind", short_name(each.key.kind)},
-          {"family", each.key.family},
-          {"shown_family", shown_family(each.key.family)},
-          {"ratio", each.far.ratio},
-          {"provenance", each.far.provenance},
-          {"query", each.far.query.x},
-          {"time", moment(each.far.query)},
-          {"file", "farthest/" + each.exported.file}};
+  return {{"subject", each.key.subject},       {"kind", short_name(each.key.kind)},
+          {"family", each.key.family},         {"shown_family", shown_family(each.key.family)},
+          {"ratio", each.far.ratio},           {"bound_of_distances", name(each.bound_of)},
+          {"provenance", each.far.provenance}, {"query", each.far.query.x},
+          {"time", moment(each.far.query)},    {"file", "farthest/" + each.exported.file}};
 }
 
 /// The rates of each subject and kind in the baseline and now.
@@ -138,8 +134,9 @@ void add_context(ordered_json& json, const Campaign& campaign, const ReportConte
   if (!context.environments.empty()) json["environments"] = environments_json(context.environments);
   if (!since) return;
   json["baseline"] = changes_json(*since);
-  json["baseline"]["runs"] = runs_json(context.baseline->runs);
-  json["baseline"]["subjects"] = before_and_now(campaign.statistics, context.baseline->statistics);
+  const Campaign baseline = add_up(context.baseline);
+  json["baseline"]["runs"] = runs_json(baseline.runs);
+  json["baseline"]["subjects"] = before_and_now(campaign.statistics, baseline.statistics);
 }
 
 }  // namespace
@@ -148,7 +145,7 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   const Statistics& statistics = campaign.statistics;
   ordered_json json = summary_json({campaign.runs, by_shown_family(statistics)});
   std::optional<Changes> since;
-  if (context.baseline) since = changes(campaign, *context.baseline);
+  if (!context.baseline.empty()) since = changes(campaign, context.baseline);
   const Headline line = headline(statistics, since);
   json["headline"] = {{"clean", line.clean}, {"text", line.text}};
   json["verdicts"] = verdicts_json(statistics);
@@ -170,42 +167,29 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
 
 namespace {
 
-void fill_folder(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
-  fs::create_directories(folder / "cases");
-  fs::create_directories(folder / "farthest");
+/// All files of the report.
+std::map<std::string, std::string> files_with_contents(const Campaign& campaign,
+                                                       const ReportContext& context) {
   const ordered_json json = report_json(campaign, context);
-  replace_file(folder / "report.json", json.dump(1) + "\n");
-  replace_file(folder / "statistics.csv", statistics_csv(campaign.statistics));
-  replace_file(folder / "distances.csv", distances_csv(campaign.statistics));
-  replace_file(folder / "findings.csv", findings_csv(campaign));
+  std::map<std::string, std::string> files{{"index.html", report_page(json)},
+                                           {"report.json", json.dump(1) + "\n"},
+                                           {"statistics.csv", statistics_csv(campaign.statistics)},
+                                           {"distances.csv", distances_csv(campaign.statistics)},
+                                           {"findings.csv", findings_csv(campaign)}};
   for (const ShownFinding& each : shown_findings(campaign))
     for (const Exported& exported : {each.shrunk, each.original})
-      write_case(exported.content, folder / "cases" / exported.file);
+      files["cases/" + exported.file] = to_text(exported.content);
   for (const ShownFarthest& each : farthest_cases(campaign.statistics))
-    write_case(each.exported.content, folder / "farthest" / each.exported.file);
-  replace_file(folder / "index.html", report_page(json));
+    files["farthest/" + each.exported.file] = to_text(each.exported.content);
+  return files;
 }
 
 }  // namespace
 
 void write_report(const Campaign& campaign, const ReportContext& context, const fs::path& folder) {
   const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
-  if (fs::exists(whole) &&
-      !(fs::is_directory(whole) && (fs::is_empty(whole) || fs::exists(whole / "report.json"))))
-    throw Error(
-        fmt::format("{}: found something that is not a report, expected a new folder or an earlier report",
-                    whole.string()));
-  const fs::path part = whole.string() + ".part";
-  try {
-    fs::remove_all(part);
-    fill_folder(campaign, context, part);
-    fs::remove_all(whole);
-    fs::rename(part, whole);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    fs::remove_all(part, ignored);
-    throw Error(fmt::format("{}: the report cannot be written: {}", whole.string(), error.what()));
-  }
+  const ReportPaths own = own_files(whole);
+  replace_report(whole, own, files_with_contents(campaign, context));
 }
 
 }  // namespace nearmiss

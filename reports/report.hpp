@@ -15,9 +15,9 @@ namespace nearmiss {
 
 /// Data that a report shows in addition to its campaign.
 struct ReportContext {
-  std::optional<Campaign> baseline = {};
-  std::vector<Hunt> hunts = {};  ///< hunts for known defects
-  std::string audit = {};        ///< audit of rounding constants (audit_table.hpp)
+  std::vector<Campaign> baseline = {};  ///< earlier campaigns, the oldest first
+  std::vector<Hunt> hunts = {};         ///< hunts for known defects
+  std::string audit = {};               ///< audit of rounding constants (audit_table.hpp)
   std::vector<Environment> environments = {};
 };
 
@@ -26,13 +26,14 @@ struct ReportContext {
 /// farthest false positives with the names of their case files; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
-/// Writes the folder, whole or not at all:
+/// Writes the files of a report:
 ///  - index.html: self-contained, opens offline; it contains report.json and only draws it;
 ///  - report.json;
 ///  - statistics.csv, distances.csv and findings.csv, with all counters and findings;
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
-/// An earlier report is replaced. Throws Error if the folder is something else or cannot be written.
+/// The files of an earlier report are replaced, and no others (report_folder.hpp). Throws Error if the folder is
+/// something else, if another file is in the way, or if the files cannot be written.
 void write_report(const Campaign& campaign, const ReportContext& context,
                   const std::filesystem::path& folder);
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
@@ -148,14 +149,15 @@ std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text) {
   const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
   const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, shards);
   if (!slash || second.ec != std::errc() || second.ptr != end || shard >= shards)
-    throw Error(fmt::format("--shard: found '{}', expected I/N with 0 <= I < N, such as 0/4", text));
+    throw Error(fmt::format("--shard: found '{}', expected I/N with 0 <= I < N, such as 0/4", excerpt(text)));
   return {shard, shards};
 }
 
 std::optional<double> parse_bound(std::string_view text) {
   if (text.empty()) return std::nullopt;
   const double bound = parse_number(text, "--bound");
-  if (!(bound > 0)) throw Error(fmt::format("--bound: found '{}', expected a positive number", text));
+  if (!(bound > 0))
+    throw Error(fmt::format("--bound: found '{}', expected a positive number", excerpt(text)));
   return bound;
 }
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corpus/file.hpp"
 #include "fuzz/studies/audit/audit.hpp"
 #include "fuzz/studies/audit/tolerance_table.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_output.hpp"
 #include "tools/values.hpp"
 
 namespace nearmiss::tools {
@@ -91,7 +91,7 @@ std::string table_of(const std::vector<ToleranceRow>& tolerances) {
 void add_audit(CLI::App& app, int& exit_code) {
   struct Options {
     AuditPlan plan;
-    std::filesystem::path json;
+    JsonOutput json;
   };
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
@@ -103,14 +103,13 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->plan.seed, "Seed of all queries and steps")
       ->capture_default_str()
       ->type_name("S");
-  command->add_option("--json", options->json, "Write the tables as JSON, for nearmiss report --audit")
-      ->type_name("FILE");
+  options->json.add_to(*command, "Write the tables as JSON, for nearmiss report --audit");
   command->footer("\nExit code 1: an error exceeded what the rules allow. That would be a bug in nearmiss.");
   command->callback([options, &exit_code] {
     const std::vector<AuditRow> constants = audit(options->plan);
     const std::vector<ToleranceRow> tolerances = tolerance_table();
-    if (!options->json.empty()) replace_file(options->json, json_of(constants, tolerances).dump(1) + "\n");
-    fmt::print("{}\n{}", table_of(constants), table_of(tolerances));
+    options->json.write(json_of(constants, tolerances), 1);
+    fmt::print(options->json.text(), "{}\n{}", table_of(constants), table_of(tolerances));
     for (const AuditRow& row : constants)
       if (row.violations != 0) exit_code = exit_found;
   });

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
-#include "corpus/file.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_output.hpp"
 #include "tools/values.hpp"
 
 namespace nearmiss::tools {
@@ -28,7 +28,7 @@ struct Options {
   PluginLimitOptions limits;
   std::uint64_t queries = 20000;
   int runs = 31;
-  std::filesystem::path json;
+  JsonOutput json;
 };
 
 struct Input {
@@ -121,11 +121,11 @@ std::vector<Input> inputs_of(const Options& options) {
   return inputs;
 }
 
-/// Prints a line for each subject. `kind` is vt, ee or both.
-void print_rows(const Subjects& subjects, const Input& input, std::string_view kind, std::size_t queries,
-                const std::vector<RunTimes>& times) {
+/// Prints a line for each subject to `out`. `kind` is vt, ee or both.
+void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, std::string_view kind,
+                std::size_t queries, const std::vector<RunTimes>& times) {
   for (std::size_t s = 0; s < subjects.size(); ++s)
-    fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, queries,
+    fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, queries,
                subjects[s]->name(), median(times[s]), median_ratio(times[s], times.front()));
 }
 
@@ -141,36 +141,38 @@ void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const I
                        {"ratio", median_ratio(times[s], times.front())}});
 }
 
-/// Times, prints and records one input: each of its kinds, then both together.
-void time_input(const Subjects& subjects, const Input& input, int runs, nlohmann::ordered_json& results) {
+/// Times, prints to `out` and records one input: each of its kinds, then both together.
+void time_input(const Subjects& subjects, const Input& input, int runs, std::FILE* out,
+                nlohmann::ordered_json& results) {
   std::vector<std::vector<RunTimes>> by_kind;
   std::vector<double> weights;
   std::size_t count = 0;
   for (const auto& [kind, queries] : input.queries) {
     by_kind.push_back(time_all(subjects, queries, runs));
-    print_rows(subjects, input, short_name(kind), queries.size(), by_kind.back());
+    print_rows(out, subjects, input, short_name(kind), queries.size(), by_kind.back());
     add_rows(results, subjects, input, kind, by_kind.back());
     weights.push_back(static_cast<double>(queries.size()));
     count += queries.size();
   }
-  if (by_kind.size() > 1) print_rows(subjects, input, "both", count, together(by_kind, weights));
+  if (by_kind.size() > 1) print_rows(out, subjects, input, "both", count, together(by_kind, weights));
 }
 
 void run(const Options& options) {
   const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
   const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();
-  fmt::print("{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject", "ns/query",
-             over);
+  std::FILE* const out = options.json.text();
+  fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
+             "ns/query", over);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
-  for (const Input& input : inputs) time_input(subjects, input, options.runs, results);
+  for (const Input& input : inputs) time_input(subjects, input, options.runs, out, results);
   fmt::print(
+      out,
       "\nQueries whose swept boxes meet. ns/query: without waiting for a processor, less that of an empty "
       "subject; "
       "median of {} runs, the subjects in turn in each; {}: median of the ratios within a run.\n",
       options.runs, over);
-  if (!options.json.empty())
-    replace_file(options.json, nlohmann::ordered_json{{"results", results}}.dump(2) + "\n");
+  options.json.write({{"results", results}});
 }
 
 }  // namespace
@@ -185,7 +187,7 @@ void add_bench(CLI::App& app, int& /*exit_code*/) {
   add_count_option(*command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
                    "Number of random queries of each kind");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
-  command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
+  options->json.add_to(*command, "Write the results as JSON");
   command->footer(
       "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");
   command->callback([options] { run(*options); });

@@ -7,6 +7,7 @@
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/trial/campaign.hpp"
+#include "fuzz/trial/sieve.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
@@ -26,7 +27,7 @@ struct Options {
   int steps = 17;
   bool search = false;
   std::vector<std::filesystem::path> mesh;
-  std::uint64_t cases = 0;
+  std::uint64_t cases = 0, first = 0;
   std::string time, shard = "0/1";
   std::uint64_t seed = 1;
   RecordOptions record;
@@ -45,12 +46,17 @@ std::optional<double> part_done(const CampaignProgress& now, const Time& time) {
 
 std::string show(const CampaignProgress& now, const Time& time, const Statistics& statistics) {
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
-  double farthest = 0;
-  for (const auto& [key, counts] : statistics.counts) farthest = std::max(farthest, counts.max_ratio());
+  std::string farthest = times_the_bound(0);
+  double largest = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (counts.max_ratio() > largest) {
+      largest = counts.max_ratio();
+      farthest = times_the_bound(largest, counts.bound_of());
+    }
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
   line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest {}", rate,
-                      with_separators(statistics.false_negatives()), times_the_bound(farthest));
+                      with_separators(statistics.false_negatives()), farthest);
   if (const auto faults = statistics.faults(); faults != 0)
     line += fmt::format(", {} without answer", with_separators(faults));
   std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
@@ -109,8 +115,14 @@ RunInfo info_of(const Options& options, const CampaignPlan& plan, const Subjects
     info["scene"] = start + " " + end;
     again += fmt::format(" --mesh {} {}", shell_quoted(start), shell_quoted(end));
   }
-  info["cases"] = plan.cases == 0 ? std::string(until_the_time_is_over) : fmt::format("{}", plan.cases);
-  if (plan.cases != 0) again += fmt::format(" --cases {}", plan.cases);
+  info["cases"] = std::string(until_the_time_is_over);
+  if (plan.cases != 0) {
+    info["cases"] = fmt::format("{}", plan.cases);
+    again += fmt::format(" --cases {}", plan.cases);
+  } else if (plan.first != 0) {
+    info["cases"] = fmt::format("the first {}", plan.first);
+    again += fmt::format(" --first {}", plan.first);
+  }
   return info;
 }
 
@@ -121,6 +133,7 @@ int run(const Options& options) {
   plan.families = chosen_families(options, subjects, stop);
   plan.seed = options.seed;
   plan.cases = options.cases;
+  plan.first = options.first;
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
@@ -129,11 +142,13 @@ int run(const Options& options) {
                 {.index = plan.shard, .count = plan.shards, .environment = plugin_environment(subjects)});
   plan.before = record.statistics();
   plan.findings_before = record.findings();
-  const bool only_time_ends_it = plan.cases == 0;
+  const bool only_time_ends_it = plan.cases == 0 && plan.first == 0;
   Time time;
   if (!options.time.empty()) time = parse_duration(options.time, "--time");
   if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
   if (time) stop.limit(*time);
+  Sieve(subjects, plan.jobs, stop).shrink(plan.findings_before);  // what an interrupted run left
+  record.replace_findings(plan.findings_before);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);
@@ -152,9 +167,13 @@ int run(const Options& options) {
 /// The options for the campaign's length, its shard, and where the results go.
 void add_common(CLI::App& command, Options& options) {
   auto* limit = command.add_option_group("limit", "Length");
-  add_count_option(*limit, "--cases", options.cases, 1, most_queries,
-                   "Total number of queries, divided among the families")
-      ->default_str("");
+  auto* cases = add_count_option(*limit, "--cases", options.cases, 1, most_queries,
+                                 "Total number of queries, divided among the families")
+                    ->default_str("");
+  add_count_option(*limit, "--first", options.first, 1, most_queries,
+                   "Number of queries after which a campaign without --cases ends, as after a time limit")
+      ->default_str("")
+      ->excludes(cases);
   limit
       ->add_option(
           "--time", options.time,
@@ -167,6 +186,7 @@ void add_common(CLI::App& command, Options& options) {
       ->capture_default_str()
       ->type_name("I/N");
   options.record.add_to(command);
+  options.record.can_resume = true;
   command
       .add_flag(
           "--resume", options.record.resume,

@@ -13,7 +13,10 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
+#include "fuzz/stop.hpp"
 #include "tools/commands.hpp"
+#include "tools/terminal.hpp"
 
 namespace {
 
@@ -24,8 +27,10 @@ constexpr const char* about =
     "Try: nearmiss fuzz --subject basic,wang --cases 100000";
 
 constexpr const char* exit_codes =
-    "\nExit codes: 0 fine; 1 a false negative, a refuted bound or an oracle disagreement was found;\n"
-    "2 bad usage or bad input (one line on stderr says what); 130 interrupted, everything so far is saved.";
+    "\nExit codes: 0 fine; 1 the results have a false negative, a refuted bound, an oracle disagreement,\n"
+    "or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be written (one\n"
+    "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
+    "not answer are counted, and are no reason for 1.";
 
 /// The number of letters to change, add or leave out to make one word of another.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -49,8 +54,23 @@ void expect_subcommand(const CLI::App& app, std::string_view word) {
   if (word.starts_with('-') || std::ranges::count(names, word) > 0) return;
   const auto nearest =
       std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(name, word); });
-  throw nearmiss::Error(fmt::format(
-      "found the subcommand '{}', expected one such as '{}' (see nearmiss --help)", word, *nearest));
+  throw nearmiss::Error(
+      fmt::format("found the subcommand '{}', expected one such as '{}' (see nearmiss --help)",
+                  nearmiss::excerpt(word), *nearest));
+}
+
+/// The message of the command line's parser, with the long words of the user cut.
+std::string with_short_words(std::string_view text) {
+  constexpr std::size_t most = 200;  // the longest word of the parser itself is a list of choices
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = std::min(text.find(' '), text.size());
+    result += nearmiss::excerpt(text.substr(0, length), most);
+    const std::size_t blanks = std::min(text.find_first_not_of(' ', length), text.size()) - length;
+    result.append(blanks, ' ');
+    text.remove_prefix(length + blanks);
+  }
+  return result;
 }
 
 /// Throws Error if something that was printed is lost.
@@ -83,7 +103,7 @@ int run(int argc, char** argv) {
       expect_output();
       return exit_code;
     }
-    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", error.what()));
+    throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", with_short_words(error.what())));
   }
   expect_output();
   return exit_code;
@@ -92,6 +112,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nearmiss::tools::occupy_standard_streams();
   if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty())
     std::fprintf(
         stderr,
@@ -102,6 +123,8 @@ int main(int argc, char** argv) {
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);
+  } catch (const nearmiss::Stopped&) {  // before there was anything to save
+    return nearmiss::tools::exit_interrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nearmiss: %s\n", error.what());
     return nearmiss::tools::exit_bad_input;

@@ -26,7 +26,7 @@ Campaign salvage_campaigns(const std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, int& /*exit_code*/) {
+void add_merge(CLI::App& app, int& exit_code) {
   struct Options {
     std::filesystem::path out;
     std::vector<std::filesystem::path> in;
@@ -39,13 +39,14 @@ void add_merge(CLI::App& app, int& /*exit_code*/) {
   command->add_flag(
       "--salvage", options->salvage,
       "Take what is intact of damaged stores, and say what was lost; nothing can resume the result");
-  command->callback([options] {
+  command->callback([options, &exit_code] {
     const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
     write_campaign(merged, options->out);
     fmt::print("{}", summary_table(merged.statistics));
     for (const Run& run : merged.runs)
       if (const std::string missing = missing_shards(run); !missing.empty())
         fmt::print("{}: {}\n", run.info.at("command"), missing);
+    exit_code = found_anything(merged.statistics) ? exit_found : exit_fine;
   });
 }
 

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
@@ -116,6 +118,7 @@ void add_oracle(CLI::App& app, int& exit_code) {
       "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss oracle --kind vt --toi");
   command->callback([options, &exit_code] {
+    if (std::isnan(options->width)) throw Error("--width: found a NaN, expected 0 or more");
     try {
       options->input.read([&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
     } catch (const Disagreement& disagreement) {

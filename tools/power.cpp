@@ -9,7 +9,6 @@
 #include <regex>
 
 #include "ccd/error.hpp"
-#include "corpus/file.hpp"
 #include "fuzz/families/search.hpp"
 #include "fuzz/studies/power.hpp"
 #include "fuzz/subjects/defects.hpp"
@@ -17,6 +16,7 @@
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/json_output.hpp"
 #include "tools/terminal.hpp"
 #include "tools/values.hpp"
 
@@ -28,7 +28,7 @@ struct Options {
   std::vector<std::string> subjects;
   std::vector<std::string> ways;
   std::string time = "60s", libfuzzer;
-  std::filesystem::path json;
+  JsonOutput json;
   std::uint64_t seed = 1;
   int jobs = 1;
 };
@@ -119,7 +119,8 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
 
 int run(const Options& options) {
   std::vector<Hunt> results;
-  if (!options.json.empty() && std::filesystem::exists(options.json)) results = load_hunts(options.json);
+  const std::filesystem::path stored = options.json.file();
+  if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);
   std::vector<std::string> subjects = options.subjects;
   if (subjects.empty())
     for (const Defect& defect : defects()) subjects.push_back(defect.name);
@@ -140,10 +141,11 @@ int run(const Options& options) {
       auto result = way == libfuzzer ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
       if (interrupted()) continue;
       results.push_back(std::move(result));
-      if (!options.json.empty()) replace_file(options.json, hunts_json(results).dump(2) + "\n");
+      if (!stored.empty()) options.json.write(hunts_json(results));
     }
   }
-  fmt::print("{}", table(results, ways));
+  if (options.json.is_stdout()) options.json.write(hunts_json(results));
+  fmt::print(options.json.text(), "{}", table(results, ways));
   return interrupted() ? exit_interrupted : exit_fine;
 }
 
@@ -164,10 +166,7 @@ void add_power(CLI::App& app, int& exit_code) {
       ->type_name("T");
   command->add_option("--libfuzzer", options->libfuzzer, "Also hunt with this command: tools/libfuzzer")
       ->type_name("COMMAND");
-  command
-      ->add_option("--json", options->json,
-                   "Store the measurements in this file, and skip those that it already has")
-      ->type_name("FILE");
+  options->json.add_to(*command, "Store the measurements in this file, and skip those that it already has");
   command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")
       ->capture_default_str()
       ->type_name("S");

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
-#include "corpus/file.hpp"
 #include "fuzz/trial/patience.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
@@ -43,7 +42,7 @@ RunInfo environment() {
 }  // namespace
 
 void RecordOptions::add_to(CLI::App& command) {
-  command.add_option("--json", json, "Write the statistics as JSON")->type_name("FILE");
+  json.add_to(command, "Write the statistics as JSON");
   command
       .add_option("--db", db, "Save statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
@@ -56,15 +55,13 @@ RunInfo run_info(const std::string& command) {
 
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
-  const auto folder = options_.json.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw Error(fmt::format("{}: no folder {} to write it in", options_.json.string(), folder.string()));
+  options_.json.expect_folder();
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   shard_.environment.merge(environment());
   if (options_.resume && Store::exists(options_.db))
     go_on();
   else if (!options_.db.empty())
-    store_.emplace(options_.db, info_, shard_);
+    begin();
 }
 
 Record::~Record() {
@@ -77,6 +74,15 @@ Record::~Record() {
   store_.reset();
   std::error_code ignored;
   std::filesystem::remove(options_.db, ignored);
+}
+
+/// Makes the store. Throws Error if it exists.
+void Record::begin() {
+  if (options_.can_resume && Store::exists(options_.db))
+    throw Error(
+        fmt::format("{}: exists already, expected a new file, or --resume to continue the campaign in it",
+                    options_.db.string()));
+  store_.emplace(options_.db, info_, shard_);
 }
 
 /// Loads the run in the store as the beginning of this run. Throws Error if the store has another run.
@@ -114,6 +120,13 @@ void Record::add(TrialResult&& result) {
   if (Clock::now() - last_save_ >= save_interval) save();
 }
 
+void Record::replace_findings(std::vector<Finding> findings) {
+  if (findings == findings_) return;
+  findings_ = std::move(findings);
+  saved_findings_ = findings_.size();
+  if (store_) store_->replace(findings_);
+}
+
 void Record::add(const ScenePicture& picture) {
   if (store_) store_->add(picture);
 }
@@ -132,14 +145,15 @@ int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
   save();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
-  if (!options_.json.empty()) replace_file(options_.json, summary_json(campaign).dump(2) + "\n");
-  fmt::print("{}{}{}", options_.summary ? summary_table(statistics_) : "",
+  options_.json.write(summary_json(campaign));
+  std::FILE* const text = options_.json.text();
+  fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_) : "",
              sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
              funnel_tables(statistics_));
   const auto findings = campaign.findings();
-  if (!findings.empty()) fmt::print("\nthe first findings:\n");
+  if (!findings.empty()) fmt::print(text, "\nthe first findings:\n");
   for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)
-    fmt::print("  {} {} {} ({})\n", name(findings[i].what), findings[i].subject, findings[i].provenance,
+    fmt::print(text, "  {} {} {} ({})\n", name(findings[i].what), findings[i].subject, findings[i].provenance,
                findings[i].signature);
   if (interrupted) return exit_interrupted;
   return found_anything(statistics_) ? exit_found : exit_fine;

@@ -12,15 +12,18 @@
 #include "fuzz/trial/trial.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/store.hpp"
+#include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
-/// --json FILE, --db FILE and --quiet
+/// --json FILE|-, --db FILE and --quiet
 struct RecordOptions {
-  std::filesystem::path json, db;
-  bool quiet = false;   ///< shows no progress
-  bool summary = true;  ///< prints the table of subjects
-  bool resume = false;  ///< continues the run in `db`, if the file exists
+  JsonOutput json = {};
+  std::filesystem::path db = {};
+  bool quiet = false;       ///< shows no progress
+  bool summary = true;      ///< prints the table of subjects
+  bool resume = false;      ///< continues the run in `db`, if the file exists
+  bool can_resume = false;  ///< whether the command has the option --resume
 
   void add_to(CLI::App& command);
 };
@@ -42,18 +45,22 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
+  /// Replaces the findings so far.
+  void replace_findings(std::vector<Finding> findings);
+
   /// Adds a result; saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Saves, writes the JSON file, prints the summary and the first findings, and returns the exit code.
+  /// Saves, writes the JSON, prints the summary and the first findings, and returns the exit code.
   int finish(bool interrupted, bool complete);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void begin();
   void go_on();
   void save();
 

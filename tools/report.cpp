@@ -14,29 +14,24 @@ namespace nearmiss::tools {
 namespace {
 
 struct Options {
-  std::vector<std::filesystem::path> stores;
-  std::filesystem::path folder, baseline, power, audit, environments;
+  std::vector<std::filesystem::path> stores, baseline;
+  std::filesystem::path folder, power, audit, environments;
 };
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   const Campaign campaign = load_campaigns(options.stores);
   ReportContext context;
-  if (!options.baseline.empty()) context.baseline = load_campaign(options.baseline);
+  for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
   if (!options.audit.empty()) context.audit = load_audit(options.audit);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
   fmt::print("{}\n", summary_table(campaign.statistics));
-  int exit_code = exit_fine;
-  if (context.baseline) {
-    const Changes since = changes(campaign, *context.baseline);
-    fmt::print("{}", describe(since));
-    if (since.for_the_worse()) exit_code = exit_found;
-  }
+  if (!context.baseline.empty()) fmt::print("{}", describe(changes(campaign, context.baseline)));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
-  return exit_code;
+  return found_anything(campaign.statistics) ? exit_found : exit_fine;
 }
 
 }  // namespace
@@ -46,14 +41,19 @@ void add_report(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("report", "Write a report of stores: index.html, report.json, CSV files, cases");
   command->add_option("DB", options->stores, "Stores to add up")->required()->type_name("DB...");
-  command->add_option("-o,--output", options->folder, "Folder of the report; replaces an earlier report")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder of the report; the files of an earlier report in it are replaced, and no others")
       ->required()
       ->type_name("DIR");
   const auto add_file = [&](const char* name, std::filesystem::path& file, const char* help) {
     return command->add_option(name, file, help)->type_name("FILE");
   };
-  add_file("--baseline", options->baseline,
-           "Show changes since this store; exit code 1 if there is a new way to fail or a rate is worse")
+  command
+      ->add_option("--baseline", options->baseline,
+                   "Show changes since this store: a line for each new way to fail, and for each rate that is "
+                   "worse; may be repeated, the oldest store first")
+      ->allow_extra_args(false)
       ->type_name("DB");
   add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");

@@ -49,12 +49,12 @@ Scene open_scene(const std::vector<std::string>& arguments) {
   return scene_of_folder(arguments[0]);
 }
 
-/// A line for each built-in scene.
-void list_scenes() {
-  fmt::print("{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
+/// Prints a line for each built-in scene.
+void list_scenes(std::FILE* out) {
+  fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
   for (const BuiltInScene& scene : built_in_scenes())
-    fmt::print("{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest, scene.largest,
-               scene.description);
+    fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest,
+               scene.largest, scene.description);
 }
 
 /// Writes files for nearmiss replay: FILE.vt and FILE.ee, with a query on each line.
@@ -192,18 +192,21 @@ int run(Options options) {
   SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
   const RunInfo info = run_info(options, all);
   const RunInfo plugins = plugin_environment(all.subjects);
+  std::FILE* const text = options.record.json.text();
   if (!options.thickness.empty())
-    keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects);
+    keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects, text);
 
   Record record(options.record, info, {.environment = plugins});
   const Verified verified = hold_trials(options, scene, all.subjects, record, stop);
-  fmt::print("{}", describe(scene));
-  if (record.statistics().counts.empty()) fmt::print("no subject was asked: the plan decides all pairs\n");
+  fmt::print(text, "{}", describe(scene));
+  if (record.statistics().counts.empty())
+    fmt::print(text, "no subject was asked: the plan decides all pairs\n");
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = verified.asking.count();
   const double verifying = verified.verification.seconds;
   fmt::print(
+      text,
       "\n{}following the plan took {:.3g} s; asking about all that it leaves out {:.3g} s, {:.3g} times as "
       "long\n",
       describe(verified.verification), asking, verifying, verifying / asking);
@@ -279,7 +282,7 @@ void add_scene(CLI::App& app, int& exit_code) {
   add_plan_options(*command, *options);
   options->record.add_to(*command);
   command->callback([options, command, &exit_code] {
-    if (options->list) return list_scenes();
+    if (options->list) return list_scenes(options->record.json.text());
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
     name_subjects(*command, *options);
     exit_code = run(*options);

@@ -63,7 +63,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
 }
 
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
-                          Subjects& subjects) {
+                          Subjects& subjects, std::FILE* out) {
   const double limit = parse_number(thickness, "--thickness");
   const auto all = claimed_precisions(scene, leave_out, subjects, [] { return interrupted().load(); });
   const ClaimedPrecision* const best = cheapest_within(all, limit);
@@ -73,7 +73,7 @@ void keep_cheapest_within(const std::string& thickness, const Scene& scene, Leav
                     fmt::format("{:.0f}", each.ns_per_query),
                     &each == best ? "the cheapest within the thickness"
                                   : (each.claimed <= limit ? "" : "more than the thickness")});
-  fmt::print("contact thickness {:g}\n{}\n", limit, columns(rows, 1));
+  fmt::print(out, "contact thickness {:g}\n{}\n", limit, columns(rows, 1));
   if (best == nullptr)
     throw Error(fmt::format("--thickness: found {}, which is less than every subject claims", thickness));
   std::erase_if(subjects, [&](const auto& each) { return each->name() != best->subject; });

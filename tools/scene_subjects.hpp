@@ -1,6 +1,7 @@
 // The subjects that are asked about a scene, with their bounds.
 #pragma once
 
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +23,9 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
                              const Scene& scene, const Stop& stop);
 
 /// Keeps only the cheapest subject whose claimed distance of false positives does not exceed the thickness of contact;
-/// prints the claim and the cost of each subject. Throws Error if there is no such subject, or if the
+/// prints the claim and the cost of each subject to `out`. Throws Error if there is no such subject, or if the
 /// thickness is not a number.
 void keep_cheapest_within(const std::string& thickness, const Scene& scene, LeaveOut leave_out,
-                          Subjects& subjects);
+                          Subjects& subjects, std::FILE* out);
 
 }  // namespace nearmiss::tools

@@ -1,5 +1,6 @@
 #include "tools/terminal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 #include "tools/commands.hpp"
 
@@ -48,6 +50,14 @@ std::string cut(std::string line) {
 }
 
 }  // namespace
+
+void occupy_standard_streams() {
+  // open() takes the lowest free descriptor. The stream is opened for the direction in which it is not used.
+  using Stream = std::pair<int, int>;
+  for (const auto& [descriptor, direction] :
+       {Stream{STDIN_FILENO, O_WRONLY}, Stream{STDOUT_FILENO, O_RDONLY}, Stream{STDERR_FILENO, O_RDONLY}})
+    if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", direction) != descriptor) _exit(exit_bad_input);
+}
 
 const std::atomic<bool>& interrupted() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})

@@ -8,6 +8,11 @@
 
 namespace nearmiss::tools {
 
+/// Opens /dev/null for each standard stream that was closed when the program started, so that no store and no socket
+/// gets its descriptor. As with a closed stream, reading or writing it is an error. To be called before any file is
+/// opened.
+void occupy_standard_streams();
+
 /// SIGINT, SIGTERM and SIGHUP set this flag, from the first call of this function on. A second signal, at least two
 /// seconds later, ends the program at once.
 const std::atomic<bool>& interrupted();

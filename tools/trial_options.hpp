@@ -24,8 +24,7 @@ struct TrialOptions {
   [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
 
   /// Throws Error for an unknown name.
-  [[nodiscard]] Subjects make_subjects(const Stop& stop,
-                                       std::optional<double> given_bound = std::nullopt) const;
+  Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
 
   /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is the
   /// subcommand with its own arguments. The entry `again` is the command that repeats the run.

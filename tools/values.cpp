@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss::tools {
 
@@ -39,8 +40,8 @@ std::uint64_t parse_count(std::string_view text, std::string_view option, std::u
                           std::uint64_t most) {
   const auto value = count(text);
   if (!value || *value < least || *value > most)
-    throw Error(
-        fmt::format("{}: found '{}', expected a whole number from {} to {}", option, text, least, most));
+    throw Error(fmt::format("{}: found '{}', expected a whole number from {} to {}", option, excerpt(text),
+                            least, most));
   return *value;
 }
 
@@ -50,7 +51,8 @@ std::chrono::duration<double> parse_duration(std::string_view text, std::string_
   const std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
   const double seconds = unit == "ms" ? 1e-3 : unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
   if (error != std::errc() || seconds == 0 || !(number > 0) || !(number * seconds <= 1e9))
-    throw Error(fmt::format("{}: found '{}', expected a time such as 500ms, 30s, 2m or 8h", option, text));
+    throw Error(
+        fmt::format("{}: found '{}', expected a time such as 500ms, 30s, 2m or 8h", option, excerpt(text)));
   return std::chrono::duration<double>(number * seconds);
 }
 

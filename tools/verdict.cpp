@@ -26,9 +26,16 @@ struct Options {
 /// The distance bound by which a false positive is judged: " B claimed", or " B wang" if the subject claims
 /// no bound.
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
-  const double bound = judge.unit(query);
-  if (std::isnan(bound)) throw Error(fmt::format("{}: no distance bound", subject.name()));
-  return fmt::format(" {} {}", to_hex(bound), subject.claims_bound() ? "claimed" : "wang");
+  const BoundAnswer answer = judge.ask_unit(query);
+  if (answer.fault == Fault::error)
+    throw Error(fmt::format("{}: found the distance bound {}, expected 0 or more", subject.name(),
+                            std::isnan(answer.bound) ? "NaN" : fmt::format("{}", answer.bound)));
+  if (answer.fault != Fault::none) {
+    const Verdict none{.fault = answer.fault, .fault_code = answer.fault_code};
+    throw Error(fmt::format("{}: no distance bound: {}", subject.name(),
+                            fault_signature(query.kind, none, subject.fault_text(none))));
+  }
+  return fmt::format(" {} {}", to_hex(answer.bound), subject.claims_bound() ? "claimed" : "wang");
 }
 
 void run(const Options& options) {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/tables.hpp"
 
@@ -42,7 +43,7 @@ Family at_value(const Family& family, double value) {
   const Parameter& parameter = parameter_of(family);
   const std::string name = fmt::format("{}@{}", family.name, value);
   if (!(parameter.lo <= value && value <= parameter.hi) || (parameter.whole && value != std::round(value)))
-    throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", name,
+    throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
     draw(random, parameter);  // so that later draws are the same as without a fixed value
@@ -85,10 +86,11 @@ Family find_family(std::string_view name, std::span<const Family> known) {
   if (found == known.end()) {
     std::string names;
     for (const Family& family : known) names += ", " + family.name;
-    throw Error(fmt::format("unknown family '{}', expected one of {}", base, names.substr(2)));
+    throw Error(fmt::format("unknown family '{}', expected one of {}", excerpt(base), names.substr(2)));
   }
   if (base == name) return *found;
-  return at_value(*found, parse_number(name.substr(base.size() + 1), fmt::format("family '{}'", name)));
+  return at_value(*found,
+                  parse_number(name.substr(base.size() + 1), fmt::format("family '{}'", excerpt(name))));
 }
 
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {

@@ -64,7 +64,8 @@ Moments some_moments(Random& random) {
 // --- coordinates ------------------------------------------------------------------------------------
 
 Query by_ulps(Random& random, const Query& query) {
-  return nudged(random, query, random.integer(1, 4), random.one_in(4) ? 64 : 4);
+  const int ulps = random.one_in(4) ? 64 : 4;
+  return nudged(random, query, random.integer(1, 4), ulps);
 }
 
 /// Moves a position, or all coordinates slightly, by a fraction of the distance between two positions.

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "ccd/elementary.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"
@@ -71,17 +72,26 @@ Query query_of(Kind kind, const SearchPoint& m) {
   return query;
 }
 
+/// A number from lo to hi, uniform on a logarithmic scale.
+double log_uniform(Random& random, double lo, double hi) {
+  return exp2_of(random.uniform(log2_of(lo), log2_of(hi)));
+}
+
 /// Draws primitives with sizes and speeds from `smallest` to 1. Some are thin, move in their plane, or stay
 /// near one plane; contact may be on a border or at an end of the step.
 SearchPoint draw(Random& random, double smallest) {
-  const auto some = [&](double lo, double hi) { return random.one_in(3) ? random.log_uniform(lo, hi) : hi; };
+  const auto some = [&](double lo, double hi) { return random.one_in(3) ? log_uniform(random, lo, hi) : hi; };
   const auto path = [&](const Vector& start, double speed) {
     return Path{start, start + random.vector(speed)};
   };
-  const auto speed = [&] { return random.one_in(3) ? 0 : some(smallest, 1); };
+  // The order in which arguments and operands are computed is the compiler's choice, so each is drawn by itself.
+  const auto some_path = [&] {
+    const Vector start = random.vector(some(smallest, 1));
+    return path(start, random.one_in(3) ? 0 : some(smallest, 1));
+  };
   SearchPoint m;
-  m.q = path(random.vector(some(smallest, 1)), speed());
-  m.r = path(random.vector(some(smallest, 1)), speed());
+  m.q = some_path();
+  m.r = some_path();
   if (random.one_in(3)) {
     const double along = random.uniform(-1.5, 1.5);
     const double across = some(0.1 * smallest, 1e-1);
@@ -89,11 +99,13 @@ SearchPoint draw(Random& random, double smallest) {
   }
   for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
   m.w = random.vector(some(smallest, 1));
-  if (random.one_in(3))
-    m.w = random.uniform(-1, 1) * m.q.at(m.place[2]) + random.uniform(-1, 1) * m.r.at(m.place[2]) +
-          random.vector(some(0.1 * smallest, 1e-1));
+  if (random.one_in(3)) {
+    const Vector along_q = random.uniform(-1, 1) * m.q.at(m.place[2]);
+    const Vector along_r = random.uniform(-1, 1) * m.r.at(m.place[2]);
+    m.w = along_q + along_r + random.vector(some(0.1 * smallest, 1e-1));
+  }
   if (random.one_in(4)) {
-    const double out_of_plane = random.log_uniform(1e-4 * smallest * smallest, 1e-2);
+    const double out_of_plane = log_uniform(random, 1e-4 * smallest * smallest, 1e-2);
     for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
   }
   m.gap.setZero();
@@ -106,7 +118,7 @@ std::array<double, 6> hardness(Kind kind, const Contact& contact, const Vector& 
   const Vector r = contact.r.at(contact.time);
   const Vector n = q.cross(r);
   const Vector relative = w - contact.velocity(kind);
-  const auto ratio = [](double a, double b) { return b > 0 ? std::log2(std::max(a / b, 0x1p-40)) : -40; };
+  const auto ratio = [](double a, double b) { return b > 0 ? log2_of(std::max(a / b, 0x1p-40)) : -40; };
   const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
   return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
           ratio(n.norm(), q.norm() * r.norm()),
@@ -154,7 +166,7 @@ class Maximiser {
   void optimise(bool beside) {
     constexpr std::array algorithms{nlopt::LN_SBPLX, nlopt::LN_NELDERMEAD, nlopt::LN_BOBYQA};
     constexpr int evaluations = 300;
-    const double step = random_.log_uniform(finest_step_, 0.5);
+    const double step = log_uniform(random_, finest_step_, 0.5);
     SearchPoint start = best_;
     if (beside) start.visit(touching_, [&](Vector& v) { v += random_.vector(step); });
     std::vector<double> point;
@@ -264,7 +276,7 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
     if (!(hit && exactly) && !collides(query)) return nothing;
     if (!hit) return HUGE_VAL;
     const double needed = subject->needed_tolerance(query);
-    if (!std::isnan(needed)) return std::log2(needed);
+    if (!std::isnan(needed)) return log2_of(needed);
     double sum = 0;
     const auto hard = hardness(kind, contact_of(kind, m), m.w);
     for (std::size_t i = 0; i < hard.size(); ++i) sum -= mixture[i] * hard[i];
@@ -284,7 +296,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
     if (answer->fault == Fault::time) return HUGE_VAL;
     if (!answer->hit) {
       const double needed = subject->needed_tolerance(query);
-      return std::isnan(needed) ? -1 : -std::log2(needed);
+      return std::isnan(needed) ? -1 : -log2_of(needed);
     }
     if (collides(query)) return 0.0;
     const double bound = subject->claims_bound() ? subject->distance_bound(query) : reach(*subject, query);
@@ -295,7 +307,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
   const double smallest = smallest_for(*subject, random, kind);
   return query_of(kind, Maximiser(random, false, smallest, objective).run([&] {
     SearchPoint m = draw(random, smallest);
-    m.gap = random.vector(random.log_uniform(1e-4, 2) * reach(*subject, query_of(kind, m)));
+    m.gap = random.vector(log_uniform(random, 1e-4, 2) * reach(*subject, query_of(kind, m)));
     return m;
   }));
 }

@@ -1,4 +1,5 @@
 #include "fuzz/meshes/lines.hpp"
+#include "ccd/excerpt.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@ namespace nearmiss {
 
 namespace {
 
+/// Appends the words of a line.
 void split(std::string_view line, std::vector<std::string_view>& words) {
   constexpr std::string_view blanks = " \t\r\v\f";
-  words.clear();
   for (auto begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
     const auto end = std::min(line.find_first_of(blanks, begin), line.size());
     words.push_back(line.substr(begin, end - begin));
@@ -36,23 +37,33 @@ std::string read_all(std::istream& in, std::string_view name) {
   return text;
 }
 
-Lines::Lines(std::string_view text, std::string_view name, Comments comments)
-    : rest_(text), name_(name), comments_(comments) {}
+Lines::Lines(std::string_view text, std::string_view name, Comments comments, Continuation continuation)
+    : rest_(without_byte_order_mark(text)), name_(name), comments_(comments), continuation_(continuation) {}
 
 bool Lines::next() {
   read_ = 0;
-  do {
-    if (rest_.empty()) {
-      words_.clear();
-      return false;
+  words_.clear();
+  while (words_.empty()) {
+    if (rest_.empty()) return false;
+    number_ = taken_ + 1;
+    while (take_line()) {
     }
-    ++number_;
-    std::string_view line = rest_.substr(0, rest_.find('\n'));
-    rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
-    if (comments_ == Comments::hash) line = line.substr(0, line.find('#'));
-    split(line, words_);
-  } while (words_.empty());
+  }
   return true;
+}
+
+bool Lines::take_line() {
+  std::string_view line = rest_.substr(0, rest_.find('\n'));
+  rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+  ++taken_;
+  const std::size_t comment = comments_ == Comments::hash ? line.find('#') : std::string_view::npos;
+  line = line.substr(0, comment);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  const bool goes_on =
+      continuation_ == Continuation::backslash && comment == std::string_view::npos && line.ends_with('\\');
+  if (goes_on) line.remove_suffix(1);
+  split(line, words_);
+  return goes_on && !rest_.empty();
 }
 
 std::string_view Lines::next_word() {
@@ -73,10 +84,7 @@ double parse_decimal(std::string_view word, const Lines& lines) {
 }
 
 std::string shown(std::string_view word) {
-  constexpr std::size_t most = 40;  // because a binary file may have long words
-  if (word.empty()) return "the end of the file";
-  if (word.size() > most) return fmt::format("'{}...'", word.substr(0, most));
-  return fmt::format("'{}'", word);
+  return word.empty() ? "the end of the file" : fmt::format("'{}'", excerpt(word));
 }
 
 }  // namespace nearmiss

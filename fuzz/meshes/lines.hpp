@@ -14,13 +14,16 @@ namespace nearmiss {
 /// Reads the whole content of a stream. Throws Error if it cannot be read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. The text
-/// must outlive this object.
+/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. A byte order mark
+/// at the beginning is skipped. The text must outlive this object.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: from '#' to the end of the line
+  /// backslash: a line that ends in '\', outside a comment, goes on with the words of the next line.
+  enum class Continuation { none, backslash };
 
-  Lines(std::string_view text, std::string_view name, Comments comments);
+  Lines(std::string_view text, std::string_view name, Comments comments,
+        Continuation continuation = Continuation::none);
 
   /// Goes on to the next line; false at the end of the text.
   bool next();
@@ -37,7 +40,7 @@ class Lines {
   /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// The number of this line, from 1.
+  /// The number of this line, from 1. A line that goes on has the number of its first part.
   [[nodiscard]] long number() const { return number_; }
 
   /// "NAME:LINE", for messages.
@@ -48,10 +51,15 @@ class Lines {
   [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
 
  private:
+  /// Adds the words of the next line of the text to those of this line. Returns whether this line goes on.
+  bool take_line();
+
   std::string_view rest_;
   std::string name_;
   Comments comments_;
+  Continuation continuation_;
   long number_ = 0;
+  long taken_ = 0;  ///< number of lines of the text before rest_
   std::vector<std::string_view> words_;
   std::size_t read_ = 0;  ///< number of words that next_word has returned
 };

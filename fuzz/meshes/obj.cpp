@@ -91,7 +91,7 @@ bool is_skipped(std::string_view keyword) {
 
 Mesh parse_obj(std::istream& in, const std::string& name) {
   const std::string text = read_all(in, name);
-  Lines lines(text, name, Lines::Comments::hash);
+  Lines lines(text, name, Lines::Comments::hash, Lines::Continuation::backslash);
   Mesh mesh;
   std::vector<FaceOrPolyline> primitives;
   std::vector<long> vertices;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
@@ -44,7 +45,8 @@ struct MeshSize {
 MeshSize read_size(Lines& lines, std::string_view name) {
   const Words counts = after_keyword(lines);
   if (counts.size() != 2 && counts.size() != 3)
-    throw lines.error(fmt::format("{}", fmt::join(counts, " ")), "the numbers of vertices, faces and edges");
+    throw lines.error(excerpt(fmt::format("{}", fmt::join(counts, " "))),
+                      "the numbers of vertices, faces and edges");
   const int vertices = parse_count(counts[0], largest_int, "a number of vertices", lines);
   expect_points(static_cast<std::size_t>(vertices), name);
   return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};

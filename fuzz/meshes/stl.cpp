@@ -8,6 +8,7 @@
 #include <cstring>
 #include <map>
 
+#include "corpus/query_text.hpp"
 #include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
 
@@ -128,8 +129,9 @@ Mesh parse_binary(std::string_view bytes, std::string_view name) {
 
 Mesh parse_stl(std::istream& in, const std::string& name) {
   const std::string text = read_all(in, name);
-  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const bool is_text = lower_case(text.substr(start, 5)) == "solid" && text.size() != promised_size(text);
+  const std::string_view words = without_byte_order_mark(text);
+  const std::size_t start = std::min(words.find_first_not_of(" \t\r\n"), words.size());
+  const bool is_text = lower_case(words.substr(start, 5)) == "solid" && text.size() != promised_size(text);
   return is_text ? parse_text(text, name) : parse_binary(text, name);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "fuzz/families/search.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/defects.hpp"
@@ -74,8 +75,8 @@ Gauge gauge_of(std::string_view name) {
     if (tolerance.name == name) return tolerance_gauge(tolerance);
   for (const Tests& tests : tests_table)
     if (tests.name == name) return tests_gauge(tests);
-  throw Error(
-      fmt::format("unknown tolerance '{}', expected some of {}", name, fmt::join(tightness_names(), ", ")));
+  throw Error(fmt::format("unknown tolerance '{}', expected some of {}", excerpt(name),
+                          fmt::join(tightness_names(), ", ")));
 }
 
 /// The extreme value among some queries of a family.

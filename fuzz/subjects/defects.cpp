@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/wang.hpp"
 #include "corpus/query_text.hpp"
 
@@ -209,7 +210,8 @@ std::unique_ptr<Subject> try_make_defect(std::string_view name) {
     for (const Step step : each.steps) steps.left_out |= std::uint64_t{1} << static_cast<unsigned>(step);
   }
   if (!known)
-    throw Error(fmt::format("unknown defect '{}', expected one that 'nearmiss subjects' lists", name));
+    throw Error(
+        fmt::format("unknown defect '{}', expected one that 'nearmiss subjects' lists", excerpt(name)));
   return std::make_unique<DefectiveSubject>(name, steps, defect == in_float_name);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -34,8 +35,9 @@ std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   return dealt(before + plan.families[f].block_cases) - dealt(before);
 }
 
-/// The number of cases in this shard; 0 if only time ends the campaign.
+/// The number of cases in this shard; 0 if there is no end.
 std::uint64_t cases_of_shard(const CampaignPlan& plan) {
+  if (plan.cases == 0) return plan.first;
   std::uint64_t sum = 0;
   for (std::size_t f = 0; f < plan.families.size(); ++f) {
     const std::uint64_t share = share_of(plan, f);
@@ -50,7 +52,6 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 /// Cases [first, last) of a family.
 struct Block {
   const Family* family;
-  std::uint64_t round;
   std::uint64_t first, last;
 
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
@@ -61,7 +62,7 @@ Block block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
   const std::uint64_t first = round * plan.families[f].block_cases;
   std::uint64_t last = first + plan.families[f].block_cases;
   if (plan.cases != 0) last = std::clamp(share_of(plan, f), first, last);
-  return {&plan.families[f], round, first, last};
+  return {&plan.families[f], first, last};
 }
 
 /// The cases of a shard, in order.
@@ -69,9 +70,10 @@ class Cases {
  public:
   /// Begins behind the first `done` cases.
   Cases(const CampaignPlan& plan, std::uint64_t done) : plan_(plan) {
+    if (plan.first != 0) left_ = plan.first - std::min(plan.first, done);
     while (const auto block = next_block()) {
       if (done < block->cases()) {
-        rest_ = {block->family, block->round, block->first + done, block->last};
+        rest_ = {block->family, block->first + done, block->last};
         return;
       }
       done -= block->cases();
@@ -81,10 +83,12 @@ class Cases {
   /// The next cases of one block, at most as many as `pace` says; nothing when all are done.
   std::optional<Block> next(const Pace& pace) {
     if (!rest_ || rest_->cases() == 0) rest_ = next_block();
-    if (!rest_) return std::nullopt;
+    if (!rest_ || left_ == 0) return std::nullopt;
     Block slice = *rest_;
-    slice.last = std::min(slice.last, slice.first + pace.cases(slice.family->name));
+    slice.last =
+        slice.first + std::min({slice.cases(), std::uint64_t{pace.cases(slice.family->name)}, left_});
     rest_->first = slice.last;
+    left_ -= slice.cases();
     return slice;
   }
 
@@ -106,6 +110,7 @@ class Cases {
   std::uint64_t round_ = plan_.shard;
   std::size_t family_ = 0;
   std::optional<Block> rest_;
+  std::uint64_t left_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// A slice of a campaign on its way through the trials.
@@ -117,6 +122,11 @@ struct Slice {
   bool done = false;  ///< otherwise it was stopped
 };
 
+/// The first case of a kind in a block.
+std::uint64_t first_of(const Block& block, Kind kind) {
+  return block.first + (kind_of(block.first) == kind ? 0 : 1);
+}
+
 /// The cases of one kind in a block.
 Batch batch_of(const CampaignPlan& plan, const Block& block, Kind kind, const Stop& stop) {
   Batch batch;
@@ -124,7 +134,7 @@ Batch batch_of(const CampaignPlan& plan, const Block& block, Kind kind, const St
   batch.family = block.family->name;
   batch.timed = block.family->timed;
   batch.compare_all = block.family->compare_all;
-  const std::uint64_t first = block.first + (kind_of(block.first) == kind ? 0 : 1);
+  const std::uint64_t first = first_of(block, kind);
   for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
     stop.check();
     batch.queries.push_back(make_query(*block.family, plan.seed, index));
@@ -134,6 +144,10 @@ Batch batch_of(const CampaignPlan& plan, const Block& block, Kind kind, const St
     return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);
   };
   return batch;
+}
+
+bool are_shrunk(const std::vector<Finding>& findings) {
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; });
 }
 
 /// Runs a campaign: slices are tried on all threads, and count in their order.
@@ -150,6 +164,7 @@ class CampaignRun {
     progress_.of = cases_of_shard(plan);
     patience_.know(plan.before);
     sieve_.know(plan.findings_before);
+    all_are_shrunk_ = are_shrunk(plan.findings_before);
   }
 
   CampaignProgress run() {
@@ -157,7 +172,8 @@ class CampaignRun {
         plan_.jobs, [&] { return next(); }, [&](Slice& slice) { hold(slice); },
         [&](Slice& slice) { take(slice); });
     if (progress_.cases != passed_on_) pass_on();
-    progress_.complete = progress_.of != 0 && progress_.cases == progress_.of;
+    progress_.complete =
+        (plan_.cases != 0 || plan_.first != 0) && progress_.cases == progress_.of && all_are_shrunk_;
     return progress_;
   }
 
@@ -186,10 +202,19 @@ class CampaignRun {
     pace_.took(slice.block.family->name, slice.block.cases(), Clock::now() - start);
   }
 
-  static void judge(Slice& slice) {
+  /// Judges both kinds, and puts the findings into the order of the cases.
+  void judge(Slice& slice) const {
     slice.result = {};
-    for (Trial& trial : slice.trials) slice.result.merge(trial.judge());
-    for (Finding& finding : slice.result.findings) finding.round = slice.block.round;
+    const Block& block = slice.block;
+    for (Trial& trial : slice.trials) {
+      TrialResult result = trial.judge();
+      for (Finding& finding : result.findings)
+        finding.place = cases_up_to(plan_, block.family->name,
+                                    first_of(block, finding.query.kind) + kinds.size() * finding.place);
+      slice.result.merge(std::move(result));
+    }
+    std::stable_sort(slice.result.findings.begin(), slice.result.findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.place < b.place; });
   }
 
   void take(Slice& slice) {
@@ -206,6 +231,7 @@ class CampaignRun {
   /// Passes the results on that have come since the last time.
   void pass_on() {
     sieve_.sift(sum_.findings);
+    all_are_shrunk_ = all_are_shrunk_ && are_shrunk(sum_.findings);
     progress_.elapsed = Clock::now() - start_;
     passed_on_ = progress_.cases;
     if (!sink_(std::exchange(sum_, {}), progress_)) is_over_ = true;
@@ -224,6 +250,7 @@ class CampaignRun {
   TrialResult sum_;           // not passed on yet
   CampaignProgress progress_;
   std::uint64_t passed_on_ = 0;
+  bool all_are_shrunk_ = true;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
   std::atomic<bool> is_over_ = false;

@@ -20,6 +20,8 @@ struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
   std::uint64_t cases = 0;  ///< total, divided in proportion to `block_cases`; 0 if there is no end
+  std::uint64_t first =
+      0;  ///< if there is no end: decides only so many cases of the shard, in order; 0 is no limit
   Comparison comparison;
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
@@ -33,7 +35,7 @@ struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
   std::uint64_t of = 0;            ///< all cases of this shard; 0 if there is no end
-  bool complete = false;           ///< whether this shard is completed
+  bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
   std::chrono::duration<double> elapsed{};
 };
 

@@ -16,7 +16,7 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 
 std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
                                                             const Truth& truth) const {
-  Outcome outcome{.verdict = verdict, .collision = truth.collision()};
+  Outcome outcome{.verdict = verdict, .collision = truth.collision(), .measured_by_wang = wang_ != nullptr};
   if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
   if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
   const BoundAnswer unit = ask_unit(truth.query());

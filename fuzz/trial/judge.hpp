@@ -31,6 +31,9 @@ class Judge {
   /// to give its bound.
   [[nodiscard]] double unit(const Query& query) const;
 
+  /// The unit, or why the subject fails to give it.
+  [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
+
   /// Compares an answer with the truth about the query as the subject rounds it. A subject that claims bounds
   /// must give a number >= 0 for a false positive; anything else is a fault. The ratio of a false positive is
   /// that of `Truth::distance`, accurate to 1/1000 if the finding or these counters store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
@@ -40,9 +43,6 @@ class Judge {
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
 
  private:
-  /// The unit, or why the subject fails to give it.
-  [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
-
   /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
                                                                      const Truth& truth) const;

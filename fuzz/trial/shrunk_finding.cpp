@@ -9,12 +9,15 @@ namespace nearmiss {
 
 namespace {
 
+/// What was found in the last moment of a campaign's time is still shrunk.
+constexpr std::chrono::milliseconds grace{1000};
+
 Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, const Stop& stop) {
   constexpr int most_late = 8;  // each query over its time limit takes the full limit
   int late = 0;
   const Judge judge(subject);
   const Query shrunk_query = shrunk(finding.query, [&](const Query& query) {
-    stop.check();
+    stop.check(grace);
     try {
       if (late == most_late) return false;
       const auto failure = judge.failure(query);
@@ -37,7 +40,7 @@ Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& s
       return finding.query;
     case Finding::What::oracle_disagreement:
       return shrunk(finding.query, [&](const Query& query) {
-        stop.check();
+        stop.check(grace);
         return oracle_failure(query) == Failure{finding.what, finding.signature};
       });
     default:

@@ -19,10 +19,16 @@ void Sieve::know(std::span<const Finding> kept) {
 
 void Sieve::sift(std::vector<Finding>& findings) {
   std::erase_if(findings, [&](const Finding& f) { return !first_.take(f); });
+  shrink(findings);
+}
+
+void Sieve::shrink(std::vector<Finding>& findings) const {
   in_parallel(jobs_, findings.size(), [&](std::size_t i) {
+    Finding& finding = findings[i];
+    if (finding.is_shrunk) return;
     try {
-      stop_.check();
-      findings[i].shrunk = shrunk_query(findings[i], subject_of(findings[i]), stop_);
+      finding.shrunk = shrunk_query(finding, subject_of(finding), stop_);
+      finding.is_shrunk = true;
     } catch (const Stopped&) {  // the finding stays as it is
     }
   });

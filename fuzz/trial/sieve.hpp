@@ -21,8 +21,11 @@ class Sieve {
   /// Counts findings that an earlier sieve kept.
   void know(std::span<const Finding> kept);
 
-  /// Removes the findings that are not kept from those of the next trials.
+  /// Removes the findings that are not kept from those of the next trials, and shrinks the others.
   void sift(std::vector<Finding>& findings);
+
+  /// Shrinks the findings that are not shrunk yet.
+  void shrink(std::vector<Finding>& findings) const;
 
  private:
   [[nodiscard]] const Subject* subject_of(const Finding& finding) const;

@@ -47,7 +47,9 @@ TrialResult SiftedTrials::trial(const Batch& batch) {
       break;
     }
     patience_.settle(trial, 0);
-    sum.merge(trial.judge());
+    TrialResult result = trial.judge();
+    for (Finding& finding : result.findings) finding.place = 0;  // results come in order
+    sum.merge(std::move(result));
     pace_.took(batch.family, last - first, Stop::Clock::now() - start);
   }
   return sum;

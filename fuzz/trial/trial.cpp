@@ -165,6 +165,7 @@ class Judging {
     const double ratio = outcome.bound_refuted ? outcome.ratio : 0;
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
+    result_.findings.back().place = i;
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }
 

@@ -30,7 +30,7 @@ struct Batch {
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 };
 
-/// The result of a trial.
+/// The result of a trial. The place of a finding is that of its query in the batch.
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;

@@ -24,9 +24,9 @@ bool is_before(const Finding& a, const Finding& b) {
 /// Sorts findings as one machine would have found them, and drops findings that one machine would not have
 /// kept.
 void keep_first(std::vector<Finding>& findings) {
-  // A round is done by one shard, whose findings are in order.
+  // The findings of a case are those of one shard, and in order.
   std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.round < b.round; });
+                   [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
   std::erase_if(findings, [&](const Finding& f) { return !first.take(f); });
 }

@@ -36,6 +36,9 @@ const mixed = (a, b) => "#" + [1, 3, 5].map((i) =>
   Math.round((parseInt(a.slice(i, i + 2), 16) + parseInt(b.slice(i, i + 2), 16)) / 2).toString(16).padStart(2, "0")).join("");
 const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 
+/** A line of a tooltip: whose bound is the unit of distances. */
+const boundField = { field: "bound_of_distances", title: "bound" };
+
 /** A logarithmic axis whose ends stand for 0 and infinity. `at` returns the place of a value. */
 function logAxis(values) {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
@@ -82,7 +85,7 @@ function drawRates() {
     { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", format: ".3~%" },
     { field: "lo", title: "from", format: ".3~%" }, { field: "hi", title: "to", format: ".3~%" },
     { field: "median", title: "median distance / bound, at most", format: ".3~g" },
-    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }, boundField];
   const separators = { data: { values: families.slice(1).map((family) => ({ family })) },
     mark: { type: "rule", color: color("--line") }, encoding: { y: { ...y, bandPosition: 0 } } };
   const panel = (kind, i) => ({
@@ -112,7 +115,7 @@ function drawDistances() {
     if (row.false_positives === 0) continue;
     row.fp_distance_histogram.forEach((n, i) => {
       notFarther += n;
-      values.push({ subject: row.subject, kind: row.kind, begin: begins[i], end: ends[i], count: n, share: notFarther / row.false_positives,
+      values.push({ subject: row.subject, kind: row.kind, bound_of_distances: row.bound_of_distances, begin: begins[i], end: ends[i], count: n, share: notFarther / row.false_positives,
         distance: i === last ? `at least ${short(borders[i])}` : `${short(borders[i])} to ${short(borders[i + 1])}` });
     });
   }
@@ -135,7 +138,7 @@ function drawDistances() {
             axis: { values: [first, ...decades, ends[last]], labelExpr: label, labelAngle: -40 } },
           y: { field, type: "quantitative", title, ...scale },
           color: hue,
-          tooltip: [{ field: "subject" }, { field: "distance", title: "distance / bound" }, { field: "count" },
+          tooltip: [{ field: "subject" }, { field: "distance", title: "distance / bound" }, boundField, { field: "count" },
             { field: "share", title: "not farther", format: ".2%" }],
         },
       },
@@ -192,7 +195,7 @@ function drawSweeps() {
   const y = { field: "row", type: "nominal", title: null };
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "value", title: "parameter" }, { field: "queries" }, { field: "collisions" },
     { field: "false_negatives", title: "missed" }, { field: "false_positive_rate", title: "false positives", format: ".3~%" },
-    { field: "max_fp_distance_over_bound", title: "largest distance / bound", format: ".4~g" },
+    { field: "max_fp_distance_over_bound", title: "largest distance / bound", format: ".4~g" }, boundField,
     { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
   const panel = (field, title, scheme, format, names) => ({
     title, width: 330, height: { step: 16 },

@@ -16,3 +16,10 @@ function countRows(byFamily) {
     }
   return rows;
 }
+
+/** Whether distances are fractions of the bound that the subject claims; else they are in units of wang's bound. */
+const isOfClaim = (row) => row.bound_of_distances === "claimed";
+/** Marks a distance that is no fraction of a claim; the notes of class "units" explain the mark. */
+const unitMark = (row) => (isOfClaim(row) ? "" : "**");
+/** The same for all kinds of a subject. */
+const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");

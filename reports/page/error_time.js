@@ -19,7 +19,7 @@ function drawErrorTimeOfEach() {
   const tooltip = [...errorTimeTooltip,
     { field: "median", title: "median distance / bound, at most", format: ".3~g" },
     { field: "q99", title: "99 %, at most", format: ".3~g" },
-    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }];
+    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }, boundField];
   const panel = (title, top, marks, front) => {
     const axis = logAxis(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
     const shown = rows.map((row) => {
@@ -111,7 +111,7 @@ function drawErrorTimeOfLadder() {
   const opacity = (most) => ({ condition: { param: "chosen", value: most }, value: 0.1 });
   const tooltip = [...errorTimeTooltip, { field: "epsilon", title: "ε", format: ".3~e" },
     { field: "farthest_over_B", title: "farthest / B", format: ".4~g" },
-    { field: "max_fp_distance_over_bound", title: "farthest / bound", format: ".5~g" }];
+    { field: "max_fp_distance_over_bound", title: "farthest / bound", format: ".5~g" }, boundField];
   const [width, height] = [panelWidth(460), 360];
   const panel = (title, field, front, bounds, params) => {
     const known = rows.filter((row) => row[field] !== null);

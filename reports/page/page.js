@@ -44,10 +44,13 @@ function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
   show("baseline");
-  const ways = (list) => list.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}`);
+  const ways = (list) => list.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}` +
+    (each.first_seen ? ` (first seen ${each.first_seen}, last seen ${each.last_seen})` : ""));
   const worse = baseline.changed_rates.filter((each) => each.worse).length;
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   for (const way of ways(baseline.new_signatures)) say(`New: ${way}.`, true);
+  for (const way of ways(baseline.lasting_signatures)) say(`As before: ${way}.`, true);
+  for (const subject of baseline.absent_subjects) say(`Not in the baseline: ${subject}.`);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
   if (baseline.unseen_signatures.length > 0)
     say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but no more frequent than chance explains ` +
@@ -67,16 +70,31 @@ function drawBaseline() {
       { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
     ], baseline.changed_rates);
   const pair = (title, field, form = short) => ({ title, number: (r) => r.now[field],
-    text: (r) => `${r.before ? form(r.before[field]) : "–"} → ${form(r.now[field])}` });
+    text: (r) => `${r.before ? form(r.before[field], r.before) : "–"} → ${form(r.now[field], r.now)}` });
+  const marked = (x, counts) => fraction(x) + unitMark(counts);
   fillTable(element("before-and-now"), [
     text("subject", "subject"), text("kind", "kind"), pair("queries", "queries"), pair("false negatives", "false_negatives"),
-    pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound", fraction),
+    pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound", marked),
     pair("ns / query", "ns_per_query"),
   ], baseline.subjects);
   if (baseline.changed_facts.length > 0)
     element("changed-facts").textContent = "The runs differ in: " +
       baseline.changed_facts.map((fact) => `${fact.name} (${fact.before || "none"} → ${fact.now || "none"})`).join("; ") +
       ". Therefore rates are compared, not counts.";
+}
+
+// --- units of distances ---------------------------------------------------------------------------
+
+/** Says which subjects claim no bound, next to everything that shows distances of false positives. */
+function drawUnits() {
+  const names = [...new Set(countRows(false).filter((row) => !isOfClaim(row)).map((row) => row.subject))];
+  if (names.length === 0) return;
+  const who = names.length > fewSubjects ? `${names.length} subjects claim` : `${names.join(", ")} ${names.length === 1 ? "claims" : "claim"}`;
+  for (const note of document.querySelectorAll(".units")) {
+    note.textContent = `** ${who} no bound. These distances are in units of wang's bound for the same pair; they are no fractions of a claim, ` +
+      "and a ratio above 1 refutes nothing.";
+    note.removeAttribute("hidden");
+  }
 }
 
 // --- counts ---------------------------------------------------------------------------------------
@@ -99,7 +117,7 @@ function drawCounts() {
   const rows = countRows(byFamily);
   if (rows.length === 0) return;
   show("counts-section");
-  const largest = { ...number("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) };
+  const largest = { ...number("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) + unitMark(r) };
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
@@ -212,7 +230,7 @@ function drawTightness() {
 
 /** Shows the failure, the number of times that it was seen, and the origin of its query. */
 function drawFailure(finding) {
-  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio)}` : "");
+  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio, finding)}` : "");
   return made("div", [
     ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
     made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
@@ -254,7 +272,7 @@ function drawFarthest() {
   show("farthest-section");
   fillTable(element("farthest"), [
     picture("query"),
-    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio)), made("div", `from ${r.provenance}`)]) },
+    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio, r)), made("div", `from ${r.provenance}`)]) },
     { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
   ], rows);
 }
@@ -274,6 +292,7 @@ function drawHow() {
 
 drawHead();
 drawBaseline();
+drawUnits();
 drawCounts();
 element("by-family").addEventListener("change", drawCounts);
 drawScenes();

@@ -54,7 +54,7 @@ function drawScenes() {
     text("scene", "scene"), ...steps, text("subject", "subject"), count("asked", "queries"), count("collisions", "collisions"),
     count("missed", "false_negatives", true), count("false positives", "false_positives"),
     { title: "rate", number: falsePositiveRate, text: (r) => percent(falsePositiveRate(r)) },
-    { title: "farthest", number: (r) => r.farthest, text: (r) => fraction(r.farthest) },
+    { title: "farthest", number: (r) => r.farthest, text: (r) => fraction(r.farthest) + markOf(r.subject) },
     { title: "ns / query", number: (r) => r.time / r.queries, text: (r) => short(r.time / r.queries) },
     { title: "total time", number: (r) => r.time, text: (r) => duration(1e-9 * r.time) },
     share("planes separate", "planes", "queries"), share("no root", "no-root", "queries"), share("VE culled", "culled", "queries"),

@@ -15,11 +15,16 @@ function fraction(x) {
     if (Number(x.toPrecision(digits)) < 1) return Number(x.toPrecision(digits)).toString();
   return short(x);
 }
-const timesTheBound = (x) => (x === Infinity ? "beyond a bound of 0" : `at ${fraction(x)} of the bound`);
+/** How far a false positive is; `row` says whose bound is the unit. */
+function timesTheBound(x, row) {
+  const isClaim = row.bound_of_distances === undefined || isOfClaim(row); // only bounds that are claimed are refuted
+  const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : `at ${fraction(x)} of ${isClaim ? "the" : "wang's"} bound`;
+  return isClaim ? text : `${text} (${row.subject} claims none)`;
+}
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
 /** A column of ranges that contain a number. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
-  text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") : "–") });
+  text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") + unitMark(r) : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 
 /** A new element; `content` is text, a node, or a list of texts and nodes. */

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/text/text.hpp"
@@ -21,11 +22,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
+constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
+
 /// The rates that are compared, for one subject, kind and family.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
-          {"false positives beyond the bound", {counts.distances.at_least_one(), counts.others()}},
+          {beyond_the_bound, {counts.distances.at_least_one(), counts.others()}},
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
@@ -100,11 +104,14 @@ std::vector<ChangedFact> changed_facts(const Campaign& now, const Campaign& base
   auto facts = facts_of(now);
   auto earlier = facts_of(baseline);
   for (const auto& [name, values] : earlier) facts[name];  // includes facts that only the baseline has
+  const auto joined = [](const std::set<std::string>& values) {
+    constexpr std::size_t most_shown = 6;
+    return values.size() > most_shown ? fmt::format("{} values", values.size())
+                                      : fmt::format("{}", fmt::join(values, " | "));
+  };
   std::vector<ChangedFact> changed;
   for (const auto& [name, values] : facts)
-    if (earlier[name] != values)
-      changed.push_back({name, fmt::format("{}", fmt::join(earlier[name], " | ")),
-                         fmt::format("{}", fmt::join(values, " | "))});
+    if (earlier[name] != values) changed.push_back({name, joined(earlier[name]), joined(values)});
   return changed;
 }
 
@@ -135,6 +142,38 @@ double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   return std::max(expected, 0.0);
 }
 
+/// The subjects that were asked now, but not in the baseline.
+std::vector<std::string> absent_subjects(const Statistics& now, const Statistics& before) {
+  std::vector<std::string> absent;
+  for (const auto& [key, sum] : now.by_subject_and_kind())
+    if ((absent.empty() || absent.back() != key.subject) && now.queries_of(key.subject) != 0 &&
+        before.queries_of(key.subject) == 0)
+      absent.push_back(key.subject);
+  return absent;
+}
+
+/// The date of a campaign: the earliest start of a shard; "" if it is not known.
+std::string date_of(const Campaign& campaign) {
+  std::string date;
+  for (const Run& run : campaign.runs)
+    for (const Shard& shard : run.shards)
+      if (date.empty() || (!shard.started.empty() && shard.started < date)) date = shard.started;
+  return date;
+}
+
+std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns) {
+  std::map<Signature, Sightings> all;
+  for (const Campaign& each : campaigns) {
+    const std::string date = date_of(each);
+    for (const auto& [signature, times] : each.statistics.seen) {
+      const auto [place, is_first] = all.try_emplace(signature, Sightings{date, date, 0});
+      place->second.last = date;
+      ++place->second.campaigns;
+    }
+  }
+  return all;
+}
+
 /// Compares signatures with those of the baseline.
 void compare_signatures(const Statistics& now, const Statistics& before, Changes& changes) {
   // The numbers of times that signatures were seen before, by sort of failure and subject.
@@ -144,6 +183,8 @@ void compare_signatures(const Statistics& now, const Statistics& before, Changes
   const std::size_t comparisons = now.seen.size() + changes.gone_signatures.size();
   const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, comparisons));
   for (const auto& [signature, count] : now.seen) {
+    if (std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
+      continue;
     const bool is_unseen = before.times_seen(signature) == 0;
     const bool fails_anyway =
         !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
@@ -155,6 +196,8 @@ void compare_signatures(const Statistics& now, const Statistics& before, Changes
       changes.new_signatures.push_back(signature);
     else if (is_unseen)
       changes.unseen_signatures.push_back(signature);
+    else
+      changes.lasting_signatures.push_back(signature);
   }
   for (const auto& [what, seen] : seen_before) {
     const Proportion queries{now.queries_of(what.second), before.queries_of(what.second)};
@@ -162,10 +205,15 @@ void compare_signatures(const Statistics& now, const Statistics& before, Changes
   }
 }
 
-ordered_json signatures_json(const std::vector<Signature>& signatures) {
+ordered_json signatures_json(const std::vector<Signature>& signatures, const Changes& changes) {
   ordered_json json = ordered_json::array();
-  for (const Signature& each : signatures)
+  for (const Signature& each : signatures) {
     json.push_back({{"what", name(each.what)}, {"subject", each.subject}, {"signature", each.text}});
+    if (const auto known = changes.sightings.find(each); known != changes.sightings.end())
+      json.back().update({{"first_seen", known->second.first},
+                          {"last_seen", known->second.last},
+                          {"campaigns", known->second.campaigns}});
+  }
   return json;
 }
 
@@ -186,16 +234,61 @@ std::string text_of(const Signature& signature) {
                      signature.subject.empty() ? "the oracle" : signature.subject, signature.text);
 }
 
+/// ", first seen 2026-01-02T22:00:00Z, last seen 2026-01-09T22:00:00Z"; "" if the baseline does not have it.
+std::string sightings_text(const Changes& changes, const Signature& signature) {
+  const auto known = changes.sightings.find(signature);
+  if (known == changes.sightings.end() || known->second.first.empty()) return "";
+  return fmt::format(", first seen {}, last seen {}", known->second.first, known->second.last);
+}
+
+/// Names the bound of subjects that claim none.
+void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
+  std::set<std::string> claim_nothing;
+  for (const auto& [key, counts] : now.counts)
+    if (counts.bound_of() != BoundOf::subject) claim_nothing.insert(key.subject);
+  for (ChangedRate& each : rates)
+    if (each.what == beyond_the_bound && claim_nothing.contains(each.subject)) each.what = beyond_wangs_bound;
+}
+
 }  // namespace
 
 bool Changes::for_the_worse() const {
   return !new_signatures.empty() || std::any_of(rates.begin(), rates.end(), std::mem_fn(&ChangedRate::worse));
 }
 
-Changes changes(const Campaign& now, const Campaign& baseline) {
+bool Changes::fails(std::span<const std::string> failed) const {
+  return for_the_worse() || !lasting_signatures.empty() ||
+         std::any_of(failed.begin(), failed.end(), [&](const std::string& each) {
+           return std::binary_search(absent_subjects.begin(), absent_subjects.end(), each);
+         });
+}
+
+Campaign add_up(std::span<const Campaign> campaigns) {
+  Campaign sum;
+  std::set<std::pair<RunInfo, std::uint64_t>> random;
+  for (const Campaign& each : campaigns) {
+    sum.statistics.merge(each.statistics);
+    for (const Run& run : each.runs) {
+      for (const Shard& shard : run.shards)
+        if (run.info.contains("seed") && !random.emplace(run.info, shard.index).second)
+          throw Error(fmt::format("the baseline has shard {}/{} of the run with seed {} twice", shard.index,
+                                  shard.count, run.info.at("seed")));
+      sum.runs.push_back(run);
+    }
+  }
+  return sum;
+}
+
+Changes changes(const Campaign& now, const Campaign& baseline) { return changes(now, {&baseline, 1}); }
+
+Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
+  const Campaign baseline = add_up(campaigns);
   Changes changes{.new_signatures = {},
                   .unseen_signatures = {},
                   .gone_signatures = only_in(baseline, now),
+                  .lasting_signatures = {},
+                  .sightings = sightings_in(campaigns),
+                  .absent_subjects = absent_subjects(now.statistics, baseline.statistics),
                   .rates = pairs_of_rates(now.statistics, baseline.statistics),
                   .compared_rates = 0,
                   .facts = changed_facts(now, baseline)};
@@ -204,12 +297,18 @@ Changes changes(const Campaign& now, const Campaign& baseline) {
   changes.compared_rates = changes.rates.size();
   const double level = false_alarm_risk / static_cast<double>(std::max<std::size_t>(1, changes.rates.size()));
   std::erase_if(changes.rates, [&](const ChangedRate& each) { return each.p >= level; });
+  name_bounds(changes.rates, now.statistics);
   return changes;
 }
 
 std::string describe(const Changes& changes) {
   std::string text;
-  for (const Signature& each : changes.new_signatures) text += fmt::format("new: {}\n", text_of(each));
+  for (const Signature& each : changes.new_signatures)
+    text += fmt::format("new: {}{}\n", text_of(each), sightings_text(changes, each));
+  for (const Signature& each : changes.lasting_signatures)
+    text += fmt::format("lasting: {}{}\n", text_of(each), sightings_text(changes, each));
+  for (const std::string& each : changes.absent_subjects)
+    text += fmt::format("not in the baseline: {}\n", each);
   for (const ChangedRate& each : changes.rates)
     text +=
         fmt::format("{}: {} of {} {} in {}, {} before, {} now\n", each.worse() ? "worse" : "better",
@@ -219,10 +318,12 @@ std::string describe(const Changes& changes) {
 
 ordered_json changes_json(const Changes& changes) {
   ordered_json json;
-  json["new_signatures"] = signatures_json(changes.new_signatures);
-  json["unseen_signatures"] = signatures_json(changes.unseen_signatures);
+  json["new_signatures"] = signatures_json(changes.new_signatures, changes);
+  json["unseen_signatures"] = signatures_json(changes.unseen_signatures, changes);
   json["expected_unseen"] = changes.expected_unseen;
-  json["gone_signatures"] = signatures_json(changes.gone_signatures);
+  json["gone_signatures"] = signatures_json(changes.gone_signatures, changes);
+  json["lasting_signatures"] = signatures_json(changes.lasting_signatures, changes);
+  json["absent_subjects"] = changes.absent_subjects;
   json["level"] = false_alarm_risk;
   json["compared_rates"] = changes.compared_rates;
   json["changed_rates"] = ordered_json::array();

@@ -1,8 +1,10 @@
-// Changes since an earlier campaign.
+// Changes since earlier campaigns.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +16,9 @@ namespace nearmiss {
 
 /// A rate that differs by more than chance explains.
 struct ChangedRate {
-  std::string_view
-      what;  ///< "false negatives", "false positives", "false positives beyond the bound", or "no answer"
+  /// "false negatives", "false positives", "false positives beyond the bound", or "no answer". For a subject that
+  /// claims no bound: "false positives beyond wang's bound (no claim)".
+  std::string_view what;
   std::string subject, kind, family;
   Proportion before, now;
   double p = 1;  ///< p-value of an exact test: the probability of such a difference if the rates are equal
@@ -28,6 +31,14 @@ struct ChangedFact {
   std::string name, before, now;
 };
 
+/// When the baseline has a signature: the dates of the first and the last of its campaigns that do, and their number.
+struct Sightings {
+  std::string first, last;
+  std::size_t campaigns = 0;
+
+  bool operator==(const Sightings&) const = default;
+};
+
 struct Changes {
   /// Ways to fail that are new, or more frequent than chance explains; in order.
   std::vector<Signature> new_signatures;
@@ -35,26 +46,42 @@ struct Changes {
   std::vector<Signature> unseen_signatures;
   double expected_unseen = 0;              ///< expected number of unseen signatures if nothing has changed
   std::vector<Signature> gone_signatures;  ///< signatures that only the baseline has
+  /// Signatures that the baseline has too, and that are no more frequent than chance explains.
+  std::vector<Signature> lasting_signatures;
+  std::map<Signature, Sightings> sightings;  ///< of all signatures of the baseline
+  /// Subjects that the baseline was not asked about. Their failures are neither new nor lasting.
+  std::vector<std::string> absent_subjects;
   std::vector<ChangedRate> rates;
   std::size_t compared_rates = 0;
   std::vector<ChangedFact> facts;
 
   /// Whether there is a new way to fail, or a rate that is worse.
   [[nodiscard]] bool for_the_worse() const;
+  /// Whether anything is worse, or fails as before, or one of the subjects that `failed` is not in the baseline.
+  [[nodiscard]] bool fails(std::span<const std::string> failed) const;
 };
 
 /// The probability that `changes` reports a changed rate although no rate has changed, and also that it
 /// reports a new way to fail although none is new.
 inline constexpr double false_alarm_risk = 1e-3;
 
-/// Compares the rates of all families that both campaigns have, by Fisher's exact test. For each subject it also compares
-/// the sum over all families and kinds in which both campaigns have few failures, to notice a new way to fail
+/// Several campaigns as a baseline: their counters add up. They may have asked the same cases and meshes. Throws Error if
+/// two have a shard of random queries in common, because these would count twice.
+Campaign add_up(std::span<const Campaign> campaigns);
+
+/// Compares a campaign with the sum of earlier ones, the oldest first.
+///
+/// Compares the rates of all families that both have, by Fisher's exact test. For each subject it also compares
+/// the sum over all families and kinds in which both have few failures, to notice a new way to fail
 /// that is spread over many families. Cases and meshes are left out, because they are not random samples.
 ///
 /// If a subject has no failure of a sort in the baseline, each failure of that sort is new. Any failure
 /// of the oracle is new. A subject that fails anyway shows a few unseen signatures every time. Therefore such
 /// a subject's signature is new only if Fisher's exact test finds it more frequent among the subject's
 /// queries than chance explains. Each test divides false_alarm_risk among all its comparisons (Bonferroni).
+Changes changes(const Campaign& now, std::span<const Campaign> baseline);
+
+/// Compares a campaign with one earlier campaign.
 Changes changes(const Campaign& now, const Campaign& baseline);
 
 /// A line for each change; "" without changes.

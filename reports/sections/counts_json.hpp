@@ -11,8 +11,8 @@ namespace nearmiss {
 /// A number, or null if there is none.
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 
-/// The counters that are Shown::with_rates, the rates with their confidence bounds, how far away false positives are, and
-/// the time per query. Confidence bounds are null unless all queries are a random sample.
+/// The counters that are Shown::with_rates, the rates with their confidence bounds, how far away false positives are,
+/// whose bound that is a fraction of, and the time per query. Confidence bounds are null unless all queries are random.
 nlohmann::ordered_json rates_json(const Counts& counts, bool is_sample);
 
 /// rates_json, and all other counters.

@@ -31,7 +31,9 @@ std::string since_text(const Changes& since) {
   std::size_t worse = 0;
   for (const ChangedRate& rate : since.rates) worse += rate.worse() ? 1 : 0;
   if (worse != 0) news.push_back(counted(worse, "worse rate", "worse rates"));
-  return (news.empty() ? "nothing worse" : listed(news)) + " since the baseline";
+  const std::size_t lasting = since.lasting_signatures.size();
+  return (lasting == 0 ? "" : counted(lasting, "way to fail", "ways to fail") + " as before, ") +
+         (news.empty() ? "nothing worse" : listed(news)) + " since the baseline";
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
   if (const auto queries = statistics.oracle_total().queries; queries != 0)
     text += fmt::format(", in {}", counted(queries, "query", "queries"));
   if (since) text += fmt::format("{}{}", text.empty() ? "" : "; ", since_text(*since));
-  const bool fine = since ? !since->for_the_worse() : failed.empty();
+  const bool fine = since ? !since->fails(failed) : failed.empty();
   return {fine && complaint.empty(), text + "."};
 }
 

@@ -9,7 +9,7 @@
 namespace nearmiss {
 
 struct Headline {
-  bool clean;  ///< nothing failed; with a baseline: nothing is worse than in the baseline
+  bool clean;  ///< nothing failed; with a baseline: !Changes::fails
   std::string text;
 };
 

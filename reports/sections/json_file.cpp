@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 
 namespace nearmiss {
 
@@ -16,7 +17,8 @@ void read_json_file(const std::filesystem::path& file, std::string_view expected
   try {
     take(nlohmann::ordered_json::parse(in));
   } catch (const nlohmann::ordered_json::exception& error) {
-    throw Error(fmt::format("{}: found '{}', expected {}", file.string(), error.what(), expected));
+    throw Error(
+        fmt::format("{}: found '{}', expected {}", file.string(), excerpt(error.what(), 200), expected));
   }
 }
 

@@ -48,15 +48,16 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.counts) {
     if (counts.farthest.empty()) continue;
     const FarCase& far = counts.farthest.front();
-    cases.push_back(
-        {key,
-         far,
-         {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
-          {.name = {},
-           .query = far.query,
-           .truth = false,
-           .why = fmt::format("false positive of {}, {}", key.subject, times_the_bound(far.ratio)),
-           .provenance = far.provenance}}});
+    cases.push_back({key,
+                     far,
+                     counts.bound_of(),
+                     {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
+                      {.name = {},
+                       .query = far.query,
+                       .truth = false,
+                       .why = fmt::format("false positive of {}, {}", key.subject,
+                                          times_the_bound(far.ratio, counts.bound_of())),
+                       .provenance = far.provenance}}});
   }
   return cases;
 }

@@ -39,7 +39,7 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
 
 bool found_anything(const Statistics& statistics) {
   return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +
-             statistics.mismatches_with_recorded_truth + statistics.faults() >
+             statistics.mismatches_with_recorded_truth >
          0;
 }
 
@@ -69,7 +69,7 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   else
     text += fmt::format(", {}, the farthest {}",
                         counted(counts.false_positives, "false positive", "false positives"),
-                        times_the_bound(counts.max_ratio()));
+                        times_the_bound(counts.max_ratio(), counts.bound_of()));
   return {subject, !missed && !refuted && !faulty, std::move(text)};
 }
 
@@ -104,9 +104,18 @@ std::string counts_table(const Statistics& statistics) {
     rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
                     with_separators(counts.collisions), with_separators(counts.false_negatives),
                     rate_below(sum), with_separators(counts.false_positives),
-                    fraction_of_bound(counts.max_ratio()), whole_ns(counts.times.ns_per_query())});
+                    marked_fraction_of_bound(counts.max_ratio(), counts.bound_of()),
+                    whole_ns(counts.times.ns_per_query())});
   }
   return columns(rows, 2);
+}
+
+/// Explains the mark of distances that are not fractions of a claim; "" if there are none.
+std::string footnote_on_units(const Statistics& statistics) {
+  const bool is_marked =
+      std::any_of(statistics.counts.begin(), statistics.counts.end(),
+                  [](const auto& each) { return each.second.bound_of() != BoundOf::subject; });
+  return is_marked ? std::string(unit_footnote) + "\n" : "";
 }
 
 std::string verdict_lines(const Statistics& statistics) {
@@ -143,7 +152,7 @@ std::string summary_table(const Statistics& statistics) {
   const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
   return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + oracle_lines(statistics) +
-         extremes + footnotes;
+         extremes + footnotes + footnote_on_units(statistics);
 }
 
 }  // namespace nearmiss

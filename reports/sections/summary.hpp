@@ -8,7 +8,8 @@
 
 namespace nearmiss {
 
-/// Whether there is a false negative, a refuted bound, a fault, an oracle disagreement or a truth mismatch.
+/// Whether there is a false negative, a refuted bound, an oracle disagreement, or a mismatch with a recorded truth.
+/// Faults of a subject do not count. Exit code 1 means this.
 bool found_anything(const Statistics& statistics);
 
 /// Whether a subject failed.

@@ -12,6 +12,7 @@
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
 #include "oracle/filter/filter.hpp"
+#include "reports/statistics/bound_of.hpp"
 #include "reports/statistics/counter.hpp"
 #include "reports/statistics/histogram.hpp"
 #include "reports/statistics/times.hpp"
@@ -20,7 +21,7 @@ namespace nearmiss {
 
 /// A false positive that is kept because it is among the farthest.
 struct FarCase {
-  double ratio = 0;  ///< distance divided by claimed bound
+  double ratio = 0;  ///< distance divided by the bound (Counts::bound_of)
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
@@ -36,10 +37,11 @@ struct Outcome {
   bool collision = false;
   /// For a false positive: the certified distance over [0, 1] divided by the claimed bound, rounded up
   /// without leaving its Histogram bin. The relative error is at most 1/1000 if the case may be among the
-  /// farthest and is not in the first bin. If the subject claims no bound, wang's bound for the same pair is
-  /// used.
+  /// farthest and is not in the first bin.
   double ratio = 0;
-  bool bound_refuted = false;   ///< whether the distance certainly exceeds the claimed bound
+  bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
+  /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
+  bool measured_by_wang = false;
   std::string fault_text = {};  ///< what an exception said
 };
 
@@ -51,6 +53,7 @@ struct Counts {
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
+  std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
   std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
   SubjectTimes times;                               ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
@@ -68,6 +71,8 @@ struct Counts {
         Counter{"false_negatives", &Counts::false_negatives, Shown::with_rates},
         Counter{"false_positives", &Counts::false_positives, Shown::with_rates},
         Counter{"refuted_bounds", &Counts::refuted_bounds, Shown::with_rates},
+        Counter{"measured_by_wang", &Counts::measured_by_wang, Shown::with_rates,
+                "false_positives_measured_by_wang"},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},
         NamedCounts<Counts, stage_count>{"true_by_stage", &Counts::true_by_stage, stage_names,
@@ -96,6 +101,11 @@ struct Counts {
   /// Rate of false negatives among collisions; 0 if there are no collisions.
   [[nodiscard]] double false_negative_rate() const {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
+  }
+  /// Whose bound divides the distances.
+  [[nodiscard]] BoundOf bound_of() const {
+    if (measured_by_wang == 0) return BoundOf::subject;
+    return measured_by_wang == false_positives ? BoundOf::wang : BoundOf::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
   /// Whether a false positive with this ratio would be kept among the farthest.

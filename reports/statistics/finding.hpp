@@ -31,7 +31,8 @@ struct Finding {
   double ratio = 0;            ///< distance divided by bound, if a bound was refuted
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
   Query shrunk = {};        ///< the simplest known query that fails in the same way; may be the query itself
-  std::uint64_t round = 0;  ///< the round of the campaign in which it was found
+  std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
+  bool is_shrunk = false;   ///< whether shrinking has come to its end
 
   bool operator==(const Finding&) const = default;
 };

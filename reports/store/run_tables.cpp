@@ -57,18 +57,18 @@ Table<FindingRow> findings() {
     return column<FindingRow>(
         std::move(name), [pointer](FindingRow & row) -> auto& { return row.content.*pointer; });
   };
-  return {
-      "finding",
-      "PRIMARY KEY (number), FOREIGN KEY (run) REFERENCES run",
-      {"number"},
-      {column<FindingRow>(
-           "number", [](FindingRow & row) -> auto& { return row.number; }),
-       column<FindingRow>(
-           "run", [](FindingRow & row) -> auto& { return row.run; }),
-       member("round", &Finding::round), member("what", &Finding::what), member("subject", &Finding::subject),
-       member("family", &Finding::family), member("query", &Finding::query),
-       member("provenance", &Finding::provenance), member("ratio", &Finding::ratio),
-       member("signature", &Finding::signature), member("shrunk", &Finding::shrunk)}};
+  return {"finding",
+          "PRIMARY KEY (number), FOREIGN KEY (run) REFERENCES run",
+          {"number"},
+          {column<FindingRow>(
+               "number", [](FindingRow & row) -> auto& { return row.number; }),
+           column<FindingRow>(
+               "run", [](FindingRow & row) -> auto& { return row.run; }),
+           member("place", &Finding::place), member("what", &Finding::what),
+           member("subject", &Finding::subject), member("family", &Finding::family),
+           member("query", &Finding::query), member("provenance", &Finding::provenance),
+           member("ratio", &Finding::ratio), member("signature", &Finding::signature),
+           member("shrunk", &Finding::shrunk), member("is_shrunk", &Finding::is_shrunk)}};
 }
 
 Table<PictureRow> pictures() {
@@ -122,6 +122,11 @@ void write_findings(SQLite::Database& db, std::span<const Finding> some) { add_f
 
 void write_picture(SQLite::Database& db, const ScenePicture& picture) {
   pictures().add(db, {{only_run, picture}});
+}
+
+void replace_findings(SQLite::Database& db, std::span<const Finding> all) {
+  findings().clear(db);
+  write_findings(db, all);
 }
 
 std::vector<Run> read_runs(Reading& read) {

@@ -22,6 +22,8 @@ void replace_shard(SQLite::Database& db, const Shard& shard);
 
 /// Appends findings to those of the only run.
 void write_findings(SQLite::Database& db, std::span<const Finding> findings);
+/// Replaces all findings of the only run.
+void replace_findings(SQLite::Database& db, std::span<const Finding> findings);
 
 /// Adds a picture to the only run.
 void write_picture(SQLite::Database& db, const ScenePicture& picture);

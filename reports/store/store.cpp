@@ -151,6 +151,10 @@ void Store::save(const Statistics& statistics, const Shard& shard, std::span<con
   });
 }
 
+void Store::replace(std::span<const Finding> findings) {
+  database_->change([&](SQLite::Database& db) { replace_findings(db, findings); });
+}
+
 void Store::add(const ScenePicture& picture) {
   database_->change([&](SQLite::Database& db) { write_picture(db, picture); });
 }

@@ -30,6 +30,9 @@ class Store {
   /// unchanged.
   void save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings);
 
+  /// Replaces all findings. If it throws Error, the file is unchanged.
+  void replace(std::span<const Finding> findings);
+
   /// Adds a picture. If it throws Error, the file is unchanged.
   void add(const ScenePicture& picture);
 

@@ -75,7 +75,7 @@ struct StoredRow {
   std::uint64_t found = 0, expected = 0;  ///< checksum of the values, and the one stored with them
 };
 
-/// A table. Rows are never removed, so the ids of n rows are between 0 and n.
+/// A table. Single rows are never removed, so the ids of n rows are between 0 and n.
 template <class Row>
 struct Table {
   std::string name;
@@ -99,6 +99,12 @@ struct Table {
     Contents contents = read_contents(db, name);
     insert(db, rows, "", contents);
     write_contents(db, name, contents);
+  }
+
+  /// Removes all rows.
+  void clear(SQLite::Database& db) const {
+    db.exec(fmt::format("DELETE FROM {}", name));
+    write_contents(db, name, {});
   }
 
   /// Replaces the whole contents by rows with the same keys, and possibly more. Writes only rows that have changed.

@@ -61,9 +61,18 @@ std::string fraction_of_bound(double ratio) {
   return text;
 }
 
-std::string times_the_bound(double ratio) {
-  return ratio == infinite ? "beyond a bound of 0"
-                           : fmt::format("at {} of the bound", fraction_of_bound(ratio));
+std::string times_the_bound(double ratio, BoundOf bound_of) {
+  const bool is_claim = bound_of == BoundOf::subject;
+  std::string text = ratio == infinite ? fmt::format("beyond {} bound of 0", is_claim ? "a" : "wang's")
+                                       : fmt::format("at {} of {} bound", fraction_of_bound(ratio),
+                                                     is_claim ? "the" : "wang's");
+  if (bound_of == BoundOf::wang) text += " (it claims none)";
+  if (bound_of == BoundOf::both) text += " or of a claim";
+  return text;
+}
+
+std::string marked_fraction_of_bound(double ratio, BoundOf bound_of) {
+  return fraction_of_bound(ratio) + (bound_of == BoundOf::subject ? "" : "**");
 }
 
 }  // namespace nearmiss

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/statistics/bound_of.hpp"
+
 namespace nearmiss {
 
 /// A table in columns. The first `left_aligned` columns are aligned left, the others right.
@@ -27,8 +29,14 @@ std::string whole_ns(const std::optional<double>& ns);
 /// largest double, which stands for any distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
-/// "at 0.987 of the bound", or "beyond a bound of 0".
-std::string times_the_bound(double ratio);
+/// "at 0.987 of the bound", or "beyond a bound of 0". The text says so if the bound is not a claim: "at 12.3 of
+/// wang's bound (it claims none)".
+std::string times_the_bound(double ratio, BoundOf bound_of = BoundOf::subject);
+
+/// fraction_of_bound(ratio), with "**" if the bound is not a claim; `unit_footnote` explains that.
+std::string marked_fraction_of_bound(double ratio, BoundOf bound_of);
+inline constexpr const char* unit_footnote =
+    "** in units of wang's bound for the same pair, because the subject claims no bound";
 
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);

@@ -7,8 +7,13 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { readOptions } from "../options.mjs";
 
-const [nearmiss, plugins, pairs = "100", cases = "300000", only] = process.argv.slice(2);
+const [nearmiss, plugins, pairs = "100", cases = "300000", only] = readOptions({}, true).positionals;
+if (!nearmiss || !plugins) {
+  console.error("run.mjs: expected NEARMISS PLUGINS");
+  process.exit(2);
+}
 const folder = mkdtempSync(join(tmpdir(), "nearmiss-alarms-"));
 
 function night(name, seed, subjects, planted) {

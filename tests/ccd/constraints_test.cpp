@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "ccd/solver_errors.hpp"
+#include "ccd/tight_tolerances.hpp"
 
 namespace nearmiss {
 namespace {
@@ -31,6 +33,31 @@ TEST(RoundingErrors, OfTheTheoremAreTightToSecondOrder) {
       EXPECT_GE(rounding_error(u, 6.0, k), exact) << u << ' ' << k;
       EXPECT_LE(rounding_error(u, 6.0, k), exact * (1 + u + x * x) + 0x1p-80) << u << ' ' << k;
     }
+}
+
+TEST(Constraints, LargerErrorsAreNeverEasierToMeet) {
+  using Errors = RoundingErrors<double>;
+  const Tolerances<double> tol = tight_tolerances(1.0);
+  const Errors errors = full_errors(epsilon<double>(), tol.S, tol.rho);
+  const auto less_of = [&](const Errors& some) {
+    std::vector<double> less;
+    for (const auto& each : constraints(tol, tol.eta, tol.eta, some)) less.push_back(each.less - each.more);
+    return less;
+  };
+  const auto before = less_of(errors);
+  for (const auto member : {&Errors::area, &Errors::height_vt, &Errors::height_ee, &Errors::weight_vt,
+                            &Errors::weight_ee, &Errors::length2, &Errors::weight_ve, &Errors::F,
+                            &Errors::residual, &Errors::delta, &Errors::least_mu, &Errors::least_psi}) {
+    Errors larger = errors;
+    larger.*member *= 1.5;
+    const auto after = less_of(larger);
+    double growth = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_GE(after[i], before[i]) << i;
+      growth += after[i] - before[i];
+    }
+    EXPECT_GT(growth, 0);
+  }
 }
 
 }  // namespace

@@ -27,6 +27,12 @@ TEST(Plugin, TheExampleAnswers) {
   EXPECT_TRUE(std::isinf(subject->distance_bound(testing::falling_edge(1, -1))));
 }
 
+TEST(Plugin, IsToldForWhichKindItGivesABound) {
+  const auto subject = make_subject(plugin("bound_of_kind"));
+  EXPECT_EQ(subject->distance_bound(testing::falling_vertex(0.25, 0.25, 1, -1)), 0.5);
+  EXPECT_EQ(subject->distance_bound(testing::falling_edge(1, -1)), 1.5);
+}
+
 TEST(Plugin, ATimeIsPassedOn) {
   const Verdict verdict = make_subject(plugin("always"))->decide(testing::falling_vertex(0, 0, 2, 1));
   EXPECT_TRUE(verdict.hit);

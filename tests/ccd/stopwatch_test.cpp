@@ -2,9 +2,11 @@
 #include "ccd/stopwatch.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <chrono>
 #include <ctime>
+#include <stop_token>
 #include <thread>
 
 namespace nearmiss {
@@ -31,6 +33,38 @@ TEST(Stopwatch, CountsComputing) {
     EXPECT_GE(time_of(clock, [&] { compute(clock); }), millisecond - clock_error);
     EXPECT_GE(best_time_of(clock, [&] { compute(clock); }), millisecond - clock_error);
   }
+}
+
+/// Keeps the calling thread, and another one that computes all the time, on one processor.
+class Shared {
+ public:
+  Shared() {
+    sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(sched_getcpu(), &one);
+    sched_setaffinity(0, sizeof one, &one);  // the other thread inherits it
+    other_ = std::jthread([](const std::stop_token& stop) {
+      while (!stop.stop_requested()) {
+      }
+    });
+  }
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+  ~Shared() { sched_setaffinity(0, sizeof before_, &before_); }
+
+ private:
+  cpu_set_t before_{};
+  std::jthread other_;
+};
+
+TEST(Stopwatch, DoesNotCountTheTimeOfOthersOnTheProcessor) {
+  const Shared shared;
+  const std::uint64_t start = now(CLOCK_THREAD_CPUTIME_ID);
+  const std::uint64_t counted = time_of(CLOCK_THREAD_CPUTIME_ID, [] {
+    for (int i = 0; i < 20; ++i) compute(CLOCK_THREAD_CPUTIME_ID);
+  });
+  EXPECT_LE(counted, now(CLOCK_THREAD_CPUTIME_ID) - start);
 }
 
 TEST(Stopwatch, CountsTheTimeThatPassesWhileTheWorkSleeps) {

@@ -226,6 +226,14 @@ TEST(Wang, BoundUsesRelativeVelocities) {
   EXPECT_NEAR(pair_bound(together), pair_bound(still), 1e-12);
 }
 
+TEST(Wang, EdgeEdgeKeepsTheGivenOrderOfEndPointsThatAreEquallyClose) {
+  Query square{.kind = Kind::edge_edge};
+  EXPECT_EQ(detail::closest_order<double>(square, Frame{}), given_order);
+  square = make_query(Kind::edge_edge, {Vector3<double>(0, 0, 0), {1, 0, 0}, {0, 0, 1}, {1, 0, 1}},
+                      {Vector3<double>(0, 0, 0), {1, 0, 0}, {0, 0, 1}, {1, 0, 1}});
+  EXPECT_EQ(detail::closest_order<double>(square, Frame{}), given_order);
+}
+
 TEST(Wang, EdgeEdgeFindsTheEndPointsThatAreClosest) {
   // x0 and x2 are 1000 apart, and the edges are long on one side only. Every order gives the same answer.
   const Vector3<double> a(-1000, 0, 1), b(1, 0, 1), c(0, -1000, 0), d(0, 1, 0);

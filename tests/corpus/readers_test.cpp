@@ -52,6 +52,7 @@ void expect_error(const fs::path& path, const std::string& message) {
 TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_number("0.1", ""), 0.1);
   EXPECT_EQ(parse_number("-0x1.8p-3", ""), -0.1875);
+  EXPECT_EQ(parse_number("0X1.8P-3", ""), 0.1875);
   EXPECT_EQ(parse_number("+1e3", ""), 1000);
   EXPECT_EQ(parse_number("4.9406564584124654e-324", ""), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(parse_number("1e-400", ""), 0);
@@ -93,6 +94,16 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
+TEST(CaseFile, MayHaveEmptyLines) {
+  Case each;
+  each.query = testing::falling_edge(0.1, -1);
+  std::istringstream lines(to_text(each));
+  std::string text = "\n";
+  for (std::string line; std::getline(lines, line);) text += line + "\n \n";
+  std::istringstream in(text);
+  EXPECT_EQ(parse_case(in, "x.case").query, each.query);
+}
+
 TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
   for (const char* why : {"\nsecond", "first\n", "first\n\nthird", "\n"}) {
     Case each;
@@ -129,13 +140,32 @@ TEST_F(Files, QueryFilesHaveCommentsAndWindowsLineEnds) {
   EXPECT_THAT(cases[1].name, HasSubstr("a.ee:4"));
 }
 
+TEST_F(Files, AByteOrderMarkIsSkipped) {
+  const std::string mark = "\xef\xbb\xbf";
+  Case each;
+  each.query = testing::falling_edge(1, -1);
+  const std::string line = to_line(each.query);
+  EXPECT_EQ(read_all(write("a.ee", mark + line + "\n")).at(0).query, each.query);
+  EXPECT_EQ(read_all(write("b.ee", mark + "# comment\n" + line + "\n")).at(0).name, folder() + "/b.ee:2");
+  EXPECT_EQ(read_all(write("a.case", mark + to_text(each))).at(0).query, each.query);
+  each.why = "a reason";
+  EXPECT_EQ(read_all(write("b.case", mark + to_text(each))).at(0).why, "a reason");
+  std::string rows;
+  for (int i = 0; i < 8; ++i) rows += "1,2,1,2,1,2,0\n";
+  EXPECT_EQ(read_all(write("edge-edge/a.csv", mark + rows)).at(0).query.x[0], 0.5);
+  expect_error(write("c.ee", mark + "x\n"), "c.ee:1: found 'x'");
+  expect_error(write("d.ee", line + "\n" + mark + line + "\n"), "d.ee:2: found '" + mark);
+  expect_error(write("e.ee", mark), "e.ee:1: found no query");
+}
+
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
-  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",8, -3,\t4,5,1,1\r\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n";
   const auto cases = read_all(write("vertex-face/data.csv", rows));
   ASSERT_EQ(cases.size(), 1U);
   EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);
   EXPECT_EQ(cases[0].truth, true);
+  EXPECT_THAT(cases[0].name, HasSubstr("data.csv:1"));
   EXPECT_EQ(cases[0].query.end(3), Vector3<double>(0.875, -0.75, 5));
 }
 

@@ -234,6 +234,18 @@ TEST(Audit, KnowsWhatHoldsThoughTheTheoremDoesNotShowIt) {
   }
 }
 
+TEST(Audit, QuotesThePaper) {
+  const std::map<std::string_view, double> printed{
+      {"F: a, d", 30}, {"F: b, c", 126}, {"cubic solver", 33492}};
+  std::size_t found = 0;
+  for (const AuditRow& row : rows())
+    if (const auto own = printed.find(row.name); own != printed.end()) {
+      EXPECT_EQ(row.quoted, own->second) << row.name;
+      ++found;
+    }
+  EXPECT_EQ(found, printed.size());
+}
+
 TEST(Audit, SeesNoMoreThanIsProven) {
   for (const AuditRow& row : rows()) EXPECT_FALSE(row.seen > row.proven) << row.name;
 }

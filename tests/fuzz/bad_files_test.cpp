@@ -139,6 +139,10 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
   const auto expect_refused_line = [&](const std::string& line, const std::string& message) {
     expect_refused(".obj", square + line, message);
   };
+  expect_refused_line("f 1 2 " + std::string(1000, '9') + "\n",
+                      ":5: found '" + std::string(40, '9') + "...' in a face");
+  expect_refused_line("v 1 2 " + std::string(1000, 'x') + "\n",
+                      ":5: found '" + std::string(40, 'x') + "...', expected");
   expect_refused_line("f 1 2 5\n", ":5: found vertex 5 in a face, expected at most 4");
   expect_refused_line("f 1 2 0\n", ":5: found vertex 0 in a face");
   expect_refused_line("f 1 2 -5\n", ":5: found vertex -5 in a face");

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "fuzz/trial/sieve.hpp"
 #include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
@@ -97,7 +98,7 @@ TEST(Campaign, DoesNotDependOnTheNumberOfThreads) {
   const Ran one = run(plan_of(4000, 1), true);
   const Ran three = run(plan_of(4000, 3), true);
   EXPECT_EQ(one.statistics, three.statistics);
-  EXPECT_EQ(one.findings, three.findings);
+  EXPECT_TRUE(one.findings == three.findings);
   EXPECT_FALSE(one.findings.empty());  // basic misses
 }
 
@@ -150,12 +151,6 @@ TEST(Campaign, AnnouncesTheCasesThatAShardHas) {
 
 std::atomic<bool> ignored{false};
 
-std::vector<Query> queries_of(const std::vector<Finding>& findings) {
-  std::vector<Query> queries;
-  for (const Finding& finding : findings) queries.push_back(finding.query);
-  return queries;
-}
-
 /// Never reports a collision, and requests a stop when it has been asked some queries.
 class Stopping final : public Subject {
  public:
@@ -173,6 +168,14 @@ class Stopping final : public Subject {
   std::atomic<bool>& stop_;
   mutable std::atomic<std::uint64_t> left_;
 };
+
+/// Shrinks what an interrupted campaign has left.
+void shrink_rest(std::vector<Finding>& findings) {
+  Subjects subjects;
+  subjects.push_back(make_subject("basic"));
+  subjects.push_back(std::make_unique<Stopping>(ignored, std::uint64_t{1} << 62));
+  Sieve(subjects, 2, Stop::never()).shrink(findings);
+}
 
 TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
   CampaignPlan plan = plan_of(9000, 2);
@@ -192,8 +195,9 @@ TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
     sum.merge(next.statistics);
     EXPECT_EQ(sum, whole.statistics) << queries;
     std::vector<Finding> findings = first.findings;
+    shrink_rest(findings);
     findings.insert(findings.end(), next.findings.begin(), next.findings.end());
-    EXPECT_EQ(queries_of(findings), queries_of(whole.findings)) << queries;
+    EXPECT_TRUE(findings == whole.findings) << queries;
   }
 }
 

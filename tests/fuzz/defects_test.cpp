@@ -83,6 +83,27 @@ TEST(Defects, MultiplyTheirOwnTolerance) {
   EXPECT_NEAR(try_make_defect("defect:D2*0.0625")->needed_tolerance(query), 4, 0.08);
 }
 
+TEST(Defects, LeaveTheOtherPairsOfVertexAndEdge) {
+  const auto wang = make_subject("wang");
+  const auto fewer = try_make_defect("defect:last-edge");
+  int by_edges = 0;
+  int missed = 0;
+  for_all_families(300, [&](const Query& query) {
+    const Verdict verdict = wang->decide(query);
+    if (!verdict.hit || verdict.stage < Stage::ve_end || verdict.stage > Stage::ve_zero) return;
+    ++by_edges;
+    missed += fewer->decide(query).hit ? 0 : 1;
+  });
+  EXPECT_GT(missed, 0);
+  EXPECT_LT(4 * missed, by_edges);
+}
+
+TEST(Defects, DoNotCullWhatTouchesAtTheStart) {
+  const auto start_alone = try_make_defect("defect:both-ends");
+  for (const double end : {-1.0, 1.0})
+    EXPECT_TRUE(start_alone->decide(testing::falling_vertex(0.25, 0.25, 0, end)).hit) << end;
+}
+
 TEST(Defects, AreRefusedWhereUnknown) {
   EXPECT_EQ(try_make_defect("wang"), nullptr);
   EXPECT_THAT([] { try_make_defect("defect:nothing"); }, ThrowsMessage<Error>(HasSubstr("'defect:nothing'")));

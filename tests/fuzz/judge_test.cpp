@@ -87,6 +87,10 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   const auto plugin = make_isolated_plugin(NEARMISS_PLUGINS "/always.so");
   EXPECT_EQ(Judge(*plugin).unit(stops_above), make_subject("wang")->distance_bound(stops_above));
   EXPECT_EQ(Judge(*plugin).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
+  Truth truth(stops_above);
+  EXPECT_TRUE(Judge(*plugin).judge(plugin->decide(stops_above), truth, {}).measured_by_wang);
+  const Alarmist claims(0.5);
+  EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth, {}).measured_by_wang);
 }
 
 TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {

@@ -89,6 +89,10 @@ TEST(DoubleDouble, NearTheEndsOfItsRangeItIsADouble) {
   EXPECT_EQ(most / 16, DoubleDouble(std::numeric_limits<double>::max() / 16));
   EXPECT_EQ(most + most, DoubleDouble(std::numeric_limits<double>::infinity()));
   EXPECT_EQ(most * 1.0, most);
+  using Limits = std::numeric_limits<DoubleDouble>;
+  EXPECT_EQ(Limits::max(), most);
+  EXPECT_EQ(Limits::min(), DoubleDouble(std::numeric_limits<double>::min()));
+  EXPECT_EQ(Limits::infinity(), DoubleDouble(std::numeric_limits<double>::infinity()));
 }
 
 /// The value as a rational number.

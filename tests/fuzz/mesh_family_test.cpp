@@ -8,6 +8,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/scenes/candidates.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -79,6 +80,20 @@ TEST(MeshFamily, IsFiniteAndHasCollisionsAndMissesForEveryPerturbation) {
       EXPECT_LT(c, 980) << family.name;
     }
   }
+}
+
+TEST(MeshFamily, MovesPairsIntoContact) {
+  // Where rounding moves them apart again, they stay within a few of its errors.
+  const MovingMesh mesh = falling_sheet();
+  const auto pairs = pairs_of(mesh);
+  const Family family = mesh_family(mesh);
+  std::array<int, 2> just_apart{};
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const Query query = make_query(family, 1, i);
+    if (pairs.contains(query.x) || collides(query) || distance_exceeds(query, 1e-14)) continue;
+    ++just_apart[i % 2];
+  }
+  for (const int count : just_apart) EXPECT_GT(count, 80);
 }
 
 TEST(MeshFamily, StaysFiniteWhereThePerturbationWouldNot) {

@@ -79,6 +79,8 @@ TEST_F(ReadersTest, FloatsOfPlyAreRoundedOnce) {
   expect_square(".ply", replaced(floats, "0 1 0.1", "0 1 1.000000059604644775390625001"), 1 + 0x1p-23);
 }
 
+TEST_F(ReadersTest, PlyNeedsNoVersion) { expect_square(".ply", replaced(text_ply, "ascii 1.0", "ascii")); }
+
 TEST_F(ReadersTest, APolygonBecomesAFan) {
   const Mesh mesh = read_text(".off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n");
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
@@ -155,6 +157,18 @@ TEST_F(ReadersTest, EverythingButTheMeshIsSkipped) {
                 "solid facet\n" + facet + "endsolid facet\n\nsolid solid\n" + other_facet + "endsolid\n");
 }
 
+const std::string byte_order_mark = "\xef\xbb\xbf";
+
+TEST_F(ReadersTest, AByteOrderMarkIsSkipped) {
+  expect_square(".obj", byte_order_mark + obj);
+  expect_square(".off", byte_order_mark + off);
+  expect_square(".ply", byte_order_mark + text_ply);
+  expect_square(".stl", byte_order_mark + stl);
+  expect_square(".stl", binary_stl(0.1F, byte_order_mark + "a header of bytes"), 0.1F);
+  expect_refused(".obj", byte_order_mark + "v 0 0 x\n", ":1: found 'x'");
+  expect_refused(".obj", "v 0 0 0\n" + byte_order_mark + "v 0 0 0\n", ":2: found '" + byte_order_mark + "v'");
+}
+
 // --- OBJ --------------------------------------------------------------------------------------------------
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -178,6 +192,27 @@ TEST_F(ObjTest, AnyBlanksSeparate) {
 TEST_F(ObjTest, PolygonsBecomeTriangles) {
   const Mesh mesh = read_text(".obj", square + "f 1 2 3 4\n");
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
+}
+
+TEST_F(ObjTest, ABackslashAtTheEndOfALineContinuesIt) {
+  const Mesh mesh =
+      read_text(".obj", "v 0 \\\n0 0\nv 1\\\r\n 0\\\r\n0\r\nv 0 1 0\n\\\nf 1 2\\\n3\nf 2 3 1\\");
+  EXPECT_THAT(mesh.points,
+              ElementsAre(Vector3<double>(0, 0, 0), Vector3<double>(1, 0, 0), Vector3<double>(0, 1, 0)));
+  EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{1, 2, 0}));
+}
+
+TEST_F(ObjTest, AContinuedLineHasTheNumberOfItsFirstPart) {
+  expect_refused(".obj", "v 0 0 0\nv 0\\\n\\\n0 x\n", ":2: found 'x'");
+  expect_refused(".obj", "v 0 0\\\n0\n\n# a comment\nv 1 2\n", ":5: found 2 coordinates");
+  expect_refused(".obj", "v 0 0 0\nv 1 0 0\nf 1 2 \\\n9\n", ":3: found vertex 9");
+}
+
+TEST_F(ObjTest, ABackslashElsewhereContinuesNothing) {
+  const Mesh mesh = read_text(".obj", "# from C:\\models\\\nv 1 0 0\ng a\\b\nv 0 1 0 # C:\\\nv 0 0 1\n");
+  EXPECT_EQ(mesh.points.size(), 3);
+  expect_refused(".obj", "v 0 0 \\ 0\n", ":1: found '\\'");
+  expect_refused(".off", "OFF\n4\\\n0 0\n", ":2: found ");
 }
 
 TEST_F(ObjTest, NegativeNumbersCountBackwards) {

@@ -93,6 +93,48 @@ TEST(Shrink, ChangesEqualNumbersTogether) {
   EXPECT_EQ(std::abs(shrunk.x[1]), 1);
 }
 
+TEST(Shrink, JoinsTheMotionsOfAnyTwoVertices) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  const auto motion = [](const Query& q, int vertex) { return std::pair(q.start(vertex), q.end(vertex)); };
+  for (int to = 0; to < 4; ++to)
+    for (int from = 0; from < 4; ++from) {
+      const Query joined = shrunk(query, [&](const Query& q) {
+        const bool others_stay = [&] {
+          for (int v = 0; v < 4; ++v)
+            if (v != to && motion(q, v) != motion(query, v)) return false;
+          return true;
+        }();
+        return others_stay && (motion(q, to) == motion(query, to) || motion(q, to) == motion(query, from));
+      });
+      EXPECT_EQ(motion(joined, to), motion(query, from)) << from << " to " << to;
+    }
+}
+
+/// Is always over its time limit.
+class Late final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
+    ++asked;
+    return {.fault = Fault::time};
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+  mutable int asked = 0;
+
+ private:
+  std::string name_ = "late";
+};
+
+TEST(Shrink, AsksALateSubjectAFewTimesOnly) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  const Late late;
+  shrunk_query({Finding::What::fault, "late", "uniform", query, "uniform:1:0", 0, "vt time", query}, &late);
+  EXPECT_GT(late.asked, 1);
+  EXPECT_LE(late.asked, 10);
+}
+
 TEST(Shrink, LeavesAloneWhatDoesNotFail) {
   const Query query = make_query(find_family("uniform"), 1, 0);
   EXPECT_EQ(shrunk(query, [](const Query&) { return false; }), query);

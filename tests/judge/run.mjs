@@ -7,21 +7,19 @@
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { parseArgs } from 'node:util';
 import { Copy, filesBelow, source } from './copy.mjs';
+import { readOptions } from '../options.mjs';
 import { readDefects } from './list.mjs';
 import { steps } from './steps.mjs';
 import { table, unexpected } from './table.mjs';
 
-const { values: options } = parseArgs({
-  options: {
-    jobs: { type: 'string', default: '2' },
-    only: { type: 'string', default: '' },
-    every: { type: 'string', default: '1' },
-    queries: { type: 'string' },
-    steps: { type: 'string', default: steps.map(({ name }) => name).join() },
-    again: { type: 'boolean', default: false },
-  },
+const { options } = readOptions({
+  jobs: { type: 'string', default: '2' },
+  only: { type: 'string', default: '' },
+  every: { type: 'string', default: '1' },
+  queries: { type: 'string' },
+  steps: { type: 'string', default: steps.map(({ name }) => name).join() },
+  again: { type: 'boolean', default: false },
 });
 const folder = path.join(source, 'build/judge');
 const store = path.join(folder, 'results.json');

@@ -115,6 +115,14 @@ TEST(Methods, AnswerAsTheyClaim) {
   }
 }
 
+TEST(Methods, DetailsOfSturmTellRootsAndPlanes) {
+  const auto sturm = std::find_if(methods().begin(), methods().end(),
+                                  [](const Method& method) { return method.name == "sturm"; });
+  EXPECT_EQ(sturm->ask(hit).detail, 4 * 1 + 1);
+  const Query in_its_plane = testing::falling_vertex(0.25, 0.25, 0, 0);
+  EXPECT_GE(sturm->ask(in_its_plane).detail, 16);
+}
+
 TEST(Methods, AParityMethodCountsRootsOffTheBoundary) {
   const Query on_boundary = falling_vertex(0.25, 0.25, 1, 0);
   for (const Method& method : methods()) {

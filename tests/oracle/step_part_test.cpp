@@ -55,6 +55,16 @@ TEST(DoubleWord, OperationsAreWithinTheirBounds) {
   EXPECT_LT(worst_product, roundoff<DoubleWord>);
 }
 
+TEST(CrossBound, HoldsForErrorsAsLargeAsTheFactors) {
+  Motion<double> p{};
+  p.magnitude = {2, 2, 2};
+  p.error = {1, 1, 1};
+  Motion<double> q = p;
+  q.error = {3, 3, 3};
+  for (const std::size_t k : {0, 1, 2})
+    EXPECT_GE(certified::cross_bound(p, q, k).l, 2 * ((2 + 1) * (2 + 3) - 2 * 2)) << k;
+}
+
 // --- F and the weights ------------------------------------------------------------------------------------
 
 using CGAL::Mpzf;  // exact sums and products of doubles, much quicker than rational numbers

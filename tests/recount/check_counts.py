@@ -57,6 +57,13 @@ def check_rates(comparison, where, found, tally):
     comparison.within(
         'counters', f'{where} refuted_bounds', found['refuted_bounds'], *tally.refuted()
     )
+    by_wang = 0 if tally.claims else tally.false_positives
+    comparison.same(
+        'counters', f'{where} by wang', found['false_positives_measured_by_wang'], by_wang
+    )
+    comparison.same(
+        'counters', f'{where} bound', found['bound_of_distances'], 'wang' if by_wang else 'claimed'
+    )
     of_negatives, of_positives = denominators(tally)
     for name, value in (
         ('false_negative_rate', rate(tally.false_negatives, of_negatives)),

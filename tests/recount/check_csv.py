@@ -60,6 +60,8 @@ def _check_statistics(comparison, row, answers):
     for name in ('queries', 'collisions', 'positives', 'false_negatives', 'false_positives'):
         comparison.same('CSV', f'{where} {name}', row[name], getattr(tally, name))
     comparison.within('CSV', f'{where} refuted_bounds', row['refuted_bounds'], *tally.refuted())
+    by_wang = 0 if tally.claims else tally.false_positives
+    comparison.same('CSV', f'{where} by wang', row['measured_by_wang'], by_wang)
     of_negatives, of_positives = denominators(tally)
     lower, upper = interval(tally.false_positives, of_positives)
     for name, value in (
@@ -98,6 +100,8 @@ def check_distances_csv(comparison, _where, folder, answers):
     for row in read(folder, 'distances.csv'):
         where = f'distances.csv {row["subject"]} {row["kind"]} {row["family"]}'
         ends = [number(row[f'distance_over_bound_{end}']) for end in ('from', 'to')]
+        claims = answers.asked[row['subject'], row['kind']].claims
+        comparison.same('CSV', f'{where} bound', row['bound'], 'claimed' if claims else 'wang')
         i = int(np.argmin(np.abs(upper[:-1] - ends[1]))) if ends[1] != np.inf else BINS - 1
         comparison.near('CSV', f'{where} from', ends[0], lower[i], ROUNDING)
         comparison.near('CSV', f'{where} to', ends[1], upper[i], ROUNDING)

@@ -73,6 +73,7 @@ def _check_ladder(comparison, lines, found):
 
 def verdict(found):
     """Whether a subject is clean, with the text of its verdict."""
+    wangs = "wang's"
     missed, refuted = found['false_negatives'], found['refuted_bounds']
     text = f'MISSED {missed:,} of ' if missed else 'no miss in '
     text += counted(found['collisions'], 'collision')
@@ -81,7 +82,13 @@ def verdict(found):
     if found['false_positives'] == 0:
         return not missed and not refuted, text + ', no false positive'
     largest = found['max_fp_distance_over_bound']
-    far = 'beyond a bound of 0' if largest == LARGEST else f'at {fraction(largest)} of the bound'
+    claims = found['bound_of_distances'] == 'claimed'
+    if largest == LARGEST:
+        far = f'beyond {"a" if claims else wangs} bound of 0'
+    else:
+        far = f'at {fraction(largest)} of {"the" if claims else wangs} bound'
+    if not claims:
+        far += ' (it claims none)'
     return (
         not missed and not refuted,
         f'{text}, {counted(found["false_positives"], "false positive")}, the farthest {far}',
@@ -148,7 +155,8 @@ def summary(report):
                     f'{c["false_negatives"]:,}',
                     general(c['false_negative_rate_upper_95'], 2),
                     f'{c["false_positives"]:,}',
-                    fraction(c['max_fp_distance_over_bound']),
+                    fraction(c['max_fp_distance_over_bound'])
+                    + ('' if c['bound_of_distances'] == 'claimed' else '**'),
                 ]
             )
     return rows

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""Tests that a report agrees with its queries, and that recount notices a change of any value.
+"""Tests that a report agrees with its queries, and that recount notices a change of any value."""
 
-Usage: recount_test.py NEARMISS"""
-
+import argparse
 import copy
 import re
 import shutil
@@ -231,5 +230,7 @@ class Recount(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    EXECUTABLE = Path(sys.argv.pop(1)).resolve()
-    unittest.main()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('nearmiss', type=Path, help='the executable')
+    EXECUTABLE = parser.parse_args().nearmiss.resolve()
+    unittest.main(argv=sys.argv[:1])

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "ccd/error.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {
@@ -17,6 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using ::testing::ThrowsMessage;
 
 const CountsKey key{"wang", Kind::edge_edge, "uniform"};
 
@@ -98,11 +102,12 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
 
 // The number of false positives is the same, but a few of them are far away.
 TEST(Changes, AFewFarFalsePositivesAreNoticed) {
-  const auto with = [](std::uint64_t far) {
+  const auto with = [](std::uint64_t far, std::uint64_t measured_by_wang = 0) {
     std::map<CountsKey, Counts> all;
     for (int i = 0; i < 10; ++i) {
       Counts c = counts(20000, 10000, 0, 1000);
       for (std::uint64_t k = 0; k < 1000; ++k) c.distances.add(k < far ? 1 : 1e-3);
+      c.measured_by_wang = measured_by_wang;
       all[{"basic", Kind::edge_edge, "family " + std::to_string(i)}] = c;
     }
     return campaign("1", std::move(all));
@@ -112,6 +117,9 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(found.rates[0].what, "false positives beyond the bound");
   EXPECT_THAT(found.rates[0].now.count, 20);
   EXPECT_THAT(changes(with(1), with(0)).rates, IsEmpty());
+  const Changes unclaimed = changes(with(2, 1000), with(0, 1000));
+  ASSERT_THAT(unclaimed.rates, SizeIs(1));
+  EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
 // p is 2 / 2^13, which is between 1/5 and 1/4 of the risk.
@@ -204,6 +212,110 @@ TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const Campaign three = with({{a, 40}, {c, 1}});  // signature c, which no longer occurs, is compared too
   EXPECT_FALSE(is_new(11, three));
   EXPECT_TRUE(is_new(12, three));
+}
+
+const Signature inside{missed, "wang", "ee inside"};
+const Signature on_edge{missed, "wang", "ee on-edge"};
+
+/// A campaign of wang with the given failures, which began at the date.
+Campaign night(const std::string& date, std::map<Signature, std::uint64_t> seen) {
+  Campaign made = campaign(date, {{key, counts(200000, 100000, seen.size(), 0)}});
+  made.runs[0].shards[0].started = date;
+  made.statistics.seen = std::move(seen);
+  return made;
+}
+
+TEST(Baseline, IsTheSumOfItsCampaigns) {
+  const std::vector<Campaign> nights{night("1", {{inside, 3}}), night("2", {}), night("3", {{on_edge, 4}})};
+  const Campaign sum = add_up(nights);
+  EXPECT_EQ(sum.statistics.queries_of("wang"), 600000);
+  EXPECT_EQ(sum.statistics.times_seen(inside), 3);
+  EXPECT_EQ(sum.statistics.times_seen(on_edge), 4);
+  EXPECT_THAT(sum.runs, SizeIs(3));
+}
+
+// In one test, 1,690 after 1,500 are not more than chance explains. After three times 1,500, they are.
+TEST(Baseline, RatesAreComparedWithTheSum) {
+  const auto with = [](const std::string& seed, std::uint64_t false_positives) {
+    return campaign(seed, {{key, counts(200000, 100000, 0, false_positives)}});
+  };
+  const Campaign now = with("now", 1690);
+  EXPECT_THAT(changes(now, with("1", 1500)).rates, IsEmpty());
+  const Changes found = changes(now, std::vector{with("1", 1500), with("2", 1500), with("3", 1500)});
+  ASSERT_THAT(found.rates, SizeIs(1));
+  EXPECT_EQ(found.rates[0].before.count, 4500);
+  EXPECT_EQ(found.rates[0].before.total, 300000);
+}
+
+TEST(Baseline, RandomQueriesCountOnce) {
+  const Campaign once = night("1", {});
+  EXPECT_THAT(
+      [&] {
+        add_up(std::vector{once, once});
+      },
+      ThrowsMessage<Error>(HasSubstr("shard 0/1 of the run with seed 1 twice")));
+  Campaign replay = once;  // asks the same cases every time
+  replay.runs[0].info = {{"command", "replay"}};
+  EXPECT_EQ(add_up(std::vector{replay, replay}).statistics.queries_of("wang"), 400000);
+}
+
+TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
+  const std::vector<Campaign> nights{night("2026-01-01", {{inside, 1}}), night("2026-01-02", {}),
+                                     night("2026-01-03", {{inside, 2}, {on_edge, 1}}),
+                                     night("2026-01-04", {})};
+  const Changes found = changes(night("2026-01-05", {{inside, 1}}), nights);
+  EXPECT_EQ(found.sightings.at(inside), (Sightings{"2026-01-01", "2026-01-03", 2}));
+  EXPECT_EQ(found.sightings.at(on_edge), (Sightings{"2026-01-03", "2026-01-03", 1}));
+  EXPECT_THAT(found.new_signatures, IsEmpty());
+  EXPECT_THAT(found.lasting_signatures, ElementsAre(inside));
+  EXPECT_THAT(found.gone_signatures, ElementsAre(on_edge));
+  EXPECT_EQ(describe(found),
+            "lasting: false-negative of wang, ee inside, first seen 2026-01-01, last seen 2026-01-03\n");
+  const auto json = changes_json(found);
+  EXPECT_EQ(json["lasting_signatures"][0]["first_seen"], "2026-01-01");
+  EXPECT_EQ(json["lasting_signatures"][0]["last_seen"], "2026-01-03");
+  EXPECT_EQ(json["lasting_signatures"][0]["campaigns"], 2);
+  EXPECT_EQ(json["gone_signatures"][0]["first_seen"], "2026-01-03");
+}
+
+// A failure is new once. While it is there, it is lasting, and the campaign fails.
+TEST(Baseline, AFailureIsNewOnceAndThenLasts) {
+  std::vector<Campaign> nights{night("1", {})};
+  const Changes first = changes(night("2", {{inside, 1}}), nights);
+  EXPECT_THAT(first.new_signatures, ElementsAre(inside));
+  EXPECT_THAT(first.lasting_signatures, IsEmpty());
+  EXPECT_TRUE(first.fails({}));
+  nights.push_back(night("2", {{inside, 1}}));
+  nights.push_back(night("3", {}));
+  const Changes later = changes(night("4", {{inside, 1}}), nights);
+  EXPECT_THAT(later.new_signatures, IsEmpty());
+  EXPECT_THAT(later.lasting_signatures, ElementsAre(inside));
+  EXPECT_TRUE(later.fails({}));
+  EXPECT_FALSE(changes(night("4", {}), nights).fails({}));
+}
+
+TEST(Baseline, ASubjectThatItLacksHasNoNewWayToFail) {
+  const Campaign before = night("1", {});
+  Campaign now = night("2", {});
+  now.statistics.counts[{"mine", Kind::edge_edge, "uniform"}] = counts(2000, 1000, 7, 0);
+  now.statistics.seen[{missed, "mine", "ee inside"}] = 7;
+  const Changes found = changes(now, before);
+  EXPECT_THAT(found.absent_subjects, ElementsAre("mine"));
+  EXPECT_THAT(found.new_signatures, IsEmpty());
+  EXPECT_FALSE(found.for_the_worse());
+  EXPECT_TRUE(found.fails(std::vector<std::string>{"mine"}));
+  EXPECT_FALSE(found.fails({}));
+  EXPECT_EQ(describe(found), "not in the baseline: mine\n");
+  EXPECT_EQ(changes_json(found)["absent_subjects"][0], "mine");
+}
+
+TEST(Baseline, ManyValuesOfAFactAreCounted) {
+  std::vector<Campaign> nights;
+  for (int i = 0; i < 7; ++i) nights.push_back(night(std::to_string(i), {}));
+  const Changes found = changes(night("now", {}), nights);
+  ASSERT_THAT(found.facts, SizeIs(1));
+  EXPECT_EQ(found.facts[0].before, "7 values");
+  EXPECT_EQ(found.facts[0].now, "now");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Finding finding(std::uint64_t round, const std::string& provenance, double shrun
   made.subject = "basic";
   made.provenance = provenance;
   made.signature = signature;
-  made.round = round;
+  made.place = round;
   made.shrunk = testing::falling_edge(shrunk, -1);
   return made;
 }

@@ -100,6 +100,7 @@ TEST(Deciders, StandInTheReport) {
 
 TEST(Deciders, StandInTheText) {
   const std::string text = decider_tables(some_statistics());
+  EXPECT_THAT(text, HasSubstr(" / wang"));
   EXPECT_THAT(text, HasSubstr("\nnear "));
   EXPECT_THAT(text,
               HasSubstr("8          2    25 %       3  37.5 %      1  12.5 %      2    25 %       400"));

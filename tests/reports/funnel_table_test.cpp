@@ -53,6 +53,15 @@ TEST(FunnelTable, TellsHowMuchWorkTheAskedPairsNeed) {
               ContainsRegex("the filter decides, exact arithmetic is not needed +190 +95 % +190 +95 %"));
 }
 
+TEST(FunnelTable, AddsUpTheTimesOfBothKinds) {
+  Statistics statistics;
+  statistics.funnels[{"scene:a#0", Kind::vertex_triangle}] = {.finding_ns = 2'000'000'000,
+                                                              .deciding_ns = 500'000'000};
+  statistics.funnels[{"scene:a#0", Kind::edge_edge}] = {.finding_ns = 1'000'000'000,
+                                                        .deciding_ns = 250'000'000};
+  EXPECT_THAT(funnel_tables(statistics), HasSubstr("3 s to find the pairs, 0.75 s to decide"));
+}
+
 TEST(FunnelTable, LeavesOutASubjectThatDoesNotTell) {
   EXPECT_THAT(funnel_tables(two_steps()), Not(HasSubstr("silent")));
 }

@@ -33,10 +33,24 @@ TEST(Headline, SaysWhoFailedAndWhetherAnythingIsNew) {
               HasSubstr("; 1 new way to fail since the baseline."));
   EXPECT_FALSE(headline(bad.statistics, changes(bad, good)).clean);
 
+  EXPECT_EQ(headline(bad.statistics, changes(bad, bad)).text,
+            "a failed; b did not fail, in 1,234 queries; 1 way to fail as before, nothing worse since the "
+            "baseline.");
+  EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
+
   bad.statistics.oracle_disagreements = 2;
   EXPECT_THAT(headline(bad.statistics, changes(bad, bad)).text,
               HasSubstr("The oracle cannot be trusted: 2 "));
   EXPECT_FALSE(headline(bad.statistics, changes(bad, bad)).clean);
+}
+
+TEST(Headline, ASubjectThatTheBaselineLacksIsBadIfItFails) {
+  const Campaign before = campaign("1", {{{"a", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});
+  Campaign now = before;
+  now.statistics.counts[{"b", Kind::edge_edge, "f"}] = counts(9, 5, 0, 0);
+  EXPECT_TRUE(headline(now.statistics, changes(now, before)).clean);
+  now.statistics.counts[{"b", Kind::edge_edge, "f"}].false_negatives = 1;
+  EXPECT_FALSE(headline(now.statistics, changes(now, before)).clean);
 }
 
 TEST(Headline, CountsSubjectsWhereThereAreMany) {

@@ -1,7 +1,7 @@
 // Opens reports in Chromium as a user does, and checks what is drawn. Usage: page_test.mjs NEARMISS
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
 import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSweepsOfWhatIsNeverWrong, showsWhatDecides } from "./page/charts.mjs";
-import { showsFindings, showsThatNothingWasFound, showsTheBaseline } from "./page/findings.mjs";
+import { showsFindings, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
 import { removeFolder } from "./page/session.mjs";
@@ -17,6 +17,7 @@ try {
   await showsFindings(browser);
   await showsThatNothingWasFound(browser);
   await showsTheBaseline(browser);
+  await showsWhatIsNewSinceTheBaseline(browser);
   await showsSweeps(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
   await showsAClaimOfNoDistanceThatIsRefuted(browser);

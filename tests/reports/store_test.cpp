@@ -114,6 +114,15 @@ TEST_F(StoreTest, GoesOn) {
   EXPECT_EQ(campaign.statistics, some_statistics("wang"));
 }
 
+TEST_F(StoreTest, ReplacesItsFindings) {
+  const std::vector<Finding> findings{some_finding("first"), some_finding("second"), some_finding("third")};
+  Store store(file("a.db"), info, shard);
+  store.save({}, shard, findings);
+  store.replace(std::span(findings).last(1));
+  store.save({}, shard, std::span(findings).first(1));
+  EXPECT_EQ(load_campaign(file("a.db")).runs[0].findings, (std::vector{findings[2], findings[0]}));
+}
+
 TEST_F(StoreTest, GoesOnWithOnePartOfOneRunOnly) {
   Shard other = shard;
   other.index = 3;
@@ -158,6 +167,16 @@ TEST_F(StoreTest, AMergedCampaignIsTheSameInAFile) {
   const Campaign again = load_campaign(file("a.db"));
   EXPECT_EQ(again.runs, campaign.runs);
   EXPECT_EQ(again.statistics, campaign.statistics);
+}
+
+TEST_F(StoreTest, ACampaignIsWrittenBesideItsFile) {
+  const auto elsewhere = std::filesystem::current_path();
+  std::filesystem::create_directories(file("here/.part/full"));  // in the way of a file of that name
+  std::filesystem::current_path(file("here"));
+  write_campaign({}, file("a.db"));
+  std::filesystem::current_path(elsewhere);
+  EXPECT_TRUE(load_campaign(file("a.db")).runs.empty());
+  EXPECT_FALSE(std::filesystem::exists(file("a.db.part")));
 }
 
 TEST_F(StoreTest, ACutFileIsRefused) {

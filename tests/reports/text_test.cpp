@@ -28,6 +28,15 @@ TEST(Text, WhatIsBelowTheBoundIsNotRoundedToIt) {
   EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
 }
 
+TEST(Text, ADistanceThatIsNoFractionOfAClaimSaysSo) {
+  EXPECT_EQ(times_the_bound(66.7, BoundOf::wang), "at 66.7 of wang's bound (it claims none)");
+  EXPECT_EQ(times_the_bound(std::numeric_limits<double>::max(), BoundOf::wang),
+            "beyond wang's bound of 0 (it claims none)");
+  EXPECT_EQ(times_the_bound(0.5, BoundOf::both), "at 0.5 of wang's bound or of a claim");
+  EXPECT_EQ(marked_fraction_of_bound(0.1234, BoundOf::subject), "0.123");
+  EXPECT_EQ(marked_fraction_of_bound(0.1234, BoundOf::wang), "0.123**");
+}
+
 TEST(Text, ATimeThatIsMissingIsADash) {
   EXPECT_EQ(whole_ns(12.6), "13");
   EXPECT_EQ(whole_ns(std::nullopt), "-");

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "reports/sections/counts_json.hpp"
+#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -67,6 +71,14 @@ TEST(Times, TheSlowestAreKept) {
 }
 
 // Six cases are equally slow. The first five by provenance are kept, in whatever order they come.
+TEST(Times, StandInTheReport) {
+  Counts counts;
+  for (int i = 0; i < 100; ++i) counts.times.add(50, testing::falling_edge(1, -1), [] { return "f:1:0"; });
+  const auto json = counts_json(counts, true)["times"];
+  EXPECT_EQ(json["sampled"], 100);
+  for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
+}
+
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;

@@ -3,7 +3,9 @@
 # any of our files.
 # Arguments name the targets; by default, one of each kind. The build folder is kept, because the first build takes minutes.
 set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."
+options '' "$@"
 (($#)) || set -- read_csv false_negative
 
 fail() { echo "$1" >&2; exit 1; }

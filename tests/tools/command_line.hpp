@@ -33,10 +33,11 @@ class CommandLine : public testing::TemporaryFolder {
   static std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
   /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder. `before` precedes the command, such as
-  /// "ulimit -f 8;".
-  [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "") const {
+  /// "ulimit -f 8;"; `redirections` come last, such as ">/dev/full" or "<&-".
+  [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "",
+                           const std::string& redirections = "") const {
     const std::string command = "cd " + file("").string() + " && " + before + " " + NEARMISS_EXECUTABLE +
-                                " " + arguments + " >out.txt 2>error.txt";
+                                " " + arguments + " >out.txt 2>error.txt " + redirections;
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
   }

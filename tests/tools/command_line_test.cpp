@@ -61,19 +61,11 @@ TEST_F(CommandLine, ReplayComparesAndCounts) {
   EXPECT_EQ(counts["false_negatives"], 0);
 }
 
-TEST_F(CommandLine, AMissGivesExitCodeOne) {
-  write("q.vt", hit);
-  const Output output = run("replay q.vt --subject " + plugin("never"));
-  EXPECT_EQ(output.code, 1);
-  EXPECT_THAT(output.out, HasSubstr("MISSED 1 of 1 collision"));
-  EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
-}
-
 TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
   for (const std::string way : {"crash", "hang"}) {
     const Output output = run("fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " +
                               way + ".db --subject " + plugin(way));
-    EXPECT_EQ(output.code, 1) << output.error;
+    EXPECT_EQ(output.code, 0) << output.error;
     EXPECT_THAT(output.out, HasSubstr("NO ANSWER to "));
     const json counts = read_json("new.json")["subjects"]["misbehaving"]["ee"];
     EXPECT_EQ(counts["queries"], 500);
@@ -88,20 +80,12 @@ TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
   const std::string again = read_json("report/report.json")["findings"][0]["again"];
   EXPECT_THAT(again, ::testing::MatchesRegex("nearmiss replay cases/fault-misbehaving-001.case --subject "
                                              "/.*hang.so --query-time 20ms --query-memory [0-9]+"));
-  EXPECT_EQ(run(again.substr(9), "cd report &&").code, 1);
+  const Output failure = run(again.substr(9), "cd report &&");
+  EXPECT_EQ(failure.code, 0) << failure.error;
   EXPECT_EQ(
       run("shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
           .code,
       0);
-}
-
-TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {
-  write("a.case",
-        "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
-        "y0 0.25 0.25 -1\ny1 0 0 0\ny2 1 0 0\ny3 0 1 0\n");
-  const Output output = run("replay a.case --json new.json");
-  EXPECT_EQ(output.code, 1);
-  EXPECT_EQ(read_json("new.json")["oracle"]["mismatches_with_recorded_truth"], 1);
 }
 
 TEST_F(CommandLine, FuzzMergeAndReport) {
@@ -116,6 +100,17 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
   ASSERT_EQ(report["runs"].size(), 1);
   EXPECT_FALSE(report["runs"][0].contains("missing"));
   EXPECT_TRUE(report["baseline"]["new_signatures"].empty());
+}
+
+TEST_F(CommandLine, AReportHasSeveralStoresAsItsBaseline) {
+  for (const char* seed : {"1", "2", "3"})
+    EXPECT_EQ(run(std::string("fuzz --cases 1100 --seed ") + seed + " --db " + seed + ".db").code, 0);
+  EXPECT_EQ(run("report --baseline 1.db --baseline 2.db 3.db -o report").code, 0);
+  const json baseline = read_json("report/report.json")["baseline"];
+  ASSERT_EQ(baseline["runs"].size(), 2);
+  for (const json& subject : baseline["subjects"])
+    EXPECT_EQ(subject["before"]["queries"], 2 * subject["now"]["queries"].get<int>());
+  expect_refused("report 3.db --baseline 1.db --baseline 1.db -o report", {"run with seed 1 twice"});
 }
 
 TEST_F(CommandLine, FuzzSweepsParameters) {
@@ -209,7 +204,7 @@ TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
 }
 
 TEST_F(CommandLine, PowerResumesWhereItStopped) {
-  const std::string command = "power --time 1ms --way families,search --json new.json --subject ";
+  const std::string command = "power --time 1s --way families,search --json new.json --subject ";
   const Output output = run(command + "defect:vertex-edge");
   EXPECT_EQ(output.code, 0) << output.error;
   EXPECT_THAT(output.out, HasSubstr("found, of 1"));
@@ -250,7 +245,7 @@ TEST_F(CommandLine, ShrinkWritesACaseThatFailsInTheSameWay) {
 
 TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
   const std::string subject = " --subject " + plugin("bound_nan");
-  EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 1);
+  EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 0);
   EXPECT_GT(read_json("new.json")["subjects"]["always"]["vt"]["faults"]["error"], 50);
   EXPECT_EQ(run("report a.db -o report").code, 0);
   const json finding = read_json("report/report.json")["findings"][0];
@@ -259,7 +254,7 @@ TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
   const Output shrunk = run("shrink " + found + " -o shrunk.case" + subject);
   EXPECT_EQ(shrunk.code, 0) << shrunk.error;
   EXPECT_THAT(read("shrunk.case"), StartsWith("# fault of always: "));
-  EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 1);
+  EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 0);
   EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "fault");
 }
 

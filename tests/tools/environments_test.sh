@@ -2,7 +2,10 @@
 # Runs tools/environments on two environments, and checks its output. Also checks which flags the headers of
 # ccd/ refuse.
 set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."
+options '' "$@"
+((${#arguments[@]} == 0)) || refuse "found '${arguments[0]}', expected no argument"
 fail() { echo "$1"; exit 1; }
 
 folder=$(mktemp -d)

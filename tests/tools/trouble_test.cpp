@@ -181,12 +181,48 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_EQ(output.code, 2);
   EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
   EXPECT_THAT(output.error, HasSubstr("a.db: "));
-  EXPECT_EQ(run("merge b.db a.db").code, 0);
+  EXPECT_EQ(run("merge b.db a.db").code, 1);
   write("q.vt", hit);
   const Output no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
   EXPECT_EQ(no_room.code, 2);
   EXPECT_FALSE(std::filesystem::exists(file("new.json")));
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
+}
+
+TEST_F(CommandLine, AFileIsReplacedAsAWhole) {
+  write("q.vt", hit);
+  write("a.json", "old");
+  std::filesystem::create_hard_link(file("a.json"), file("reader.json"));
+  EXPECT_EQ(run("replay q.vt --json a.json").code, 0);
+  EXPECT_EQ(read_json("a.json")["subjects"]["wang"]["vt"]["queries"], 1);
+  EXPECT_EQ(read("reader.json"), "old");
+}
+
+TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {
+  write("q.vt", hit);
+  const std::string fuzz = "fuzz --cases 100 --subject wang," + plugin("example");
+  const Output unwritten = run(fuzz + " --db a.db", "", ">&-");
+  EXPECT_EQ(unwritten.code, 2);
+  EXPECT_THAT(unwritten.error, HasSubstr("nearmiss: standard output cannot be written: "));
+  EXPECT_EQ(run("report a.db -o report").code, 0);
+  EXPECT_EQ(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 50);
+  const Output unread = run("oracle --kind vt -", "", "<&-");
+  EXPECT_EQ(unread.code, 2);
+  EXPECT_THAT(unread.error, HasSubstr("nearmiss: stdin"));
+}
+
+TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
+  write("q.vt", hit);
+  const std::string replay = "replay q.vt --subject wang," + plugin("print") + " --db ";
+  const Output deaf = run(replay + "a.db", "", "<&-");
+  EXPECT_EQ(deaf.code, 0) << deaf.error;
+  const Output silent = run(replay + "b.db", "", "2>&-");
+  EXPECT_EQ(silent.code, 0);
+  EXPECT_THAT(silent.out, HasSubstr(" ok  wang: no miss in 1 collision"));
+  // Nothing that is printed gets into the store or its lock.
+  EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
+  for (const char* store : {"a.db", "b.db", "c.db"})
+    EXPECT_EQ(run(std::string("report ") + store + " -o report").code, 0) << store;
 }
 
 TEST_F(CommandLine, ADeviceIsWrittenNotReplaced) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/themes.hpp"
 
@@ -28,7 +29,7 @@ int parse_size(const std::string& text, const BuiltInScene& scene) {
   const auto size = parse_integer<int>(word);
   if (!size || *size < scene.smallest || *size > scene.largest)
     throw Error(fmt::format("{}: found size {}, expected {} to {}", text,
-                            size ? std::string(word) : fmt::format("'{}'", word), scene.smallest,
+                            size ? std::string(word) : fmt::format("'{}'", excerpt(word)), scene.smallest,
                             scene.largest));
   return *size;
 }

@@ -6,10 +6,14 @@ namespace {
 
 double component(Random& random, double size) {
   switch (random.integer(0, 3)) {
-    case 0:
-      return size * (1 - random.log_uniform(1e-17, 1)) * (random.one_in(2) ? 1 : -1);
-    case 1:
-      return random.uniform(-size, size) * random.log_uniform(1e-9, 1);
+    case 0: {
+      const double positive = size * (1 - random.log_uniform(1e-17, 1));
+      return positive * (random.one_in(2) ? 1 : -1);
+    }
+    case 1: {
+      const double x = random.uniform(-size, size);
+      return x * random.log_uniform(1e-9, 1);
+    }
     default:
       return random.uniform(-size, size);
   }
@@ -70,7 +74,9 @@ AuditSample changed(Random& random, const AuditSample& sample) {
     if (random.one_in(2)) {
       draw_component(random, vector, i, size);
     } else {  // change the bits that decide about rounding
-      vector.xv[i + 3 * random.integer(0, 1)] *= 1 + random.uniform(-1, 1) * random.log_uniform(1e-16, 1e-1);
+      const double direction = random.uniform(-1, 1);
+      const double change = direction * random.log_uniform(1e-16, 1e-1);
+      vector.xv[i + 3 * random.integer(0, 1)] *= 1 + change;
     }
   }
   return next.t <= 1 && next.within_bounds() ? next : sample;

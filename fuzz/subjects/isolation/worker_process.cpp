@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <ctime>
@@ -109,6 +111,18 @@ double calls_per_query(Request request) {
   }
 }
 
+/// Waits until there is something to read. A signal to nearmiss does not end the wait.
+bool is_ready(int file, milliseconds time) {
+  const auto until = steady_clock::now() + time;
+  pollfd wanted{file, POLLIN, 0};
+  int ready = poll(&wanted, 1, static_cast<int>(time.count()));
+  while (ready < 0 && errno == EINTR) {
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    ready = poll(&wanted, 1, static_cast<int>(std::max(left, milliseconds(0)).count()));
+  }
+  return ready > 0;
+}
+
 }  // namespace
 
 bool WorkerProcess::Elapsed::exceeds(Duration limit) const {
@@ -169,9 +183,8 @@ void WorkerProcess::start(const std::string& path) {
   replies.theirs.close();
   status.theirs.close();
   // The first message names the process.
-  pollfd told{status_.number(), POLLIN, 0};
-  constexpr int patience_ms = 60'000;
-  const bool started = poll(&told, 1, patience_ms) > 0 &&
+  constexpr milliseconds patience(60'000);
+  const bool started = is_ready(status_.number(), patience) &&
                        recv(status_.number(), &process_, sizeof process_, MSG_DONTWAIT) == sizeof process_;
   if (!started) throw Error(fmt::format("no worker process: {} does not start a process", program));
 }
@@ -285,8 +298,7 @@ bool WorkerProcess::ends_within(milliseconds time) {
   const auto until = steady_clock::now() + time;
   while (true) {
     const auto left = std::chrono::duration_cast<milliseconds>(until - steady_clock::now());
-    pollfd status{status_.number(), POLLIN, 0};
-    if (poll(&status, 1, static_cast<int>(std::max(left, milliseconds(0)).count())) <= 0) return false;
+    if (!is_ready(status_.number(), std::max(left, milliseconds(0)))) return false;
     Status told{};
     if (recv(status_.number(), &told, sizeof told, MSG_DONTWAIT) != sizeof told)
       return true;  // it ended, too

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/scalar_name.hpp"
 
 namespace nearmiss {
@@ -45,14 +46,14 @@ std::unique_ptr<Subject> try_make_scaled(std::string_view name_and_bound, std::o
   const auto algorithm = std::find_if(algorithms.begin(), algorithms.end(),
                                       [&](const auto& each) { return each.first == name.substr(0, colon); });
   if (algorithm == algorithms.end())
-    throw Error(
-        fmt::format("unknown subject '{}', expected basic, wang or wang-tight before the colon", name));
+    throw Error(fmt::format("unknown subject '{}', expected basic, wang or wang-tight before the colon",
+                            excerpt(name)));
   if (const auto scalar = scalar_of(name.substr(colon + 1)))
     return scalar->make(name_and_bound, scalar->epsilon_exponent, algorithm->second, split.bound);
   std::string names;
   for (const ladder::Scalar& scalar : named_scalars()) names += scalar.name + ", ";
-  throw Error(fmt::format("unknown subject '{}', expected a scalar behind the colon: {}p{} to p{}", name,
-                          names, ladder::fewest_bits, ladder::most_bits));
+  throw Error(fmt::format("unknown subject '{}', expected a scalar behind the colon: {}p{} to p{}",
+                          excerpt(name), names, ladder::fewest_bits, ladder::most_bits));
 }
 
 }  // namespace nearmiss

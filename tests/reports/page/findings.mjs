@@ -53,6 +53,19 @@ async function checkTables(page, report) {
   assert.equal(await count(page, "#oracle tbody tr"), 2 * families);
 }
 
+/** Every section with distances says that basic claims no bound, and its distances are marked. */
+async function checkUnits(page) {
+  const notes = await page.locator(".units:visible").allTextContents();
+  assert.ok(notes.length >= 4);
+  for (const note of notes) assert.match(note, /^\*\* basic claims no bound\. These distances are in units of wang's bound/);
+  const marks = (name) => page.locator(`#counts tbody tr:has(td:first-child:text-is("${name}")) td:has-text("**")`);
+  assert.ok((await marks("basic").count()) > 0);
+  assert.equal(await marks("wang").count(), 0);
+  const far = (name) => page.locator(`#farthest tbody tr:has-text("${name} vt")`).textContent();
+  assert.match(await far("basic"), /at [\d.]+ of wang's bound \(basic claims none\)/);
+  assert.match(await far("wang"), /at [\d.]+ of the bound/);
+}
+
 async function checkFindings(page, report) {
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
@@ -116,6 +129,7 @@ export async function showsFindings(browser) {
   await checkVerdicts(page, report);
   await checkCharts(page, report);
   await checkTables(page, report);
+  await checkUnits(page);
   await checkFindings(page, report);
   await checkThatAPictureTurns(page, report);
   const command = await page.locator("#findings code").first().textContent();
@@ -145,12 +159,24 @@ export async function showsTheBaseline(browser) {
   const page = await open(browser, url);
   assert.equal(await page.isVisible("#baseline"), true);
   const news = await page.textContent("#news");
-  assert.match(news, /New: false-negative of basic-plain, /); // the baseline does not have it
+  assert.match(news, /Not in the baseline: basic-plain\./);
+  assert.doesNotMatch(news, /false-negative of basic-plain, /);
+  assert.match(news, /As before: false-negative of basic, [^(]+ \(first seen 20\d\d-\S+Z, last seen 20\d\d-\S+Z\)/);
   assert.doesNotMatch(news, /New: false-negative of basic, /); // the baseline has this failure
   assert.match(news, /not in the baseline, but no more frequent than chance explains \(about \d+ were expected\): false-negative of basic, /);
-  assert.match(await page.textContent("#headline"), /since the baseline\.$/);
+  assert.match(await page.textContent("#headline"), / ways? to fail as before, .* since the baseline\.$/);
+  assert.equal(await count(page, "#headline.bad"), 1);
   assert.equal(await count(page, "#before-and-now tbody tr"), 6);
   assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);
+  assert.doesNotMatch(await page.textContent("#findings"), /NEW since the baseline/);
+  await page.close();
+}
+
+export async function showsWhatIsNewSinceTheBaseline(browser) {
+  makeReport("without-failure", ["--cases", "100", "--family", "uniform-slow", "--subject", "basic-plain"]);
+  const url = makeReport("with-failures", ["--cases", "2200", "--subject", "basic-plain", "--seed", "2"], ["--baseline", "without-failure.db"]);
+  const page = await open(browser, url);
+  assert.match(await page.textContent("#news"), /New: false-negative of basic-plain, /);
   assert.match(await page.locator("#findings tbody tr").first().textContent(), /NEW since the baseline/);
   await page.close();
 }

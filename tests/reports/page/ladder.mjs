@@ -29,7 +29,7 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
 }
 
 export async function showsTheLadderAndTheAudit(browser) {
-  run("ladder", "--scalar", "float,p40,p64", "--cases", "160", "--db", "ladder.db");
+  run("ladder", "--scalar", "float,p40,p64", "--cases", "320", "--db", "ladder.db");
   run("audit", "--queries", "2", "--steps", "4", "--json", "audit.json");
   run("report", "ladder.db", "-o", "ladder", "--audit", "audit.json");
   const page = await open(browser, pageOf("ladder"));

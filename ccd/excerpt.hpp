@@ -1,0 +1,18 @@
+// Words of the input in messages.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace nearmiss {
+
+/// A word of the input as messages show it: one of more than `most` bytes is cut, at a border of UTF-8 sequences,
+/// and ends in "...".
+inline std::string excerpt(std::string_view word, std::size_t most = 40) {
+  if (word.size() <= most) return std::string(word);
+  std::size_t end = most;
+  while (end > most - 4 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80U) --end;
+  return std::string(word.substr(0, end)) + "...";
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,210 @@
+"""Nights that end badly, and the machine that they run on."""
+
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import time
+
+from campaigns import Failure
+
+SIGNALS = {
+    'SIGKILL': signal.SIGKILL,
+    'SIGTERM': signal.SIGTERM,
+    'SIGINT': signal.SIGINT,
+    'SIGHUP': signal.SIGHUP,
+}
+PATIENCE = 300  # seconds until a process counts as hanging; far more than any needs
+FOUND, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes of nearmiss
+
+
+class Machine:
+    """Runs nearmiss, and knows what it leaves behind."""
+
+    def __init__(self, nearmiss, plugins, folder):
+        self.nearmiss, self.plugins, self.folder = nearmiss, plugins, folder
+        self.disk = folder / 'disk'
+        self.disk.mkdir()
+        self.can_mount = self.mount(1 << 20)
+        self.unmount()
+
+    def start(self, command, jumps=False, largest_file=None):
+        environment = {**os.environ, 'NEARMISS_ONE_IN': '500'}
+        if jumps:
+            clock = self.plugins / 'jumping_clock.so'
+            environment.update(LD_PRELOAD=str(clock), NEARMISS_JUMP=str(10**8))
+
+        def prepare():
+            for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                signal.signal(each, signal.SIG_DFL)
+            if largest_file is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
+
+        with (self.folder / 'said').open('w', encoding='utf-8') as said:
+            return subprocess.Popen(
+                [self.nearmiss, *command],
+                cwd=self.folder,
+                env=environment,
+                stdout=subprocess.DEVNULL,
+                stderr=said,
+                preexec_fn=prepare,
+                restore_signals=largest_file
+                is None,  # Python ignores that of a file that is too large
+            )
+
+    def call(self, command, campaign):
+        """Runs a command to its end."""
+        process = self.start(command)
+        try:
+            code = process.wait()
+        finally:
+            process.kill()
+        if code not in (0, FOUND):
+            raise Failure(f'{campaign}: {command[0]} ends with {code}: {self.said()}')
+
+    def said(self):
+        return (self.folder / 'said').read_text(encoding='utf-8').strip()
+
+    def left(self):
+        """Processes that still run here."""
+        found = []
+        for each in pathlib.Path('/proc').glob('[0-9]*'):
+            try:
+                if self.folder in (here := pathlib.Path(os.readlink(each / 'cwd')), *here.parents):
+                    found.append(int(each.name))
+            except OSError:
+                continue  # it has ended
+        return found
+
+    def wait_until_alone(self):
+        """A killed process cannot end its children itself, so they take a moment."""
+        end = time.monotonic() + PATIENCE
+        while left := self.left():
+            if time.monotonic() >= end:
+                raise Failure(f'processes {left} are left running')
+            time.sleep(0.01)
+
+    def mount(self, size):
+        size = -(-size // 4096) * 4096
+        command = ['mount', '-t', 'tmpfs', '-o', f'size={size}', 'none', str(self.disk)]
+        return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+    def unmount(self):
+        if os.path.ismount(self.disk):
+            subprocess.run(['umount', str(self.disk)], check=True)
+
+    def clean(self):
+        for each in self.left():
+            os.kill(each, signal.SIGKILL)
+        while self.left():
+            time.sleep(0.01)
+        self.unmount()
+
+
+def catches(process, number):
+    """Whether a process is ready for a signal: it catches it, or cannot."""
+    if number == signal.SIGKILL:
+        return True
+    try:
+        status = pathlib.Path(f'/proc/{process.pid}/status').read_text(encoding='utf-8')
+    except OSError:
+        return False
+    caught = next(line.split()[1] for line in status.splitlines() if line.startswith('SigCgt:'))
+    return bool(int(caught, 16) >> (number - 1) & 1)
+
+
+def last_save(store):
+    """The time of the last save; None before the first one."""
+    try:
+        return store.with_name(f'{store.name}-wal').stat().st_mtime_ns
+    except FileNotFoundError:
+        return None
+
+
+class Night:
+    """One run of a campaign, and how it ends. Everything is drawn from the seed and the night's number."""
+
+    def __init__(self, number, seed, seconds):
+        self.draw = random.Random(f'{seed} night {number}')
+        self.end = self.draw.choice([*SIGNALS, *SIGNALS, 'full disk', 'full disk', 'time limit'])
+        self.after = self.draw.uniform(0.02, seconds)
+        self.seconds = seconds
+        self.saves_first = self.draw.random() < 0.5
+        self.room = self.draw.randrange(300_000)  # bytes, until the disk is full
+        self.jobs = self.draw.choice([1, 2, 3])
+        self.jumps = self.draw.random() < 0.3
+
+    def __str__(self):
+        text = f'{self.end} {self.after:.2f} s after its {"first save" if self.saves_first else "start"}'
+        if self.end == 'full disk':
+            text = f'a disk that is full after {self.room:,} bytes'
+        return text + (', a clock that jumps' if self.jumps else '')
+
+    def run(self, campaign, machine):
+        """Runs the night. Returns the exit code, which is one of those that fit the night."""
+        if self.end == 'full disk':
+            code = self.run_on_full_disk(campaign, machine)
+            expected = {INTERRUPTED, REFUSED}
+        else:
+            command = campaign.command(campaign.store, self.jobs)
+            if self.end == 'time limit':
+                command += ['--time', f'{max(1, int(1000 * self.after))}ms']
+            saved = last_save(campaign.store)
+            process = machine.start(command, self.jumps)
+            while (
+                self.saves_first and process.poll() is None and last_save(campaign.store) == saved
+            ):
+                time.sleep(0.005)
+            code = self.wait(process, SIGNALS.get(self.end), self.after)
+            expected = {'SIGKILL': {-signal.SIGKILL}, 'time limit': set()}.get(
+                self.end, {INTERRUPTED}
+            )
+        machine.wait_until_alone()
+        if code not in {0, FOUND} | expected:
+            raise Failure(f'{campaign}: {self}, and the exit code is {code}: {machine.said()}')
+        return code
+
+    @staticmethod
+    def wait(process, end, after):
+        """Waits, then sends the signal, if there is one. Returns the exit code."""
+        try:
+            if end is not None:
+                try:
+                    return process.wait(after)
+                except subprocess.TimeoutExpired:
+                    while not catches(process, end) and process.poll() is None:
+                        time.sleep(0.001)
+                    process.send_signal(end)
+            return process.wait(PATIENCE)
+        except subprocess.TimeoutExpired as error:
+            raise Failure(f'{process.args} does not end') from error
+        finally:
+            process.kill()
+            process.wait()
+
+    def run_on_full_disk(self, campaign, machine):
+        """Moves the store to a disk with little room, and back."""
+        files = campaign.files()
+        if not machine.can_mount:
+            largest = max([file.stat().st_size for file in files] + [0]) + self.room
+            command = campaign.command(campaign.store, self.jobs)
+            process = machine.start(command, self.jumps, largest)
+            return self.wait(process, signal.SIGTERM, self.seconds)
+        machine.mount(sum(file.stat().st_size + 4096 for file in files) + self.room + 4096)
+        try:
+            for file in files:
+                shutil.copy2(file, machine.disk)
+            there = machine.disk / campaign.store.name
+            process = machine.start(campaign.command(there, self.jobs), self.jumps)
+            code = self.wait(process, signal.SIGTERM, self.seconds)
+            machine.wait_until_alone()
+            for file in files:
+                file.unlink()
+            for file in campaign.files(there):
+                shutil.copy2(file, machine.folder)
+        finally:
+            machine.unmount()
+        return code

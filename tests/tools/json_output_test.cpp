@@ -1,0 +1,62 @@
+// --json - writes JSON, and nothing else, to standard output.
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using testing::CommandLine;
+using ::testing::HasSubstr;
+
+class JsonToStdout : public CommandLine {
+ protected:
+  /// Runs a command with --json -, and expects that standard output is JSON, that the text is on stderr, and that there
+  /// is no file named "-".
+  [[nodiscard]] json json_of(const std::string& arguments, const std::string& text, int code = 0) const {
+    const Output output = run(arguments + " --json -");
+    EXPECT_EQ(output.code, code) << arguments << ": " << output.error;
+    EXPECT_THAT(output.error, HasSubstr(text)) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(file("-"))) << arguments;
+    EXPECT_TRUE(json::accept(output.out)) << arguments << ": " << output.out;
+    return json::parse(output.out, nullptr, false);
+  }
+};
+
+TEST_F(JsonToStdout, OfCommandsThatRunTrials) {
+  write("q.vt", hit);
+  const json replayed = json_of("replay q.vt --subject " + plugin("never"), "MISSED 1 of 1 collision", 1);
+  EXPECT_EQ(replayed["subjects"]["always"]["vt"]["false_negatives"], 1);
+  EXPECT_EQ(json_of("fuzz --cases 100", "no miss in")["oracle"]["total"]["queries"], 100);
+  EXPECT_EQ(
+      json_of("ladder --scalar float --family uniform --cases 60", "wang:float")["oracle"]["disagreements"],
+      0);
+  EXPECT_TRUE(json_of("tightness --time 1ms --tolerance D2", "D2")["tightness"].contains("D2"));
+}
+
+TEST_F(JsonToStdout, OfScenes) {
+  write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n");
+  write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 9 -1\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(json_of("scene start.obj end.obj --verify-plan", "plan verified: ")["scenes"].size(), 1);
+  EXPECT_EQ(json_of("scene start.obj end.obj --leave-out boxes --thickness 1e9 --subject wang",
+                    "contact thickness 1e+09")["scenes"]
+                .size(),
+            1);
+}
+
+TEST_F(JsonToStdout, OfStudies) {
+  write("own.vt", hit);
+  EXPECT_FALSE(json_of("bench own.vt --queries 5 --runs 1", "ns/query")["results"].empty());
+  EXPECT_FALSE(json_of("audit --queries 2 --steps 4", "TOO SMALL")["constants"].empty());
+  EXPECT_EQ(json_of("power --time 1ms --way search --subject defect:mu*1", "found, of 1").size(), 1);
+}
+
+TEST_F(JsonToStdout, IsAnErrorIfItCannotBeWritten) {
+  write("q.vt", hit);
+  const Output output = run("replay q.vt --json -", "", ">/dev/full");
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.error,
+              HasSubstr("nearmiss: standard output cannot be written: No space left on device\n"));
+}
+
+}  // namespace
+}  // namespace nearmiss

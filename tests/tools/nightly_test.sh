@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# Runs tools/nightly in a tree of its own, in which set-up and libFuzzer do nothing, and checks its exit codes, its baseline,
+# and what it leaves after a signal and on a full disk.
+# Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
+set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 1)) || refuse "expected NEARMISS"
+# Another user may mount a disk in a namespace of its own.
+if ((EUID != 0)) && unshare --map-root-user --mount true 2>/dev/null; then exec unshare --map-root-user --mount "$0" "$@"; fi
+nearmiss=$(realpath "${arguments[0]}")
+source=$(realpath "$(dirname "$0")/../..")
+folder=$(mktemp -d)
+trap 'kill $(jobs -pr) 2>/dev/null || true; umount "$folder/disk" 2>/dev/null || true; rm -rf "$folder"' EXIT
+
+fail() { echo "failed: $1"; tail -n 20 "$folder/said" "$folder"/*/last/log 2>/dev/null || true; exit 1; }
+expect() { "${@:2}" || fail "$1"; }
+expect_said() { expect "expected '$1', found '$(<"$folder/said")'" grep -qE "$1" "$folder/said"; }
+
+mkdir -p "$folder/tree/tools" "$folder/tree/build/release"
+cp "$source/tools/"{nightly,options.sh,interrupts.sh} "$folder/tree/tools/"
+cp -r "$source/corpus" "$folder/tree/"
+cd "$folder/tree"
+nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
+nothing tools/setup tools/libfuzzer
+
+# night CODE OPTIONS...: a night with a small number of queries instead of a time, and its exit code.
+night() {
+  local code=0
+  sleep_until_next_second
+  tools/nightly --results "$folder/nights" "${@:2}" &>"$folder/said" || code=$?
+  expect "expected exit code $1, found $code" test $code = "$1"
+}
+sleep_until_next_second() { local now=$EPOCHSECONDS; while ((EPOCHSECONDS == now)); do sleep 0.05; done; }
+cat >build/release/nearmiss <<END_OF_SCRIPT
+#!/usr/bin/env bash
+for ((i = 1; i <= \$#; ++i)); do
+  if [[ \${!i} == --time ]]; then exec "$nearmiss" "\${@:1:i-1}" --cases 60 "\${@:i+2}"; fi
+done
+exec "$nearmiss" "\$@"
+END_OF_SCRIPT
+chmod +x build/release/nearmiss
+
+night 0 --subject wang
+expect "expected a report" test -s "$folder/nights/last/report/index.html"
+night 1 --subject wang,basic
+expect_said '^not in the baseline: basic$'
+expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
+"$nearmiss" report "$folder/nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
+began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
+night 0 --subject wang
+# The failures are red while they are there, and the baseline has them although the night before does not.
+night 1 --subject=wang,basic
+expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z, last seen 20.*Z$'
+seen=$(sed -nE 's/^lasting: .*, first seen (.*), last seen .*/\1/p' "$folder/said" | sort -u)
+expect "expected that all were first seen in the second night, at $began, found $seen" test "$seen" = "$began"
+# A baseline of one night is the night before.
+night 0 --subject wang
+night 1 --subject wang,basic --baseline 1
+expect_said '^not in the baseline: basic$'
+# A night that cannot be read is left out; the clock may have been ahead.
+mkdir "$folder/nights/2999-01-01T000000Z"
+echo garbage >"$folder/nights/2999-01-01T000000Z/all.db"
+night 1 --subject wang,basic
+expect_said '^lasting: '
+# The latest night is kept, although its name is not the last.
+night 0 --subject wang --keep 2
+expect "expected two nights, found $(ls "$folder/nights")" test "$(ls -d "$folder/nights"/2* | wc -l)" = 2
+expect "expected the latest night" test -s "$folder/nights/last/all.db"
+night 2 --subject none
+expect_said 'there is nothing to report'
+rm -r "$folder/nights"
+
+# Each signal is passed on to the part that runs; a report is made, and nothing is left running.
+cp build/release/nearmiss quick
+ln -sf "$nearmiss" build/release/nearmiss
+
+# Processes that work in this tree, except this script and its children that wait.
+left() {
+  local each
+  for each in /proc/[0-9]*; do
+    [[ ${each##*/} == "$$" || ${each##*/} == "$BASHPID" || $(readlink "$each/cwd" 2>/dev/null) != "$PWD" ]] || echo "${each##*/}"
+  done
+}
+# begin RESULTS: starts a night without end in the background.
+begin() {
+  results=$folder/$1
+  env --default-signal=INT,TERM,HUP tools/nightly --time 100h --subject wang --results "$results" &>"$folder/said" &
+  night=$!
+}
+# until_ CONDITION...: waits for a state of the night in the background.
+until_() { until "$@"; do kill -0 "$night" 2>/dev/null || fail "the night ended before this: $*"; sleep 0.05; done; }
+# ends CODE: waits for the night, and checks its exit code and that it leaves nothing running.
+ends() {
+  local code=0
+  wait "$night" || code=$?
+  expect "expected exit code $1, found $code" test $code = "$1"
+  [[ -z $(left) ]] || sleep 1  # a killed process takes a moment to disappear
+  expect "expected that nothing is left running, found $(left)" test -z "$(left)"
+}
+expect_report() { expect "expected a report" test -s "$results/last/report/index.html"; expect_said '^ ok  wang: no miss in [1-9]'; }
+saved() { compgen -G "$results/*/$1.db-wal" >/dev/null; }
+exists() { [[ -e $1 ]]; }
+
+# Each signal is passed on to the campaign; a report of what there is is made.
+for signal in TERM INT HUP; do
+  begin "at-$signal"
+  until_ saved families
+  kill -$signal "$night"
+  ends 130
+  expect_report
+  expect "SIG$signal: expected no further part" test -z "$(grep -E 'sweeps|libFuzzer' "$folder/said")"
+done
+
+# The same holds while a script of ours runs: libFuzzer, and the set-up, after which there is nothing to report.
+forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
+rm build/release/nearmiss
+cp quick build/release/nearmiss
+forever libfuzzer
+begin libfuzzer
+until_ exists "$folder/libfuzzer.begun"
+kill -TERM "$night"
+ends 130
+expect_report
+forever setup
+begin setup
+until_ exists "$folder/setup.begun"
+kill -TERM "$night"
+ends 130
+expect "expected no night" test "$(ls "$results")" = lock
+
+# A full disk ends the night with a report of what there is.
+nothing tools/setup tools/libfuzzer
+ln -sf "$nearmiss" build/release/nearmiss
+mkdir "$folder/disk"
+mount -t tmpfs -o size=70m none "$folder/disk" 2>/dev/null || { echo "skipped: a small disk cannot be mounted here"; exit 77; }
+begin disk
+until_ saved families
+! head -c 100M /dev/zero >"$folder/disk/filler" 2>/dev/null || fail "the disk is not full"
+ends 2
+expect_report
+expect_said 'that failed with exit code 2'
+echo "nights report what there is, and know the last ones"

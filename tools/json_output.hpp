@@ -1,0 +1,39 @@
+// --json FILE: the results as JSON, apart from the text that people read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace nearmiss::tools {
+
+/// Where a command writes its results as JSON: to a file, to standard output (-), or nowhere. With --json -, standard
+/// output gets the JSON and nothing else; the text goes to standard error.
+class JsonOutput {
+ public:
+  /// Adds --json.
+  void add_to(CLI::App& command, const std::string& description);
+
+  [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
+  [[nodiscard]] bool is_stdout() const { return file_ == "-"; }
+
+  /// Where the command prints its text.
+  [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
+
+  /// Throws Error if the folder of the file does not exist.
+  void expect_folder() const;
+
+  /// Writes the JSON if it is wanted, indented by `indent` blanks; a file whole or not at all. Throws Error if it
+  /// cannot be written.
+  void write(const nlohmann::ordered_json& json, int indent = 2) const;
+
+  /// The file; empty if there is none.
+  [[nodiscard]] std::filesystem::path file() const { return is_stdout() ? std::filesystem::path() : file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace nearmiss::tools
