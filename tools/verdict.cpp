@@ -28,8 +28,8 @@ struct Options {
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const BoundAnswer answer = judge.ask_unit(query);
   if (answer.fault == Fault::error)
-    throw Error(fmt::format("{}: found the distance bound {}, expected 0 or more", subject.name(),
-                            std::isnan(answer.bound) ? "NaN" : fmt::format("{}", answer.bound)));
+    throw Error(fmt::format("{}: found a distance bound that is NaN or negative, expected 0 or more",
+                            subject.name()));
   if (answer.fault != Fault::none) {
     const Verdict none{.fault = answer.fault, .fault_code = answer.fault_code};
     throw Error(fmt::format("{}: no distance bound: {}", subject.name(),
