@@ -191,7 +191,7 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
 
 TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {
   write("q.vt", hit);
-  const std::string fuzz = "fuzz --cases 100 --subject wang," + plugin("example");
+  const std::string fuzz = "fuzz --family uniform --cases 100 --subject wang," + plugin("example");
   const Output unwritten = run(fuzz + " --db a.db", "", ">&-");
   EXPECT_EQ(unwritten.code, 2);
   EXPECT_THAT(unwritten.error, HasSubstr("nearmiss: standard output cannot be written: "));
