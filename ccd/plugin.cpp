@@ -52,12 +52,14 @@ Verdict Plugin::decide(const Query& query) const {
   return plugin_verdict(answer, time);
 }
 
-double Plugin::distance_bound(const Query& query) const {
-  if (!claims_bound()) return std::numeric_limits<double>::infinity();
+BoundAnswer Plugin::ask_bound(const Query& query) const {
+  if (!claims_bound()) return BoundAnswer::given(std::numeric_limits<double>::infinity());
   const double bound = subject_->distance_bound(query.x.data(), query.kind == Kind::edge_edge ? 1 : 0);
   make_arithmetic_plain();
-  return bound >= 0 ? bound : std::numeric_limits<double>::quiet_NaN();
+  return BoundAnswer::given(bound);
 }
+
+double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }
 
 Verdict plugin_verdict(int answer, double time) {
   Verdict verdict;

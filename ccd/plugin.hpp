@@ -28,6 +28,7 @@ class Plugin final : public Subject {
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override;
   [[nodiscard]] double distance_bound(const Query& query) const override;
+  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override;
   [[nodiscard]] bool claims_bound() const override { return subject_->distance_bound != nullptr; }
 
   /// The plug-in's return value. `time` is set to the time that the plug-in gives, and is left unchanged if

@@ -91,12 +91,17 @@ struct Verdict {
 
 /// A subject's answer to the question for its distance bound.
 struct BoundAnswer {
-  double bound = std::numeric_limits<double>::quiet_NaN();  ///< as Subject::distance_bound returns it
+  double bound = std::numeric_limits<double>::quiet_NaN();  ///< as the subject gives it
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
   std::int32_t fault_code = 0;                              ///< as in Verdict
 
   /// A number that a subject gave as its bound; an error if it is not a distance.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
+
+  /// As Subject::distance_bound returns it.
+  [[nodiscard]] double bound_or_nan() const {
+    return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an

@@ -50,9 +50,10 @@ void add_report(CLI::App& app, int& exit_code) {
     return command->add_option(name, file, help)->type_name("FILE");
   };
   command
-      ->add_option("--baseline", options->baseline,
-                   "Show changes since this store: a line for each new way to fail, and for each rate that is "
-                   "worse; may be repeated, the oldest store first")
+      ->add_option(
+          "--baseline", options->baseline,
+          "Show changes since this store: a line for each new way to fail, and for each rate that is "
+          "worse; may be repeated, the oldest store first")
       ->allow_extra_args(false)
       ->type_name("DB");
   add_file("--power", options->power, "Show the power of detection, from nearmiss power --json");

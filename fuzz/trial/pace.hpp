@@ -33,7 +33,7 @@ class Pace {
   }
 
  private:
-  static constexpr std::size_t first = 16;
+  static constexpr std::size_t first = 2;
   mutable std::mutex mutex_;
   std::map<std::string, std::size_t> cases_;
 };

@@ -4,6 +4,7 @@
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrink.hpp"
+#include "fuzz/trial/signatures.hpp"
 
 namespace nearmiss {
 
@@ -21,7 +22,7 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, 
     try {
       if (late == most_late) return false;
       const auto failure = judge.failure(query);
-      late += failure && failure->signature.ends_with(fault_names[static_cast<std::size_t>(Fault::time)]);
+      late += failure && is_of_time_limit(failure->signature) ? 1 : 0;
       return failure == Failure{finding.what, finding.signature};
     } catch (const isolation::PluginChanged&) {
       throw;

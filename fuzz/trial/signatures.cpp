@@ -1,5 +1,6 @@
 #include "fuzz/trial/signatures.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 
@@ -54,6 +55,11 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
     default:
       return signature(kind, name);
   }
+}
+
+bool is_of_time_limit(std::string_view signature) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](Kind kind) { return signature == fault_signature(kind, {.fault = Fault::time}); });
 }
 
 std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter) {

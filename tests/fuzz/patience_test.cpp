@@ -96,7 +96,8 @@ TEST(Patience, IsThatOfTheWholeCampaignAfterAResume) {
 
 TEST(Patience, NotAskingIsNoFailure) {
   Subjects subjects;
-  subjects.push_back(std::make_unique<Late>([](const Query&) { return true; }));
+  std::atomic<std::uint64_t> asked = 0;
+  subjects.push_back(std::make_unique<Late>([&](const Query&) { return ++asked > 0; }));
   CampaignPlan plan = plan_of(2);
   std::uint64_t seen = 0;
   run_campaign(
@@ -107,6 +108,7 @@ TEST(Patience, NotAskingIsNoFailure) {
       },
       Stop::never());
   EXPECT_EQ(seen, 4 * Patience::most_late);
+  EXPECT_LT(asked, 1000);  // its queries over the time limit are not shrunk
 }
 
 TEST(Patience, OfASearchEndsToo) {

@@ -239,6 +239,9 @@ def check_findings(comparison, section, report, answers):
         comparison.same('names', where, found['shown_family'], found['family'])
         own = report['subjects'][found['subject']][found['kind']]['families'][found['family']]
         comparison.same('largest ratios', where, found['ratio'], own['max_fp_distance_over_bound'])
+        comparison.same(
+            'counters', f'{where} bound', found['bound_of_distances'], own['bound_of_distances']
+        )
 
 
 def check_finding(comparison, where, answers, found):

@@ -19,7 +19,8 @@ class Messages : public CommandLine {
 
 TEST_F(Messages, ALongWordOfAFileIsCut) {
   const std::string word(5'000'000, 'x');
-  const std::string cut = "'" + std::string(40, 'x') + "...'";
+  const std::string forty(40, 'x');
+  const std::string cut = "'" + forty + "...'";
   write("q.vt", word);
   write("a.case", "kind " + word);
   write("b.case", "truth " + word);
@@ -32,7 +33,7 @@ TEST_F(Messages, ALongWordOfAFileIsCut) {
   EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
   for (const char* file : {"q.vt", "a.case", "b.case", "c.case", "edge-edge/b.csv"})
     expect_short("replay " + std::string(file), cut);
-  expect_short("replay edge-edge/a.csv", "'" + std::string(40, 'x') + "...,1'");
+  expect_short("replay edge-edge/a.csv", "'" + forty + "...,1'");
   for (const char* ending : {".obj", ".off", ".ply", ".stl"})
     expect_short("scene mesh" + std::string(ending) + " mesh" + ending, cut);
   expect_short("report a.db -o new --power power.json", "...', expected what nearmiss power --json keeps");
@@ -42,7 +43,7 @@ TEST_F(Messages, AWordIsCutBetweenCharacters) {
   std::string word = "x";
   for (int i = 0; i < 30; ++i) word += "\xc3\xa9";  // the 41st byte is the second one of a character
   write("q.vt", word);
-  expect_short("replay q.vt", "'" + word.substr(0, 39) + "...'");
+  expect_short("replay q.vt", std::string("'").append(word, 0, 39).append("...'"));
 }
 
 TEST_F(Messages, ALongWordOfTheCommandLineIsCut) {

@@ -200,7 +200,7 @@ TEST_F(CommandLine, AFileIsReplacedAsAWhole) {
 
 TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {
   write("q.vt", hit);
-  const std::string fuzz = "fuzz --cases 100 --subject wang," + plugin("example");
+  const std::string fuzz = "fuzz --cases 100 --family uniform --subject wang," + plugin("example");
   const Output unwritten = run(fuzz + " --db a.db", "", ">&-");
   EXPECT_EQ(unwritten.code, 2);
   EXPECT_THAT(unwritten.error, HasSubstr("nearmiss: standard output cannot be written: "));

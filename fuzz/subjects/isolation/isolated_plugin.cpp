@@ -81,7 +81,9 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
 
-  [[nodiscard]] double distance_bound(const Query& query) const override { return ask_bound(query).bound; }
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    return ask_bound(query).bound_or_nan();
+  }
 
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
     BoundAnswer answer;

@@ -161,7 +161,7 @@ void answer(const Plugin& plugin, const Call& call) {
     case Request::bounds:
       for (std::uint32_t i = first; i < last; ++i) {
         begin(i);
-        answers->of[i].number = plugin.distance_bound(query_at(i));
+        answers->of[i].number = plugin.ask_bound(query_at(i)).bound;
         answers->of[i].call = call.number;
       }
       break;
