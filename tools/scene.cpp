@@ -267,7 +267,7 @@ void add_plan_options(CLI::App& command, Options& options) {
 void name_subjects(const CLI::App& command, Options& options) {
   if (options.thickness.empty() || command.count("--subject") > 0) return;
   options.trial.subjects.clear();
-  for (const SubjectInfo& info : all_subjects()) options.trial.subjects.emplace_back(info.name);
+  for (const SubjectInfo& info : built_in_subjects()) options.trial.subjects.emplace_back(info.name);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "\nA plug-in is named by its path, which must contain a slash: ./plugin.so (see "
       "ccd/nearmiss_subject.h).");
   command->callback([] {
-    for (const SubjectInfo& subject : all_subjects()) fmt::print("{:<23} {}\n", subject.name, subject.about);
+    for (const SubjectInfo& subject : built_in_subjects())
+      fmt::print("{:<23} {}\n", subject.name, subject.about);
     fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
     for (const ladder::Scalar& scalar : named_scalars())
       fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);

@@ -18,7 +18,7 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/families/mutation.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
-#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/subjects/built_in.hpp"
 #include "reports/campaign/finding_case.hpp"
 
 namespace nearmiss::libfuzzer {
@@ -43,7 +43,7 @@ std::string environment(const char* name, const char* otherwise) {
 const Subject& subject() {
   // A plug-in runs in this process, since libFuzzer sees no other one's coverage.
   static const std::string name = environment("NEARMISS_SUBJECT", "wang");
-  static const auto subject = is_plugin_path(name) ? make_subject(name) : make_any_subject(name);
+  static const auto subject = is_plugin_path(name) ? make_subject(name) : make_built_in(name);
   return *subject;
 }
 

@@ -1,0 +1,21 @@
+// The built-in subjects by name: the CCDs under test, the oracle, and the CCDs with defects.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "ccd/subject.hpp"
+
+namespace nearmiss {
+
+/// The built-in subjects: those of ccd/, the exact subjects, and `adaptive`. `defects()` lists the defects.
+std::vector<SubjectInfo> built_in_subjects();
+
+/// Makes a built-in subject, "NAME:SCALAR" (ladder/scalars.hpp) or "defect:NAME" (defects.hpp). `given_bound`
+/// is as for make_subject. Throws Error for an unknown name.
+std::unique_ptr<Subject> make_built_in(std::string_view name,
+                                       std::optional<double> given_bound = std::nullopt);
+
+}  // namespace nearmiss
