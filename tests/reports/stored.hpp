@@ -8,16 +8,16 @@
 
 namespace nearmiss::testing {
 
-inline const Query query = falling_edge(0.1, -1.0 / 3);
+inline const Query stored_query = falling_edge(0.1, -1.0 / 3);
 
 inline Statistics some_statistics(const std::string& subject) {
   Statistics statistics;
   Counts& counts = statistics.counts[{subject, Kind::edge_edge, "uniform"}];
-  counts.add({.verdict = {true, Stage::ve_minimum, 0.5}, .collision = true}, query,
+  counts.add({.verdict = {true, Stage::ve_minimum, 0.5}, .collision = true}, stored_query,
              [] { return "uniform:1:1"; });
-  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, query,
+  counts.add({.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = 0.1}, stored_query,
              [] { return "uniform:1:3"; });
-  counts.add({.verdict = Verdict::rejected(Rejection::culled)}, query, [] { return "uniform:1:5"; });
+  counts.add({.verdict = Verdict::rejected(Rejection::culled)}, stored_query, [] { return "uniform:1:5"; });
   counts.times.add(Kind::edge_edge, "uniform", {3, 99});
   OracleCounts& oracle = statistics.oracle[{Kind::edge_edge, "uniform"}];
   oracle.queries = 2;
@@ -25,11 +25,13 @@ inline Statistics some_statistics(const std::string& subject) {
   oracle.by_stage[2] = 2;
   oracle.near_bounds = 2;
   counts.faults = {0, 1, 2, 3, 4};
-  for (const std::uint64_t time : {100U, 3U, 7000U}) counts.times.add(time, query, [] { return "slow"; });
+  for (const std::uint64_t time : {100U, 3U, 7000U})
+    counts.times.add(time, stored_query, [] { return "slow"; });
   oracle.compared = 1;
   oracle.compared_collisions = 1;
   oracle.missed_by_parity = 1;
-  statistics.extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, query, "uniform:1:3", 7};
+  statistics.extremes["mu"] = {
+      Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, stored_query, "uniform:1:3", 7};
   statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
   statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
@@ -43,7 +45,7 @@ inline Finding some_finding(const std::string& provenance) {
   return {Finding::What::false_negative,
           "basic",
           "uniform",
-          query,
+          stored_query,
           provenance,
           0,
           "ee simple-root inside crossing",
