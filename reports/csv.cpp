@@ -142,7 +142,7 @@ std::string distances_csv(const Statistics& statistics) {
       if (const auto count = counts.distances.bins[i]; count != 0)
         text +=
             fmt::format("{},{},{},{},{},{},{}\n", field(key.subject), short_name(key.kind), field(key.family),
-                        Histogram::border(i), Histogram::border(i + 1), count, name(counts.bound_of()));
+                        Histogram::border(i), Histogram::border(i + 1), count, name(counts.distance_unit()));
   return text;
 }
 

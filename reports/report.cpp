@@ -59,7 +59,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
 ordered_json farthest_json(const ShownFarthest& each) {
   return {{"subject", each.key.subject},       {"kind", short_name(each.key.kind)},
           {"family", each.key.family},         {"shown_family", shown_family(each.key.family)},
-          {"ratio", each.far.ratio},           {"bound_of_distances", name(each.bound_of)},
+          {"ratio", each.far.ratio},           {"bound_of_distances", name(each.unit)},
           {"provenance", each.far.provenance}, {"query", each.far.query.x},
           {"time", moment(each.far.query)},    {"file", "farthest/" + each.exported.file}};
 }

@@ -34,24 +34,24 @@ struct Options {
 };
 
 /// The time limit of a campaign.
-using Time = std::optional<std::chrono::duration<double>>;
+using TimeLimit = std::optional<std::chrono::duration<double>>;
 
 /// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
-std::optional<double> part_done(const CampaignProgress& now, const Time& time) {
+std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
   if (time) part = std::max(part.value_or(0), now.elapsed / *time);
   return part;
 }
 
-std::string show(const CampaignProgress& now, const Time& time, const Statistics& statistics) {
+std::string show(const CampaignProgress& now, const TimeLimit& time, const Statistics& statistics) {
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
   std::string farthest = times_the_bound(0);
   double largest = 0;
   for (const auto& [key, counts] : statistics.counts)
     if (counts.max_ratio() > largest) {
       largest = counts.max_ratio();
-      farthest = times_the_bound(largest, counts.bound_of());
+      farthest = times_the_bound(largest, counts.distance_unit());
     }
   std::string line = with_separators(now.cases);
   if (now.of != 0) line += " of " + with_separators(now.of);
@@ -143,7 +143,7 @@ int run(const Options& options) {
   plan.before = record.statistics();
   plan.findings_before = record.findings();
   const bool only_time_ends_it = plan.cases == 0 && plan.first == 0;
-  Time time;
+  TimeLimit time;
   if (!options.time.empty()) time = parse_duration(options.time, "--time");
   if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
   if (time) stop.limit(*time);

@@ -15,6 +15,7 @@
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
 #include "fuzz/stop.hpp"
+#include "reports/text/shell.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
 
@@ -79,6 +80,17 @@ void expect_output() {
     throw nearmiss::Error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
 }
 
+/// Prints the command that continues an interrupted one, if that has a store.
+void print_continuation(const CLI::App& command, int argc, char** argv) {
+  const CLI::Option* const store = command.get_option_no_throw("--db");
+  const CLI::Option* const resume = command.get_option_no_throw("--resume");
+  if (store == nullptr || resume == nullptr || store->count() == 0) return;
+  std::string again;
+  for (int i = 0; i < argc; ++i) again += " " + nearmiss::shell_quoted(argv[i]);
+  if (resume->count() == 0) again += " --resume";
+  fmt::print(stderr, "nearmiss: interrupted; to continue:{}\n", again);
+}
+
 int run(int argc, char** argv) {
   using namespace nearmiss::tools;
   CLI::App app(about, "nearmiss");
@@ -106,6 +118,7 @@ int run(int argc, char** argv) {
     throw nearmiss::Error(fmt::format("{} (see nearmiss --help)", with_short_words(error.what())));
   }
   expect_output();
+  if (exit_code == exit_interrupted) print_continuation(*app.get_subcommands().front(), argc, argv);
   return exit_code;
 }
 

@@ -83,9 +83,9 @@ namespace {
 /// Judges the answers to a batch, step by step.
 class Judging {
  public:
-  using Answers = std::vector<std::vector<Verdict>>;
+  using Verdicts = std::vector<std::vector<Verdict>>;
 
-  Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Answers& answers,
+  Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Verdicts& answers,
           const std::vector<SubjectTimes>& times)
       : subjects_(subjects),
         batch_(batch),
@@ -141,7 +141,7 @@ class Judging {
   }
 
   void compare_methods(std::size_t i, const Truth& truth, OracleCounts& counts) {
-    const nearmiss::Answers answers = truth.ask_methods();
+    const Answers answers = truth.ask_methods();
     ++counts.compared;
     counts.compared_collisions += answers.collision() ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
@@ -172,7 +172,7 @@ class Judging {
   const Subjects& subjects_;
   const Batch& batch_;
   const Comparison& comparison_;
-  const Answers& answers_;  // by subject and query
+  const Verdicts& answers_;  // by subject and query
   TrialResult result_;
   std::vector<Counts*> counts_;      // by subject, in the result
   std::vector<Judge> judges_;        // by subject

@@ -245,7 +245,7 @@ std::string sightings_text(const Changes& changes, const Signature& signature) {
 void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
   std::set<std::string> claim_nothing;
   for (const auto& [key, counts] : now.counts)
-    if (counts.bound_of() != BoundOf::subject) claim_nothing.insert(key.subject);
+    if (counts.distance_unit() != DistanceUnit::claimed_bound) claim_nothing.insert(key.subject);
   for (ChangedRate& each : rates)
     if (each.what == beyond_the_bound && claim_nothing.contains(each.subject)) each.what = beyond_wangs_bound;
 }

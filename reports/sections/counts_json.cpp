@@ -105,7 +105,7 @@ ordered_json rates_json(const Counts& counts, bool is_sample) {
   json["median_fp_distance_over_bound"] = range(counts.ratio_quantile(0.5));
   json["q99_fp_distance_over_bound"] = range(counts.ratio_quantile(0.99));
   json["max_fp_distance_over_bound"] = counts.max_ratio();
-  json["bound_of_distances"] = name(counts.bound_of());
+  json["bound_of_distances"] = name(counts.distance_unit());
   json["ns_per_query"] = or_null(counts.times.ns_per_query());
   return json;
 }

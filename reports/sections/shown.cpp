@@ -50,13 +50,13 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
     const FarCase& far = counts.farthest.front();
     cases.push_back({key,
                      far,
-                     counts.bound_of(),
+                     counts.distance_unit(),
                      {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
                       {.name = {},
                        .query = far.query,
                        .truth = false,
                        .why = fmt::format("false positive of {}, {}", key.subject,
-                                          times_the_bound(far.ratio, counts.bound_of())),
+                                          times_the_bound(far.ratio, counts.distance_unit())),
                        .provenance = far.provenance}}});
   }
   return cases;

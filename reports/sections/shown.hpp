@@ -36,7 +36,7 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 struct ShownFarthest {
   CountsKey key;
   FarCase far;
-  BoundOf bound_of;
+  DistanceUnit unit;
   Exported exported;
 };
 

@@ -69,7 +69,7 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   else
     text += fmt::format(", {}, the farthest {}",
                         counted(counts.false_positives, "false positive", "false positives"),
-                        times_the_bound(counts.max_ratio(), counts.bound_of()));
+                        times_the_bound(counts.max_ratio(), counts.distance_unit()));
   return {subject, !missed && !refuted && !faulty, std::move(text)};
 }
 
@@ -104,7 +104,7 @@ std::string counts_table(const Statistics& statistics) {
     rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
                     with_separators(counts.collisions), with_separators(counts.false_negatives),
                     rate_below(sum), with_separators(counts.false_positives),
-                    marked_fraction_of_bound(counts.max_ratio(), counts.bound_of()),
+                    marked_fraction_of_bound(counts.max_ratio(), counts.distance_unit()),
                     whole_ns(counts.times.ns_per_query())});
   }
   return columns(rows, 2);
@@ -112,9 +112,9 @@ std::string counts_table(const Statistics& statistics) {
 
 /// Explains the mark of distances that are not fractions of a claim; "" if there are none.
 std::string footnote_on_units(const Statistics& statistics) {
-  const bool is_marked =
-      std::any_of(statistics.counts.begin(), statistics.counts.end(),
-                  [](const auto& each) { return each.second.bound_of() != BoundOf::subject; });
+  const bool is_marked = std::any_of(
+      statistics.counts.begin(), statistics.counts.end(),
+      [](const auto& each) { return each.second.distance_unit() != DistanceUnit::claimed_bound; });
   return is_marked ? std::string(unit_footnote) + "\n" : "";
 }
 

@@ -51,7 +51,7 @@ std::string sweep_tables(const Statistics& statistics) {
       rows.push_back({fmt::format("{:.6g}", value), with_separators(c.queries), with_separators(c.collisions),
                       with_separators(c.false_negatives), with_separators(c.false_positives),
                       fmt::format("{:.2g}", c.false_positive_rate()),
-                      marked_fraction_of_bound(c.max_ratio(), c.bound_of()),
+                      marked_fraction_of_bound(c.max_ratio(), c.distance_unit()),
                       whole_ns(c.times.ns_per_query())});
     text += fmt::format("\n{} along {}@x\n{}", key.second, key.first, columns(rows, 0));
   }
@@ -71,7 +71,7 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
                        {"false_positives", c.false_positives},
                        {"false_positive_rate", c.false_positive_rate()},
                        {"max_fp_distance_over_bound", c.max_ratio()},
-                       {"bound_of_distances", name(c.bound_of())},
+                       {"bound_of_distances", name(c.distance_unit())},
                        {"ns_per_query", or_null(c.times.ns_per_query())}});
   }
   return json;

@@ -77,7 +77,7 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
     subject["collisions"] = each.all.collisions;
     subject["false_negatives"] = each.all.false_negatives;
     subject["max_fp_distance_over_bound"] = each.all.max_ratio();
-    subject["bound_of_distances"] = name(each.all.bound_of());
+    subject["bound_of_distances"] = name(each.all.distance_unit());
     subject["sound"] = each.sound();
     subject["algorithm"] = each.place.algorithm;
     subject["scalar"] = each.place.scalar;

@@ -12,8 +12,8 @@
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
 #include "oracle/filter/filter.hpp"
-#include "reports/statistics/bound_of.hpp"
 #include "reports/statistics/counter.hpp"
+#include "reports/statistics/distance_unit.hpp"
 #include "reports/statistics/histogram.hpp"
 #include "reports/statistics/times.hpp"
 
@@ -21,7 +21,7 @@ namespace nearmiss {
 
 /// A false positive that is kept because it is among the farthest.
 struct FarCase {
-  double ratio = 0;  ///< distance divided by the bound (Counts::bound_of)
+  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit)
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
@@ -103,9 +103,9 @@ struct Counts {
     return collisions == 0 ? 0 : static_cast<double>(false_negatives) / static_cast<double>(collisions);
   }
   /// Whose bound divides the distances.
-  [[nodiscard]] BoundOf bound_of() const {
-    if (measured_by_wang == 0) return BoundOf::subject;
-    return measured_by_wang == false_positives ? BoundOf::wang : BoundOf::both;
+  [[nodiscard]] DistanceUnit distance_unit() const {
+    if (measured_by_wang == 0) return DistanceUnit::claimed_bound;
+    return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
   /// Whether a false positive with this ratio would be kept among the farthest.

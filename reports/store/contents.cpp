@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <vector>
 
 #include "reports/sha256.hpp"
 
@@ -32,8 +33,8 @@ void add_text(Sha256& digest, const std::string& text) {
 }
 
 std::uint64_t checksum_of(const std::string& table, const Contents& contents) {
-  const std::array<Value, 3> values{table, static_cast<std::int64_t>(contents.rows),
-                                    static_cast<std::int64_t>(contents.sum)};
+  const std::vector<Value> values{table, static_cast<std::int64_t>(contents.rows),
+                                  static_cast<std::int64_t>(contents.sum)};
   return checksum("contents", values);
 }
 

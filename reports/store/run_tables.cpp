@@ -129,7 +129,7 @@ void replace_findings(SQLite::Database& db, std::span<const Finding> all) {
   write_findings(db, all);
 }
 
-std::vector<Run> read_runs(Reading& read) {
+std::vector<Run> read_runs(TableReader& read) {
   std::map<std::uint64_t, Run> by_number;
   read(runs(), [&](RunRow&& row) { by_number[row.run].info = std::move(row.content); });
   read(shards(), [&](ShardRow&& row) { by_number[row.run].shards.push_back(std::move(row.content)); });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
-#include "reports/store/reading.hpp"
+#include "reports/store/table_reader.hpp"
 
 namespace nearmiss {
 
@@ -30,6 +30,6 @@ void write_picture(SQLite::Database& db, const ScenePicture& picture);
 
 /// Reads all runs. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on exceptions
 /// of `read`, SQLite and the JSON library.
-std::vector<Run> read_runs(Reading& read);
+std::vector<Run> read_runs(TableReader& read);
 
 }  // namespace nearmiss

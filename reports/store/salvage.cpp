@@ -34,7 +34,7 @@ Salvage salvage_campaign(const std::filesystem::path& file) {
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
     check_version(db);
-    Reading read(db, true);
+    TableReader read(db, true);
     Salvage salvage{{read_runs(read), read_statistics(read)}, 0, ""};
     for (const Salvaged& table : read.salvaged()) {
       salvage.rows += table.intact;

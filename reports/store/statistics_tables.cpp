@@ -101,7 +101,7 @@ void write_map(SQLite::Database& db, const Table<MapRow<Key, Value>>& table,
 }
 
 template <class Key, class Value>
-void read_map(Reading& read, const Table<MapRow<Key, Value>>& table, std::map<Key, Value>& map) {
+void read_map(TableReader& read, const Table<MapRow<Key, Value>>& table, std::map<Key, Value>& map) {
   read(table, [&](MapRow<Key, Value>&& row) { map.emplace(std::move(row.key), std::move(row.value)); });
 }
 
@@ -129,7 +129,7 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
   campaign().replace(db, {std::move(whole)});
 }
 
-Statistics read_statistics(Reading& read) {
+Statistics read_statistics(TableReader& read) {
   Statistics statistics;
   read(campaign(), [&](CampaignRow&& row) { statistics = std::move(row.statistics); });
   read_map(read, counts(), statistics.counts);

@@ -4,7 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "reports/statistics/statistics.hpp"
-#include "reports/store/reading.hpp"
+#include "reports/store/table_reader.hpp"
 
 namespace nearmiss {
 
@@ -16,6 +16,6 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics);
 
 /// Reads all counters. Throws Error for an invalid value, and passes on exceptions of `read`, SQLite and the JSON
 /// library.
-Statistics read_statistics(Reading& read);
+Statistics read_statistics(TableReader& read);
 
 }  // namespace nearmiss

@@ -26,7 +26,7 @@ void make_schema(SQLite::Database& db) {
 
 /// Reads a whole store. Throws Damage, or an exception of SQLite, unless it is as it was written.
 Campaign read_all(SQLite::Database& db) {
-  Reading read(db, false);
+  TableReader read(db, false);
   return {read_runs(read), read_statistics(read)};
 }
 

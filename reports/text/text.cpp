@@ -61,18 +61,18 @@ std::string fraction_of_bound(double ratio) {
   return text;
 }
 
-std::string times_the_bound(double ratio, BoundOf bound_of) {
-  const bool is_claim = bound_of == BoundOf::subject;
+std::string times_the_bound(double ratio, DistanceUnit unit) {
+  const bool is_claim = unit == DistanceUnit::claimed_bound;
   std::string text = ratio == infinite ? fmt::format("beyond {} bound of 0", is_claim ? "a" : "wang's")
                                        : fmt::format("at {} of {} bound", fraction_of_bound(ratio),
                                                      is_claim ? "the" : "wang's");
-  if (bound_of == BoundOf::wang) text += " (it claims none)";
-  if (bound_of == BoundOf::both) text += " or of a claim";
+  if (unit == DistanceUnit::wangs_bound) text += " (it claims none)";
+  if (unit == DistanceUnit::both) text += " or of a claim";
   return text;
 }
 
-std::string marked_fraction_of_bound(double ratio, BoundOf bound_of) {
-  return fraction_of_bound(ratio) + (bound_of == BoundOf::subject ? "" : "**");
+std::string marked_fraction_of_bound(double ratio, DistanceUnit unit) {
+  return fraction_of_bound(ratio) + (unit == DistanceUnit::claimed_bound ? "" : "**");
 }
 
 }  // namespace nearmiss

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/statistics/bound_of.hpp"
+#include "reports/statistics/distance_unit.hpp"
 
 namespace nearmiss {
 
@@ -31,10 +31,10 @@ std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", or "beyond a bound of 0". The text says so if the bound is not a claim: "at 12.3 of
 /// wang's bound (it claims none)".
-std::string times_the_bound(double ratio, BoundOf bound_of = BoundOf::subject);
+std::string times_the_bound(double ratio, DistanceUnit unit = DistanceUnit::claimed_bound);
 
 /// fraction_of_bound(ratio), with "**" if the bound is not a claim; `unit_footnote` explains that.
-std::string marked_fraction_of_bound(double ratio, BoundOf bound_of);
+std::string marked_fraction_of_bound(double ratio, DistanceUnit unit);
 inline constexpr const char* unit_footnote =
     "** in units of wang's bound for the same pair, because the subject claims no bound";
 

@@ -82,8 +82,10 @@ TEST(VeCulling, ARootIsBracketedOnBothSides) {
   const auto brackets = [&](double at_most) { return detail::brackets_root(F, 0.25, 0.125, at_most); };
   EXPECT_TRUE(brackets(0.1));
   EXPECT_FALSE(brackets(0.2));
+  EXPECT_FALSE(brackets(7.0 / 64));
   const Cubic<double> reversed{0, -1, 2, -0.75};  // F(1 - t)
   EXPECT_FALSE(detail::brackets_root(reversed, 0.75, 0.125, 0.2));
+  EXPECT_FALSE(detail::brackets_root(reversed, 0.75, 0.125, 7.0 / 64));
 }
 
 TEST(VeCulling, TimesOutsideTheStepNeedNotBeBracketed) {

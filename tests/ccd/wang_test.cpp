@@ -226,6 +226,22 @@ TEST(Wang, BoundUsesRelativeVelocities) {
   EXPECT_NEAR(pair_bound(together), pair_bound(still), 1e-12);
 }
 
+TEST(Wang, AGivenBoundIsBroughtInRange) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -1);
+  for (const Frame& frame : {Frame{}, Frame{.exponent = 7}}) {
+    const auto pair = make_pair<Kind::vertex_triangle, double>(query, frame);
+    for (const double given : {0x1.8p200, 0x1.8p900}) {
+      const auto wide = detail::with_given_bound(query, pair, given);
+      EXPECT_EQ(wide.B, 1.5);
+      EXPECT_EQ(std::ldexp(given, wide.frame.total()), wide.B);
+      EXPECT_EQ(std::ldexp(wide.p.xv[2], frame.total() - wide.frame.total()), pair.p.xv[2]);
+    }
+    const auto near = detail::with_given_bound(query, pair, 8);
+    EXPECT_EQ(near.frame.total(), frame.total());
+    EXPECT_EQ(std::ldexp(near.B, -frame.total()), 8);
+  }
+}
+
 TEST(Wang, EdgeEdgeKeepsTheGivenOrderOfEndPointsThatAreEquallyClose) {
   Query square{.kind = Kind::edge_edge};
   EXPECT_EQ(detail::closest_order<double>(square, Frame{}), given_order);

@@ -104,6 +104,19 @@ TEST(CaseFile, MayHaveEmptyLines) {
   EXPECT_EQ(parse_case(in, "x.case").query, each.query);
 }
 
+TEST(CaseFile, MayHaveIndentedLines) {
+  Case each;
+  each.why = "first\nsecond";
+  each.query = testing::falling_edge(0.1, -1);
+  std::istringstream lines(to_text(each));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) text += "  " + line + "\n";
+  std::istringstream in(text);
+  const Case back = parse_case(in, "x.case");
+  EXPECT_EQ(back.why, each.why);
+  EXPECT_EQ(back.query, each.query);
+}
+
 TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
   for (const char* why : {"\nsecond", "first\n", "first\n\nthird", "\n"}) {
     Case each;
@@ -160,7 +173,7 @@ TEST_F(Files, AByteOrderMarkIsSkipped) {
 
 TEST_F(Files, SampleQueriesAreRationalNumbers) {
   std::string rows;
-  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n";
+  for (int i = 0; i < 8; ++i) rows += std::to_string(2 * i) + ",16, -3,\t4,5,1,1\r\n\r\n";
   const auto cases = read_all(write("vertex-face/data.csv", rows));
   ASSERT_EQ(cases.size(), 1U);
   EXPECT_EQ(cases[0].query.kind, Kind::vertex_triangle);

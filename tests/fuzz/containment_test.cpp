@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -100,6 +101,34 @@ TEST_P(Intruding, IsAFaultOfOneQueryAtMost) {
     }
   }
   EXPECT_EQ(copied.processes(), 0);
+}
+
+/// What nearmiss holds for its workers: open files, and mappings of the memory that it shares with them.
+std::array<std::size_t, 2> held() {
+  std::array<std::size_t, 2> count{};
+  for ([[maybe_unused]] const auto& each : std::filesystem::directory_iterator("/proc/self/fd")) ++count[0];
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+    count[1] += line.find("nearmiss-worker") != line.npos ? 1 : 0;
+  return count;
+}
+
+TEST(Isolation, LeavesNoFileAndNoMemory) {
+  const auto before = held();
+  {
+    const auto subject = make_isolated_plugin(plugin("crash"));
+    const auto during = held();
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GT(during[i], before[i]);
+    answers_of(*subject, queries());  // replaces the worker
+    EXPECT_EQ(held(), during);
+  }
+  EXPECT_EQ(held(), before);
+}
+
+TEST(Isolation, MayStartSomeProcesses) {
+  const auto subject = make_isolated_plugin(plugin("process_limit"));
+  EXPECT_EQ(subject->decide(queries().front()).fault, Fault::none);
+  EXPECT_TRUE(subject->decide(queries().front()).hit);
 }
 
 TEST(Throwing, IsAFaultWithItsText) {

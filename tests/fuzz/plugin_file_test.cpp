@@ -24,7 +24,7 @@ using ::testing::ThrowsMessage;
 
 namespace fs = std::filesystem;
 
-class PluginFile : public testing::TemporaryFolder {
+class PluginFileTest : public testing::TemporaryFolder {
  protected:
   static fs::path plugin(const std::string& name) { return fs::path(NEARMISS_PLUGINS) / (name + ".so"); }
 
@@ -44,7 +44,7 @@ class PluginFile : public testing::TemporaryFolder {
   const Query query = testing::falling_edge(1, -1);
 };
 
-TEST_F(PluginFile, IsIdentified) {
+TEST_F(PluginFileTest, IsIdentified) {
   replace("example");
   const auto subject = make();
   const auto identity = plugin_identity(*subject).value();
@@ -55,7 +55,7 @@ TEST_F(PluginFile, IsIdentified) {
   EXPECT_EQ(plugin_identity(*make_subject("wang")), std::nullopt);
 }
 
-TEST_F(PluginFile, ThatWasReplacedIsNotAskedAgain) {
+TEST_F(PluginFileTest, ThatWasReplacedIsNotAskedAgain) {
   replace("always");
   const auto subject = make();
   EXPECT_TRUE(subject->decide(query).hit);
@@ -67,7 +67,7 @@ TEST_F(PluginFile, ThatWasReplacedIsNotAskedAgain) {
   EXPECT_THAT([&] { (void)subject->ask_bound(query); }, ThrowsMessage<PluginChanged>(HasSubstr(expected)));
 }
 
-TEST_F(PluginFile, ThatWasOverwrittenIsNotAskedAgain) {
+TEST_F(PluginFileTest, ThatWasOverwrittenIsNotAskedAgain) {
   replace("always");
   const auto subject = make();
   overwrite("never");
@@ -75,7 +75,7 @@ TEST_F(PluginFile, ThatWasOverwrittenIsNotAskedAgain) {
 }
 
 // The plug-in ends its process at each query, so that each query loads the file again.
-TEST_F(PluginFile, ThatWasReplacedIsNotLoadedAfterACrash) {
+TEST_F(PluginFileTest, ThatWasReplacedIsNotLoadedAfterACrash) {
   replace("bound_abort");
   const auto subject = make();
   EXPECT_EQ(subject->ask_bound(query).fault, Fault::crash);
@@ -86,7 +86,7 @@ TEST_F(PluginFile, ThatWasReplacedIsNotLoadedAfterACrash) {
   }
 }
 
-TEST_F(PluginFile, ThatWasRemovedIsNotAskedAgain) {
+TEST_F(PluginFileTest, ThatWasRemovedIsNotAskedAgain) {
   replace("always");
   const auto subject = make();
   fs::remove(file("p.so"));
@@ -94,7 +94,7 @@ TEST_F(PluginFile, ThatWasRemovedIsNotAskedAgain) {
               ThrowsMessage<PluginChanged>(HasSubstr("found no such file")));
 }
 
-TEST_F(PluginFile, WithTheSameBytesIsTheSame) {
+TEST_F(PluginFileTest, WithTheSameBytesIsTheSame) {
   replace("always");
   const auto subject = make();
   replace("always");
@@ -103,14 +103,14 @@ TEST_F(PluginFile, WithTheSameBytesIsTheSame) {
   EXPECT_TRUE(subject->decide(query).hit);
 }
 
-TEST_F(PluginFile, LoadsLibrariesBesideIt) {
+TEST_F(PluginFileTest, LoadsLibrariesBesideIt) {
   replace("finds_beside");
   EXPECT_THAT([&] { (void)make(); }, ThrowsMessage<Error>(HasSubstr("libbeside.so")));
   fs::copy_file(plugin("finds_beside").parent_path() / "libbeside.so", file("libbeside.so"));
   EXPECT_TRUE(make()->decide(query).hit);
 }
 
-TEST_F(PluginFile, MustBeARegularFile) {
+TEST_F(PluginFileTest, MustBeARegularFile) {
   fs::create_directory(file("p.so"));
   EXPECT_THAT([&] { (void)make(); },
               ThrowsMessage<Error>(HasSubstr("p.so: cannot load the plug-in: found no regular file")));

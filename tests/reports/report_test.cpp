@@ -55,6 +55,23 @@ TEST(Summary, SaysAtAGlanceWhoMissed) {
   EXPECT_TRUE(found_anything(statistics));
 }
 
+TEST(Summary, SaysWhichFactorsMiss) {
+  Campaign campaign = some_campaign("wang");
+  auto& extremes = campaign.statistics.extremes;
+  extremes["mu"] = {Extreme::Of::accepting_tolerance, "mu", 0.25, query, "f:1:2", 7};
+  extremes["tau"] = {Extreme::Of::keeping_tolerance, "tau", 2, query, "f:1:2", 7};
+  extremes["vv"] = {Extreme::Of::distance, "vv", 0.5, query, "f:1:2", 7};
+  const std::string found = summary_table(campaign.statistics);
+  EXPECT_THAT(found, HasSubstr("misses found with factors <= 0.25"));
+  EXPECT_THAT(found, HasSubstr("misses found with factors >= 2"));
+  EXPECT_THAT(found, HasSubstr("reach 0.5 of the bound"));
+  for (auto& [name, each] : extremes) each = nothing_found(each.of, name);
+  const std::string none = summary_table(campaign.statistics);
+  EXPECT_THAT(none, HasSubstr("no miss found with any factor"));
+  EXPECT_THAT(none, HasSubstr("no false positive"));
+  EXPECT_THAT(none, Not(HasSubstr("misses found")));
+}
+
 TEST(Summary, OnlyRandomSamplesHaveARate) {
   const auto of = [](const std::string& family) {
     Statistics statistics;

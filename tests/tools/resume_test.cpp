@@ -129,6 +129,18 @@ TEST_F(Resume, AStopDoesNotWaitForASubject) {
   EXPECT_EQ(run(hangs + "1s").code, 0);
 }
 
+TEST_F(Resume, AnInterruptedCampaignPrintsTheCommandThatContinuesIt) {
+  for (const std::string command :
+       {"fuzz --time 24h --db 'a b.db' -q", "fuzz --time 24h --db 'a b.db' -q --resume"}) {
+    Background process(file(""), command);
+    ASSERT_TRUE(process.wait_for_a_change(file("a b.db-wal")));
+    process.stop(SIGTERM);
+    EXPECT_EQ(process.code(), 130);
+    EXPECT_EQ(read("error.txt"), std::string("nearmiss: interrupted; to continue: ") + NEARMISS_EXECUTABLE +
+                                     " fuzz --time 24h --db 'a b.db' -q --resume\n");
+  }
+}
+
 TEST_F(Resume, OneProcessWritesAStore) {
   Background first(file(""), "fuzz --time 24h --db a.db");
   ASSERT_TRUE(first.wait_for_a_change(file("a.db-wal")));

@@ -29,14 +29,14 @@ PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
   return {about.st_dev, about.st_ino, about.st_size, about.st_mtim, about.st_ctim};
 }
 
-struct PluginFile::Reading {
+struct PluginFile::Snapshot {
   std::string bytes;
   Stamp stamp;     ///< of the file before it was read
   bool is_recent;  ///< at that time
 };
 
 PluginFile::PluginFile(std::string path) : path_(std::move(path)) {
-  const Reading reading = read();
+  const Snapshot reading = read();
   sha256_ = sha256_hex(reading.bytes);
   build_id_ = gnu_build_id(reading.bytes);
   stamp_ = reading.stamp;
@@ -48,7 +48,7 @@ bool PluginFile::is_recent(const Stamp& stamp) {
   return std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick;
 }
 
-PluginFile::Reading PluginFile::read() const {
+PluginFile::Snapshot PluginFile::read() const {
   const auto refuse = [&](const std::string& why) {
     throw Error(fmt::format("{}: cannot load the plug-in: {}", path_, why));
   };
@@ -56,7 +56,7 @@ PluginFile::Reading PluginFile::read() const {
   struct stat about {};
   if (file.number() < 0 || fstat(file.number(), &about) != 0) refuse(std::strerror(errno));
   if (!S_ISREG(about.st_mode)) refuse("found no regular file");
-  Reading reading{"", stamp_of(about), is_recent(stamp_of(about))};
+  Snapshot reading{"", stamp_of(about), is_recent(stamp_of(about))};
   std::array<char, 1 << 16> block{};
   while (true) {
     const ssize_t size = ::read(file.number(), block.data(), block.size());
@@ -78,7 +78,7 @@ void PluginFile::expect_unchanged() const {
                     path_, found, sha256_));
   };
   if (!exists) refuse("no such file");
-  const Reading reading = read();
+  const Snapshot reading = read();
   if (const std::string found = sha256_hex(reading.bytes); found != sha256_) refuse("sha256 " + found);
   stamp_ = reading.stamp;
   is_recent_ = reading.is_recent;

@@ -44,11 +44,11 @@ class PluginFile {
 
     bool operator==(const Stamp& other) const;
   };
-  struct Reading;
+  struct Snapshot;
 
   static Stamp stamp_of(const struct stat& about);
   /// Reads the whole file.
-  [[nodiscard]] Reading read() const;
+  [[nodiscard]] Snapshot read() const;
   /// Whether the file may be written again without a change of its stamp, because the clock of the file system has not
   /// ticked since.
   static bool is_recent(const Stamp& stamp);

@@ -39,7 +39,7 @@ struct Status {
 };
 
 /// Written by nearmiss. The worker can only read it.
-struct Questions {
+struct SharedQuestions {
   Kind kind{};
   std::uint32_t first = 0;  ///< the request is about the queries [first, last)
   std::uint32_t last = 0;
@@ -55,7 +55,7 @@ struct PluginAnswer {
 };
 
 /// Written by the worker, in whose process the plug-in can write anything here.
-struct Answers {
+struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query

@@ -97,8 +97,8 @@ class WorkerProcess {
   [[nodiscard]] std::uint64_t limited(std::uint64_t nanoseconds) const;
 
   PluginLimits limits_;
-  SharedMemory<Questions> questions_{false};
-  SharedMemory<Answers> answers_{true};
+  SharedMemory<SharedQuestions> questions_{false};
+  SharedMemory<SharedAnswers> answers_{true};
   Descriptor replies_, status_;
   pid_t supervisor_ = -1;
   Status process_{};  ///< the plug-in's process, and how it ended

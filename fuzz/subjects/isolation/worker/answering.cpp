@@ -26,8 +26,8 @@ namespace {
 using namespace nearmiss;
 using namespace nearmiss::isolation;
 
-const Questions* questions = nullptr;
-Answers* answers = nullptr;
+const SharedQuestions* questions = nullptr;
+SharedAnswers* answers = nullptr;
 
 }  // namespace
 
@@ -205,8 +205,8 @@ std::unique_ptr<Plugin> load(const char* path) {
 namespace nearmiss::isolation {
 
 int answer_requests(const char* path, std::uint64_t bytes) {
-  questions = map<const Questions>(questions_memory, PROT_READ);
-  answers = map<Answers>(answers_memory, PROT_READ | PROT_WRITE);
+  questions = map<const SharedQuestions>(questions_memory, PROT_READ);
+  answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE);
   if (questions == nullptr || answers == nullptr) return 1;
   prepare_for_faults();
   const std::unique_ptr<Plugin> plugin = load(path);

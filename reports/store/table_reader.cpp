@@ -1,4 +1,4 @@
-#include "reports/store/reading.hpp"
+#include "reports/store/table_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-Salvaged Reading::begin(const std::string& table) {
+Salvaged TableReader::begin(const std::string& table) {
   try {
     return {table, 0, read_contents(db_, table).rows};
   } catch (const std::exception&) {
@@ -14,7 +14,7 @@ Salvaged Reading::begin(const std::string& table) {
   }
 }
 
-std::uint64_t Reading::last_row(const std::string& table) {
+std::uint64_t TableReader::last_row(const std::string& table) {
   constexpr std::int64_t most = 10'000'000;  // a damaged row id can have any size
   const std::int64_t last =
       db_.execAndGet(fmt::format("SELECT ifnull(max(rowid), 0) FROM {}", table)).getInt64();

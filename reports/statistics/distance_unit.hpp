@@ -1,4 +1,4 @@
-// Whose bound divides the distances of false positives.
+// The unit in which the distances of false positives are given.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@ namespace nearmiss {
 
 /// Distances are given as fractions of the bound that the subject claims. If it claims none, they are fractions of
 /// wang's bound for the same pair, which is a unit of length and no claim.
-enum class BoundOf : std::uint8_t {
-  subject,
-  wang,
+enum class DistanceUnit : std::uint8_t {
+  claimed_bound,
+  wangs_bound,
   both,  ///< runs with different versions of a subject were added up
 };
 
 /// As files name it.
-constexpr std::string_view name(BoundOf bound_of) {
-  switch (bound_of) {
-    case BoundOf::subject:
+constexpr std::string_view name(DistanceUnit unit) {
+  switch (unit) {
+    case DistanceUnit::claimed_bound:
       return "claimed";
-    case BoundOf::wang:
+    case DistanceUnit::wangs_bound:
       return "wang";
     default:
       return "claimed or wang";

@@ -1,4 +1,4 @@
-// Reading a store: all of it, or what is intact.
+// Reads a store: all of it, or what is intact.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -20,10 +20,10 @@ struct Salvaged {
 };
 
 /// Reads tables.
-class Reading {
+class TableReader {
  public:
   /// Reads everything and throws Damage, or, if `salvages`, reads the intact rows.
-  Reading(SQLite::Database& db, bool salvages) : db_(db), salvages_(salvages) {}
+  TableReader(SQLite::Database& db, bool salvages) : db_(db), salvages_(salvages) {}
 
   /// Passes the rows of a table to `take`.
   template <class Row, class Take>
