@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs tools/nightly in a tree of its own, in which set-up and libFuzzer do nothing, and checks its exit codes, its baseline,
-# and what it leaves after a signal and on a full disk.
+# and what it leaves after a signal and on a full disk. Interrupts tools/run there, too.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -18,7 +18,7 @@ expect() { "${@:2}" || fail "$1"; }
 expect_said() { expect "expected '$1', found '$(<"$folder/said")'" grep -qE "$1" "$folder/said"; }
 
 mkdir -p "$folder/tree/tools" "$folder/tree/build/release"
-cp "$source/tools/"{nightly,options.sh,interrupts.sh} "$folder/tree/tools/"
+cp "$source/tools/"{nightly,run,options.sh,interrupts.sh} "$folder/tree/tools/"
 cp -r "$source/corpus" "$folder/tree/"
 cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
@@ -28,7 +28,7 @@ nothing tools/setup tools/libfuzzer
 night() {
   local code=0
   sleep_until_next_second
-  tools/nightly --results "$folder/nights" "${@:2}" &>"$folder/said" || code=$?
+  tools/nightly --results "$folder/the nights" "${@:2}" &>"$folder/said" || code=$?
   expect "expected exit code $1, found $code" test $code = "$1"
 }
 sleep_until_next_second() { local now=$EPOCHSECONDS; while ((EPOCHSECONDS == now)); do sleep 0.05; done; }
@@ -41,12 +41,13 @@ exec "$nearmiss" "\$@"
 END_OF_SCRIPT
 chmod +x build/release/nearmiss
 
+mkdir -p "$folder/the" "$folder/the nights/2nd Zoo"  # a part of the results' name; not a night
 night 0 --subject wang
-expect "expected a report" test -s "$folder/nights/last/report/index.html"
+expect "expected a report" test -s "$folder/the nights/last/report/index.html"
 night 1 --subject wang,basic
 expect_said '^not in the baseline: basic$'
 expect "expected no new way to fail" test -z "$(grep '^new:' "$folder/said")"
-"$nearmiss" report "$folder/nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
+"$nearmiss" report "$folder/the nights/last/all.db" -o "$folder/second" >"$folder/said" || (($? == 1))
 began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head -n 1 | cut -d '"' -f 4)
 night 0 --subject wang
 # The failures are red while they are there, and the baseline has them although the night before does not.
@@ -59,17 +60,18 @@ night 0 --subject wang
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
 # A night that cannot be read is left out; the clock may have been ahead.
-mkdir "$folder/nights/2999-01-01T000000Z"
-echo garbage >"$folder/nights/2999-01-01T000000Z/all.db"
+mkdir "$folder/the nights/2999-01-01T000000Z"
+echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
 night 1 --subject wang,basic
 expect_said '^lasting: '
 # The latest night is kept, although its name is not the last.
 night 0 --subject wang --keep 2
-expect "expected two nights, found $(ls "$folder/nights")" test "$(ls -d "$folder/nights"/2* | wc -l)" = 2
-expect "expected the latest night" test -s "$folder/nights/last/all.db"
+expect "expected two nights, found $(ls "$folder/the nights")" test "$(compgen -G "$folder/the nights/2*Z" | wc -l)" = 2
+expect "expected that only nights are removed" test -d "$folder/the" -a -d "$folder/the nights/2nd Zoo"
+expect "expected the latest night" test -s "$folder/the nights/last/all.db"
 night 2 --subject none
 expect_said 'there is nothing to report'
-rm -r "$folder/nights"
+rm -r "$folder/the nights"
 
 # Each signal is passed on to the part that runs; a report is made, and nothing is left running.
 cp build/release/nearmiss quick
@@ -111,6 +113,14 @@ for signal in TERM INT HUP; do
   expect_report
   expect "SIG$signal: expected no further part" test -z "$(grep -E 'sweeps|libFuzzer' "$folder/said")"
 done
+
+# The main job is interrupted in the same way.
+env --default-signal=INT,TERM,HUP tools/run 100h &>"$folder/said" &
+night=$!
+until_ exists build/run/fuzz.db-wal
+kill -TERM "$night"
+ends 130
+expect "expected a report" test -s build/run/report/index.html
 
 # The same holds while a script of ours runs: libFuzzer, and the set-up, after which there is nothing to report.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
