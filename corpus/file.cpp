@@ -1,8 +1,13 @@
 #include "corpus/file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "ccd/error.hpp"
 
@@ -10,30 +15,69 @@ namespace nearmiss {
 
 namespace {
 
-bool write(const std::filesystem::path& file, std::string_view text) {
+namespace fs = std::filesystem;
+
+Error cannot_be_written(const fs::path& file) {
+  return Error(fmt::format("{}: cannot be written", file.string()));
+}
+
+void write(const fs::path& file, std::string_view text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  return static_cast<bool>(out);
+  if (!out) throw cannot_be_written(file);
+}
+
+/// Makes a file with a name that nothing else has.
+fs::path new_file_beside(const fs::path& place) {
+  for (int number = 0;; ++number) {
+    const std::string name =
+        fmt::format("{}.part{}", place.string(), number == 0 ? "" : std::to_string(number));
+    const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      close(descriptor);
+      return name;
+    }
+    if (errno != EEXIST)
+      throw Error(fmt::format("{}: cannot be written: {}", place.string(), std::strerror(errno)));
+  }
 }
 
 }  // namespace
 
-void replace_file(const std::filesystem::path& file, std::string_view text) {
+PartFile::PartFile(fs::path place) : place_(std::move(place)), path_(new_file_beside(place_)) {}
+
+PartFile::~PartFile() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove(path_, ignored);
+}
+
+void PartFile::put_in_place() {
   std::error_code error;
-  bool written = false;
-  const auto status = std::filesystem::symlink_status(file, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    written = write(file, text);  // a link, pipe or device is written through, never replaced
-  } else {
-    const std::filesystem::path part = file.string() + ".part";
-    written = write(part, text);
-    if (written) std::filesystem::rename(part, file, error);
-    written = written && !error;
-    std::error_code ignored;
-    if (!written) std::filesystem::remove(part, ignored);
+  fs::rename(path_, place_, error);
+  if (error) throw Error(fmt::format("{}: cannot be written: {}", place_.string(), error.message()));
+  path_.clear();
+}
+
+void replace_file(const fs::path& file, std::string_view text) {
+  std::error_code error;
+  const auto status = fs::symlink_status(file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    return write(file, text);  // a link, pipe or device is written through, never replaced
+  PartFile part(file);
+  try {
+    write(part.path(), text);
+  } catch (const Error&) {
+    throw cannot_be_written(file);
   }
-  if (!written) throw Error(fmt::format("{}: cannot be written", file.string()));
+  part.put_in_place();
+}
+
+void expect_regular_file(const fs::path& file) {
+  std::error_code error;
+  if (const auto status = fs::status(file, error); fs::exists(status) && !fs::is_regular_file(status))
+    throw Error(fmt::format("{}: found {}, expected a file", file.string(),
+                            fs::is_directory(status) ? "a folder" : "a pipe or a device"));
 }
 
 }  // namespace nearmiss

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/sample_csv.hpp"
 
@@ -22,8 +23,14 @@ bool is_case_file(const fs::path& path) {
   return extension == ".case" || extension == ".csv" || extension == ".vt" || extension == ".ee";
 }
 
+/// Throws Error if the reading of a file ended before its end.
+void expect_end(const std::istream& in, const std::string& name) {
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
+}
+
 void read_file(const fs::path& path, const CaseSink& sink) {
   const std::string name = path.string();
+  expect_regular_file(path);
   std::ifstream in(path);
   if (!in) throw Error(fmt::format("{}: cannot be read", name));
   if (in.peek() == std::ifstream::traits_type::eof())
@@ -38,7 +45,7 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   } else {
     throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, *.vt or *.ee", name));
   }
-  if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
+  expect_end(in, name);
 }
 
 }  // namespace
@@ -71,6 +78,7 @@ void read_query_lines(std::istream& in, Kind kind, const std::string& name, cons
     any = true;
     sink(std::move(each));
   }
+  expect_end(in, name);
   if (!any) throw Error(fmt::format("{}:{}: found no query, expected 24 numbers a line", name, number));
 }
 

@@ -59,8 +59,9 @@ void expect_room(const fs::path& folder, const ReportPaths& own,
         path.string()));
   };
   for (const char* sub_folder : sub_folders)
-    if (const fs::path path = folder / sub_folder; fs::exists(path) && !fs::is_directory(path))
-      throw refuse(path);
+    if (const auto status = fs::symlink_status(folder / sub_folder);
+        fs::exists(status) && !fs::is_directory(status))  // a link would lead to the user's files
+      throw refuse(folder / sub_folder);
   for (const auto& [name, content] : files) {
     const auto status = fs::symlink_status(folder / name);
     if (fs::exists(status) && (fs::is_directory(status) || !own.contains(name))) throw refuse(folder / name);

@@ -74,7 +74,10 @@ void QueryInput::add_to(CLI::App& command) {
 void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   const Kind of = parse_kind(kind, "--kind");
   const auto each = [&](const Case& read) { sink(read.query); };
-  if (file == "-") return read_query_lines(std::cin, of, "stdin", each);
+  if (file == "-") {
+    std::ios::sync_with_stdio(false);  // otherwise an error looks like the end of the file
+    return read_query_lines(std::cin, of, "stdin", each);
+  }
   std::ifstream in(file);
   if (!in) throw Error(fmt::format("{}: cannot be read", file));
   read_query_lines(in, of, file, each);

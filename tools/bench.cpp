@@ -9,11 +9,13 @@
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
+#include "fuzz/stop.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_output.hpp"
+#include "tools/terminal.hpp"
 #include "tools/values.hpp"
 
 namespace nearmiss::tools {
@@ -85,12 +87,15 @@ double time_once(const Subject& subject, const std::vector<Query>& queries, std:
 }
 
 /// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
-std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs) {
+std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
+                               const Stop& stop) {
   std::vector<RunTimes> times(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
   for (int run = 0; run < runs; ++run)
-    for (std::size_t s = 0; s < subjects.size(); ++s)
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+      stop.check();
       times[s].push_back(time_once(*subjects[s], queries, verdicts));
+    }
   return times;
 }
 
@@ -142,13 +147,13 @@ void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const I
 }
 
 /// Times, prints to `out` and records one input: each of its kinds, then both together.
-void time_input(const Subjects& subjects, const Input& input, int runs, std::FILE* out,
+void time_input(const Subjects& subjects, const Input& input, int runs, const Stop& stop, std::FILE* out,
                 nlohmann::ordered_json& results) {
   std::vector<std::vector<RunTimes>> by_kind;
   std::vector<double> weights;
   std::size_t count = 0;
   for (const auto& [kind, queries] : input.queries) {
-    by_kind.push_back(time_all(subjects, queries, runs));
+    by_kind.push_back(time_all(subjects, queries, runs, stop));
     print_rows(out, subjects, input, short_name(kind), queries.size(), by_kind.back());
     add_rows(results, subjects, input, kind, by_kind.back());
     weights.push_back(static_cast<double>(queries.size()));
@@ -157,15 +162,21 @@ void time_input(const Subjects& subjects, const Input& input, int runs, std::FIL
   if (by_kind.size() > 1) print_rows(out, subjects, input, "both", count, together(by_kind, weights));
 }
 
-void run(const Options& options) {
-  const Subjects subjects = make_subjects(options.subjects, options.limits.limits());
+int run(const Options& options) {
+  const Stop stop(interrupted());
+  isolation::PluginLimits limits = options.limits.limits();
+  limits.stop = &stop;
+  const Subjects subjects = make_subjects(options.subjects, limits);
   const std::vector<Input> inputs = inputs_of(options);
   const std::string over = "/" + subjects.front()->name();
   std::FILE* const out = options.json.text();
   fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
              "ns/query", over);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
-  for (const Input& input : inputs) time_input(subjects, input, options.runs, out, results);
+  try {
+    for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
+  } catch (const Stopped&) {  // what was timed counts
+  }
   fmt::print(
       out,
       "\nQueries whose swept boxes meet. ns/query: without waiting for a processor, less that of an empty "
@@ -173,11 +184,12 @@ void run(const Options& options) {
       "median of {} runs, the subjects in turn in each; {}: median of the ratios within a run.\n",
       options.runs, over);
   options.json.write({{"results", results}});
+  return stop.is_requested() ? exit_interrupted : exit_fine;
 }
 
 }  // namespace
 
-void add_bench(CLI::App& app, int& /*exit_code*/) {
+void add_bench(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("bench", "Time subjects side by side, after the box test");
   command->add_option("PATH", options->paths,
@@ -190,7 +202,7 @@ void add_bench(CLI::App& app, int& /*exit_code*/) {
   options->json.add_to(*command, "Write the results as JSON");
   command->footer(
       "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");
-  command->callback([options] { run(*options); });
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace nearmiss::tools

@@ -25,6 +25,15 @@ void JsonOutput::expect_folder() const {
     throw Error(fmt::format("{}: no folder {} to write it in", file_.string(), folder.string()));
 }
 
+void JsonOutput::expect_other_file(const std::filesystem::path& file) const {
+  if (file_.empty() || file.empty() || is_stdout()) return;
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  if (whole(file_) == whole(file))
+    throw Error(fmt::format("{}: found the same file for --json and --db, expected two", file.string()));
+}
+
 void JsonOutput::write(const nlohmann::ordered_json& json, int indent) const {
   if (!is_wanted()) return;
   const std::string text = json.dump(indent) + "\n";

@@ -25,6 +25,9 @@ class JsonOutput {
   /// Throws Error if the folder of the file does not exist.
   void expect_folder() const;
 
+  /// Throws Error if the JSON would replace this file.
+  void expect_other_file(const std::filesystem::path& file) const;
+
   /// Writes the JSON if it is wanted, indented by `indent` blanks; a file whole or not at all. Throws Error if it
   /// cannot be written.
   void write(const nlohmann::ordered_json& json, int indent = 2) const;

@@ -6,15 +6,19 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <numeric>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
 #include "fuzz/stop.hpp"
+#include "reports/text/printable.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"
@@ -74,6 +78,23 @@ std::string with_short_words(std::string_view text) {
   return result;
 }
 
+/// Throws Error if an argument or the value of an option is empty, as from a variable of a shell that is not set.
+void expect_values(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument.empty())
+      throw nearmiss::Error(fmt::format("found an empty argument after '{}', expected a value",
+                                        nearmiss::excerpt(argv[i - 1])));
+    if (argument.starts_with("--") && argument.ends_with('='))
+      throw nearmiss::Error(fmt::format("found '{}', expected a value", nearmiss::excerpt(argument)));
+  }
+}
+
+/// Prints why the program ends, on one line that a terminal can show.
+void print_reason(std::string_view reason) {
+  std::fputs(("nearmiss: " + nearmiss::printable(reason) + "\n").c_str(), stderr);
+}
+
 /// Throws Error if something that was printed is lost.
 void expect_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -105,6 +126,7 @@ int run(int argc, char** argv) {
         add_tightness, add_bench, add_family, add_oracle, add_verdict, add_subjects})
     add(app, exit_code);
 
+  expect_values(argc, argv);
   if (argc > 1) expect_subcommand(app, argv[1]);
   try {
     app.parse(argc, argv);
@@ -126,6 +148,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   nearmiss::tools::occupy_standard_streams();
+  nearmiss::tools::end_on_signals();
   if (const std::string odd = nearmiss::odd_arithmetic(); !odd.empty())
     std::fprintf(
         stderr,
@@ -138,8 +161,14 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const nearmiss::Stopped&) {  // before there was anything to save
     return nearmiss::tools::exit_interrupted;
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_reason(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+  } catch (const std::system_error& error) {  // fmt::print's
+    print_reason(fmt::format("standard output cannot be written: {}", error.code().message()));
+  } catch (const std::bad_alloc&) {
+    print_reason("found too little memory");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "nearmiss: %s\n", error.what());
-    return nearmiss::tools::exit_bad_input;
+    print_reason(error.what());
   }
+  return nearmiss::tools::exit_bad_input;
 }

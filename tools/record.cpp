@@ -56,6 +56,7 @@ RunInfo run_info(const std::string& command) {
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
   options_.json.expect_folder();
+  options_.json.expect_other_file(options_.db);
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   shard_.environment.merge(environment());
   if (options_.resume && Store::exists(options_.db))

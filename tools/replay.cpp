@@ -36,7 +36,7 @@ int run(const Options& options) {
   const Stop stop(interrupted());
   const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // checks all files before anything is written
-    read_cases(path, [](const Case&) {});
+    read_cases(path, [&](const Case&) { stop.check(); });
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
@@ -50,15 +50,18 @@ int run(const Options& options) {
     std::uint64_t count = 0;
     SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
     TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
-    for (const fs::path& path : options.paths)
-      read_cases(path, [&](const Case& each) {
-        if (stop.is_due()) return;
-        stream.add(family_of(each.name), each.query, each.truth, [name = each.name] { return name; });
-        ++count;
-        if (progress.due())
-          progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
-                                    with_separators(record.statistics().false_negatives())));
-      });
+    const auto add = [&](const Case& each) {
+      stop.check();
+      stream.add(family_of(each.name), each.query, each.truth, [name = each.name] { return name; });
+      ++count;
+      if (progress.due())
+        progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
+                                  with_separators(record.statistics().false_negatives())));
+    };
+    try {
+      for (const fs::path& path : options.paths) read_cases(path, add);
+    } catch (const Stopped&) {  // what was asked counts
+    }
     stream.finish();
   }
   return record.finish(stop.is_requested(), !stop.is_requested());

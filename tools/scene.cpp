@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 #include "fuzz/scenes/plan.hpp"
@@ -65,29 +66,37 @@ class Export {
     for (const Kind kind : kinds) {
       const std::string name = fmt::format("{}.{}", file.string(), short_name(kind));
       if (fs::exists(name)) throw Error(fmt::format("{}: exists already, expected a new file", name));
-      files_[kind] = {name, std::ofstream(name)};
+      files_.try_emplace(kind, name);
     }
   }
   /// Writes the pairs of a step that subjects are asked about.
   void add_all(const MovingMesh& mesh, LeaveOut leave_out, const Stop& stop) {
     if (files_.empty()) return;
     const auto write = [&](const AskedPairs& pairs) {
-      for (const Query& query : pairs.queries) files_[pairs.kind].second << to_line(query) << '\n';
+      for (const Query& query : pairs.queries) files_.at(pairs.kind).out << to_line(query) << '\n';
     };
     follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.is_due(); });
   }
-  /// Throws Error if something could not be written. Removes empty files.
+  /// Gives the files their names, except empty ones. Throws Error if something could not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
-      const bool empty = file.second.tellp() == 0;
-      file.second.close();
-      if (!file.second) throw Error(fmt::format("{}: cannot be written", file.first));
-      if (empty) fs::remove(file.first);
+      const bool empty = file.out.tellp() == 0;
+      file.out.close();
+      if (!file.out) throw Error(fmt::format("{}: cannot be written", file.name));
+      if (!empty) file.part.put_in_place();
     }
   }
 
  private:
-  std::map<Kind, std::pair<std::string, std::ofstream>> files_;
+  struct File {
+    explicit File(const std::string& place) : name(place), part(place), out(part.path()) {}
+
+    std::string name;
+    PartFile part;
+    std::ofstream out;
+  };
+
+  std::map<Kind, File> files_;
 };
 
 /// The options that the results of a run depend on, and the command that repeats the run.
@@ -167,7 +176,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
         return !stop.is_due();
       }));
   }
-  exported.finish();
+  if (!stop.is_due()) exported.finish();
   if (const auto picture = trial.picture()) record.add(*picture);
   return verified;
 }

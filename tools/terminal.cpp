@@ -29,6 +29,12 @@ extern "C" void on_signal(int /*signal*/) {
   if (now - first_signal >= patience) _exit(exit_interrupted);
 }
 
+void handle_interrupts(void (*handler)(int)) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    // A signal that is ignored from the start, as nohup(1) arranges, stays so.
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 constexpr auto terminal_interval = std::chrono::milliseconds(200);
 constexpr auto log_interval = std::chrono::minutes(1);
 
@@ -59,10 +65,13 @@ void occupy_standard_streams() {
     if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", direction) != descriptor) _exit(exit_bad_input);
 }
 
+void end_on_signals() {
+  handle_interrupts([](int /*signal*/) { _exit(exit_interrupted); });
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
 const std::atomic<bool>& interrupted() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    // A signal that is ignored from the start, as nohup(1) arranges, stays so.
-    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+  handle_interrupts(on_signal);
   return stop;
 }
 

@@ -13,6 +13,10 @@ namespace nearmiss::tools {
 /// opened.
 void occupy_standard_streams();
 
+/// Until `interrupted` is called, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of an interrupt.
+/// A pipe without a reader, and a file that reaches the limit of its size, become errors of the one who writes.
+void end_on_signals();
+
 /// SIGINT, SIGTERM and SIGHUP set this flag, from the first call of this function on. A second signal, at least two
 /// seconds later, ends the program at once.
 const std::atomic<bool>& interrupted();

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 
 namespace nearmiss {
 
@@ -37,8 +38,9 @@ Mesh read_mesh(const fs::path& file) {
   if (reader == readers().end())
     throw Error(fmt::format("{}: found the ending '{}', expected .obj, .off, .ply or .stl", file.string(),
                             file.extension().string()));
+  expect_regular_file(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file)) throw Error(fmt::format("{}: cannot be read", file.string()));
+  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
   return reader->second(in, file.string());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <functional>
 
 #include "reports/text/text.hpp"
 
@@ -26,10 +27,14 @@ Case to_case(const Finding& finding) {
 }
 
 std::string case_file_name(const Finding& finding, std::string_view id) {
-  return file_name(fmt::format("{}-{}-{}.case", name(finding.what), subject_of(finding), id));
+  return fmt::format("{}-{}-{}.case", name(finding.what), file_name(subject_of(finding)), id);
 }
 
 std::string file_name(std::string text) {
+  constexpr std::size_t most = 60;
+  constexpr std::size_t kept = 43;
+  if (text.size() > most)
+    text = fmt::format("{}-{:016x}", text.substr(0, kept), std::hash<std::string>()(text));
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
   return text;

@@ -15,7 +15,8 @@ Case to_case(const Finding& finding);
 /// A name for the case's file: what failed, the subject, and an `id` that distinguishes it.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
-/// A valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'.
+/// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A text of more
+/// than 60 bytes is cut, and a hash of it added.
 std::string file_name(std::string text);
 
 }  // namespace nearmiss

@@ -17,8 +17,11 @@ void read_json_file(const std::filesystem::path& file, std::string_view expected
   try {
     take(nlohmann::ordered_json::parse(in));
   } catch (const nlohmann::ordered_json::exception& error) {
-    throw Error(
-        fmt::format("{}: found '{}', expected {}", file.string(), excerpt(error.what(), 200), expected));
+    // The library's message begins with its name of the exception, "[json.exception.parse_error.101] ".
+    const std::string_view message = error.what();
+    const std::size_t name = message.find("] ");
+    throw Error(fmt::format("{}: found {}, expected {}", file.string(),
+                            excerpt(message.substr(name == message.npos ? 0 : name + 2), 200), expected));
   }
 }
 

@@ -48,16 +48,17 @@ std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
   for (const auto& [key, counts] : statistics.counts) {
     if (counts.farthest.empty()) continue;
     const FarCase& far = counts.farthest.front();
-    cases.push_back({key,
-                     far,
-                     counts.distance_unit(),
-                     {file_name(fmt::format("{}-{}-{}.case", key.subject, short_name(key.kind), key.family)),
-                      {.name = {},
-                       .query = far.query,
-                       .truth = false,
-                       .why = fmt::format("false positive of {}, {}", key.subject,
-                                          times_the_bound(far.ratio, counts.distance_unit())),
-                       .provenance = far.provenance}}});
+    cases.push_back(
+        {key,
+         far,
+         counts.distance_unit(),
+         {fmt::format("{}-{}-{}.case", file_name(key.subject), short_name(key.kind), file_name(key.family)),
+          {.name = {},
+           .query = far.query,
+           .truth = false,
+           .why = fmt::format("false positive of {}, {}", key.subject,
+                              times_the_bound(far.ratio, counts.distance_unit())),
+           .provenance = far.provenance}}});
   }
   return cases;
 }

@@ -13,7 +13,12 @@
 
 namespace nearmiss {
 
-FileLock::FileLock(const std::filesystem::path& file) : lock_(file.string() + ".lock") {
+FileLock::FileLock(const std::filesystem::path& file)
+    : lock_(std::filesystem::weakly_canonical(std::filesystem::absolute(file)).string() + ".lock") {
+  std::error_code ignored;
+  if (const auto names = std::filesystem::hard_link_count(file, ignored); !ignored && names > 1)
+    throw Error(
+        fmt::format("{}: found a file with {} names (hard links), expected one", file.string(), names));
   while (true) {
     descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0)

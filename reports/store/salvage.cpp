@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "reports/store/run_tables.hpp"
 #include "reports/store/statistics_tables.hpp"
 #include "reports/store/version.hpp"
@@ -26,6 +29,16 @@ void mark(std::vector<Run>& runs, const std::string& lost) {
   }
 }
 
+/// A signature was seen at least as often as there are findings of it, also if its own row is lost.
+void count_findings(Campaign& campaign) {
+  std::map<Signature, std::uint64_t> stored;
+  for (const Finding& finding : campaign.findings()) ++stored[signature_of(finding)];
+  for (const auto& [signature, count] : stored) {
+    std::uint64_t& seen = campaign.statistics.seen[signature];
+    seen = std::max(seen, count);
+  }
+}
+
 }  // namespace
 
 Salvage salvage_campaign(const std::filesystem::path& file) {
@@ -33,7 +46,7 @@ Salvage salvage_campaign(const std::filesystem::path& file) {
     SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
-    check_version(db);
+    db.exec("PRAGMA schema_version");        // throws if this is no database
     TableReader read(db, true);
     Salvage salvage{{read_runs(read), read_statistics(read)}, 0, ""};
     for (const Salvaged& table : read.salvaged()) {
@@ -42,7 +55,10 @@ Salvage salvage_campaign(const std::filesystem::path& file) {
         salvage.lost += (salvage.lost.empty() ? "" : ", ") + each;
     }
     if (salvage.rows == 0) throw Error("found no intact row, so that nothing can be saved");
-    if (!salvage.lost.empty()) mark(salvage.campaign.runs, salvage.lost);
+    if (!salvage.lost.empty()) {
+      mark(salvage.campaign.runs, salvage.lost);
+      count_findings(salvage.campaign);
+    }
     return salvage;
   });
 }

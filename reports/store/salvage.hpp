@@ -20,7 +20,8 @@ struct Salvage {
 };
 
 /// Reads all intact rows of a store. A row is intact if it matches its checksum. Throws Error if the file cannot be
-/// read, is not a store of this version, or has no intact row.
+/// read, or has no intact row. The file's version is not looked at, because it may be damaged; a store of another version
+/// has no intact row.
 Salvage salvage_campaign(const std::filesystem::path& file);
 
 /// A clause that says how to salvage a store, and how much of it.

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 #include "reports/store/file_lock.hpp"
 #include "reports/store/run_tables.hpp"
 #include "reports/store/salvage.hpp"
@@ -49,11 +50,12 @@ bool is_damage(const std::exception& error) {
 /// Opens a store, and runs `act` with it. If it is damaged, the Error also says how much a salvage would save.
 template <class Act>
 auto reading(const fs::path& file, const Act& act) {
+  expect_regular_file(file);
   return naming(file, [&] {
-    SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
-    const SQLite::Transaction one_save(db);  // another process may save meanwhile
-    check_version(db);
     try {
+      SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
+      const SQLite::Transaction one_save(db);  // another process may save meanwhile
+      check_version(db);
       return act(db);
     } catch (const std::exception& error) {
       if (!is_damage(error)) throw;
@@ -189,15 +191,9 @@ void write_all(const Campaign& campaign, const fs::path& file) {
 
 void write_campaign(const Campaign& campaign, const fs::path& file) {
   refuse_existing(file);
-  const fs::path part = file.string() + ".part";
-  fs::remove(part);
-  try {
-    naming(file, [&] { write_all(campaign, part); });
-  } catch (const Error&) {
-    fs::remove(part);
-    throw;
-  }
-  fs::rename(part, file);
+  PartFile part(file);
+  naming(file, [&] { write_all(campaign, part.path()); });
+  part.put_in_place();
 }
 
 }  // namespace nearmiss

@@ -21,7 +21,7 @@ TEST_F(BadFilesTest, WhatCannotBeReadIsRefused) {
                 ThrowsMessage<Error>(HasSubstr(": cannot be read")));
     std::filesystem::create_directory(file(std::string("folder") + ending));
     EXPECT_THAT([&] { read_mesh(file(std::string("folder") + ending)); },
-                ThrowsMessage<Error>(HasSubstr(": cannot be read")));
+                ThrowsMessage<Error>(HasSubstr(": found a folder, expected a file")));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ccd/error.hpp"
+#include "reports/campaign/finding_case.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/some_campaign.hpp"
 #include "tests/temporary_folder.hpp"
@@ -73,6 +74,26 @@ TEST_F(ReportFolder, RefusesAFileInItsWay) {
   fs::remove(file("report/cases/false-negative-bad-001.case"));
   write("report/farthest/bad-vt-fam__ily.case/mine.txt", "precious");
   expect_refused("report", "bad-vt-fam__ily.case: found a file that nearmiss did not write");
+}
+
+TEST_F(ReportFolder, RefusesALinkInPlaceOfItsFolders) {
+  for (const std::string name : {"cases", "farthest"}) {
+    write_report_of("wang", name + "-linked");
+    fs::rename(file(name + "-linked/" + name), file(name + "-elsewhere"));
+    fs::create_directory_symlink(file(name + "-elsewhere"), file(name + "-linked/" + name));
+    expect_refused(name + "-linked", name);
+    EXPECT_FALSE(files_in(name + "-elsewhere").empty());
+  }
+}
+
+TEST_F(ReportFolder, HasNamesThatAFileSystemTakes) {
+  for (const std::string& name : {std::string(255, 'y') + "1", std::string(255, 'y') + "2"}) {
+    write_report_of(name, "report");
+    EXPECT_EQ(files_of(ordered_json::parse(read("report/report.json"))), files_in("report"));
+  }
+  EXPECT_NE(file_name(std::string(255, 'y') + "1"), file_name(std::string(255, 'y') + "2"));
+  EXPECT_EQ(file_name(std::string(60, 'y')), std::string(60, 'y'));
+  EXPECT_EQ(file_name(std::string(61, 'y')).size(), 60);
 }
 
 TEST_F(ReportFolder, RefusesAFolderThatIsNoReport) {

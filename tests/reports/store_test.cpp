@@ -102,6 +102,17 @@ TEST_F(StoreTest, IsWrittenByOneAtATime) {
   Store(file("a.db")).save(some_statistics("wang"), shard, {});
 }
 
+TEST_F(StoreTest, IsOneStoreUnderEachOfItsNames) {
+  Store store(file("a.db"), info, shard);
+  std::filesystem::create_symlink(file("a.db"), file("link.db"));
+  EXPECT_THAT([&] { Store(file("link.db")); },
+              ThrowsMessage<Error>(HasSubstr("link.db: another process is writing it")));
+  std::filesystem::create_hard_link(file("a.db"), file("hard.db"));
+  EXPECT_THAT(
+      [&] { Store(file("hard.db")); },
+      ThrowsMessage<Error>(HasSubstr("hard.db: found a file with 2 names (hard links), expected one")));
+}
+
 TEST_F(StoreTest, GoesOn) {
   const Finding first = some_finding("first");
   const Finding second = some_finding("second");

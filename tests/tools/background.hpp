@@ -6,7 +6,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -51,6 +53,17 @@ class Background {
       return std::filesystem::last_write_time(file, none);
     };
     return wait_until([&, before = time()] { return time() != before; });
+  }
+
+  /// Waits until the process handles the signals of an interrupt itself. False if it has ended.
+  bool wait_until_it_handles_interrupts() {
+    constexpr std::uint64_t all = 1U << (SIGINT - 1) | 1U << (SIGTERM - 1) | 1U << (SIGHUP - 1);
+    return wait_until([&] {
+      std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+      for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) & all) == all;
+      return false;
+    });
   }
 
   /// Sends a signal, and waits for the process to end.

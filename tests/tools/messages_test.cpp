@@ -36,7 +36,7 @@ TEST_F(Messages, ALongWordOfAFileIsCut) {
   expect_short("replay edge-edge/a.csv", "'" + forty + "...,1'");
   for (const char* ending : {".obj", ".off", ".ply", ".stl"})
     expect_short("scene mesh" + std::string(ending) + " mesh" + ending, cut);
-  expect_short("report a.db -o new --power power.json", "...', expected what nearmiss power --json keeps");
+  expect_short("report a.db -o new --power power.json", "..., expected what nearmiss power --json keeps");
 }
 
 TEST_F(Messages, AWordIsCutBetweenCharacters) {
@@ -54,6 +54,12 @@ TEST_F(Messages, ALongWordOfTheCommandLineIsCut) {
         "fuzz --cases 1 --subject wang:", "fuzz --cases 1 --subject defect:", "tightness --tolerance ",
         "oracle --kind ", "replay --bound "})
     expect_short(command + word + (command == "replay --bound " ? " q.vt" : ""), "x...");
+}
+
+TEST_F(Messages, ANameDoesNotWriteToTheTerminal) {
+  const std::string odd = "'a\x1b[31mb\nc'";
+  expect_refused("fuzz --cases 10 --subject " + odd, {"a?[31mb c"});
+  expect_refused("report " + odd + " -o new", {"a?[31mb c: no such file"});
 }
 
 TEST_F(Messages, ANanIsCalledOne) {

@@ -1,4 +1,6 @@
 // Tests the command line with bad input, and with failures during the work.
+#include <sys/stat.h>
+
 #include <algorithm>
 
 #include "tests/tools/background.hpp"
@@ -34,6 +36,32 @@ TEST_F(CommandLine, BadQueries) {
     expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
     expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});
   }
+}
+
+TEST_F(CommandLine, FilesThatAreNone) {
+  for (const char* command : {"oracle --kind vt", "verdict --kind vt"}) {
+    const Output output = run(command, "", "</");  // a folder can be opened, but not read
+    EXPECT_EQ(output.code, 2);
+    EXPECT_EQ(output.error, "nearmiss: stdin: cannot be read to its end\n");
+  }
+  for (const char* make : {"mkdir x.vt x.obj x.db", "mkfifo x.vt x.obj x.db"}) {
+    ASSERT_EQ(std::system(("cd " + file("").string() + " && rm -rf x.* && " + make).c_str()), 0);
+    const std::string found = std::string(make).starts_with("mkdir") ? "found a folder" : "found a pipe";
+    if (found == "found a pipe")
+      expect_refused("replay x.vt --db new.db", {"x.vt: " + found, "expected a file"});
+    expect_refused("scene x.obj x.obj --db new.db", {"x.obj: " + found});
+    expect_refused("fuzz --cases 10 --mesh x.obj x.obj --db new.db", {"x.obj: " + found});
+    expect_refused("report x.db -o new", {"x.db: " + found});
+  }
+}
+
+TEST_F(CommandLine, EmptyArguments) {
+  expect_refused("fuzz --time ''", {"found an empty argument after '--time', expected a value"});
+  expect_refused("fuzz --cases 10 --db=", {"found '--db=', expected a value"});
+  expect_refused("fuzz --cases 10 --json ''", {"after '--json'"});
+  EXPECT_EQ(run("fuzz --cases 100 --db a.db").code, 0);
+  expect_refused("report a.db -o ''", {"after '-o'"});
+  expect_refused("fuzz --cases 10 --db new.db --json ./new.db", {"found the same file for --json and --db"});
 }
 
 TEST_F(CommandLine, BadShrinks) {
@@ -187,6 +215,47 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_EQ(no_room.code, 2);
   EXPECT_FALSE(std::filesystem::exists(file("new.json")));
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
+}
+
+TEST_F(CommandLine, AFullDiskLeavesNoPartOfAnExport) {
+  const Output output = run("scene spikes@400 --subject wang --export pairs", "ulimit -f 8;");
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.error, HasSubstr("cannot be written"));
+  for (const auto& each : std::filesystem::directory_iterator(file("")))
+    EXPECT_THAT(each.path().filename().string(), ::testing::Not(::testing::StartsWith("pairs")));
+}
+
+TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
+  (void)run("family uniform --seed 1 --kind vt --count 100000", "{",
+            ">&3; echo $? >code.txt; } 3>&1 >none.txt | true");
+  EXPECT_EQ(read("code.txt"), "2\n");
+  EXPECT_EQ(read("error.txt"), "nearmiss: standard output cannot be written: Broken pipe\n");
+  const Output output = run("family uniform --seed 1 --kind vt --count 100000", "ulimit -f 8;");
+  EXPECT_EQ(output.code, 2);
+  EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
+}
+
+TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {
+  write("o.json.part", "mine");
+  write("precious", "mine, too");
+  std::filesystem::create_symlink("precious", file("o.json.part1"));
+  EXPECT_EQ(run("fuzz --cases 100 --json o.json").code, 0);
+  EXPECT_FALSE(std::filesystem::is_symlink(file("o.json")));
+  EXPECT_EQ(read_json("o.json")["subjects"].size(), 1);
+  EXPECT_EQ(read("o.json.part"), "mine");
+  EXPECT_EQ(read("precious"), "mine, too");
+}
+
+TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
+  ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
+  for (const char* command : {"verdict --kind vt <>endless", "oracle --kind vt <>endless",
+                              "bench --runs 1000000", "audit --steps 100000000"})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      Background process(file(""), command);
+      ASSERT_TRUE(process.wait_until_it_handles_interrupts()) << command;
+      process.stop(signal);
+      EXPECT_EQ(process.code(), 130) << command;
+    }
 }
 
 TEST_F(CommandLine, AFileIsReplacedAsAWhole) {
