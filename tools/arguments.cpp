@@ -91,6 +91,11 @@ void PluginLimitOptions::add_to(CLI::App& command) {
   command
       .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
       ->transform(CLI::AsSizeValue(false))
+      ->transform(CLI::Validator(
+          [](const std::string& text) {
+            return text.starts_with('-') ? "found '" + text + "', expected 0 or more" : "";
+          },
+          ""))
       ->default_str("1G")
       ->type_name("BYTES");
 }

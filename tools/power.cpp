@@ -118,6 +118,7 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
 }
 
 int run(const Options& options) {
+  (void)parse_duration(options.time, "--time");  // a bad one is refused before any work
   std::vector<Hunt> results;
   const std::filesystem::path stored = options.json.file();
   if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);

@@ -55,10 +55,12 @@ TEST_F(CommandLine, FilesThatAreNone) {
   }
 }
 
-TEST_F(CommandLine, EmptyArguments) {
+TEST_F(CommandLine, ArgumentsWithoutAValue) {
   expect_refused("fuzz --time ''", {"found an empty argument after '--time', expected a value"});
   expect_refused("fuzz --cases 10 --db=", {"found '--db=', expected a value"});
   expect_refused("fuzz --cases 10 --json ''", {"after '--json'"});
+  expect_refused("verdict --kind vt --query-memory -1", {"--query-memory", "'-1'", "expected 0 or more"});
+  expect_refused("power --time nan --json new.json", {"--time: found 'nan'"});
   EXPECT_EQ(run("fuzz --cases 100 --db a.db").code, 0);
   expect_refused("report a.db -o ''", {"after '-o'"});
   expect_refused("fuzz --cases 10 --db new.db --json ./new.db", {"found the same file for --json and --db"});
