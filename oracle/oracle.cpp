@@ -1,7 +1,8 @@
 #include "oracle/oracle.hpp"
 
+#include <gmpxx.h>
+
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -41,10 +42,7 @@ Enclosure enclose(Root t, double width) {
 
 std::string to_text(const std::optional<CGAL::Gmpq>& rational) {
   if (!rational) return {};
-  std::ostringstream text;
-  text << rational->numerator();
-  if (rational->denominator() != 1) text << '/' << rational->denominator();
-  return text.str();
+  return mpq_class(rational->mpq()).get_str();
 }
 
 }  // namespace

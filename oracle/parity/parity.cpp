@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -214,11 +216,12 @@ Scale integer_scale(const Query& query) {
   Scale scale;
   scale.fill(std::numeric_limits<int>::min());
   for (std::size_t i = 0; i < query.x.size(); ++i) {
-    double c = query.x[i];
-    if (c == 0) continue;
-    int exponent = std::ilogb(c);
-    for (c = std::ldexp(c, -exponent); c != std::round(c); c *= 2) --exponent;  // c is between 1 and 2^53
-    scale[i % 3] = std::max(scale[i % 3], -exponent);
+    constexpr int digits = 53;
+    int exponent = 0;
+    const double whole = std::ldexp(std::frexp(query.x[i], &exponent), digits);
+    if (whole == 0) continue;
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(std::abs(whole)));
+    scale[i % 3] = std::max(scale[i % 3], digits - exponent - zeros);
   }
   return scale;
 }

@@ -39,9 +39,9 @@ struct NamedCounts {
   std::string_view
       json_key;  ///< key of an object with an entry for each name; "" if the entries are in the owner's
                  ///< object
-  std::string_view csv_prefix = "";  ///< of the columns PREFIX_NAME in statistics.csv, where Counts are shown
-  std::size_t first = 0;             ///< index of the first entry that is counted and shown
-  bool shows_zeros = false;          ///< whether report.json shows zero entries
+  std::string_view csv_prefix{};  ///< of the columns PREFIX_NAME in statistics.csv, where Counts are shown
+  std::size_t first = 0;          ///< index of the first entry that is counted and shown
+  bool shows_zeros = false;       ///< whether report.json shows zero entries
 };
 
 /// Calls `use` with each declaration of `Owner`, in the order in which files show them.
