@@ -21,18 +21,20 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// A program of the system (seccomp(2)) that judges each system call; a forbidden one fails with EPERM. Every rule
+/// The machine whose system calls this program makes; 0 if the filter does not know it.
+#if defined(__x86_64__)
+constexpr unsigned machine = AUDIT_ARCH_X86_64;
+#elif defined(__aarch64__)
+constexpr unsigned machine = AUDIT_ARCH_AARCH64;
+#else
+constexpr unsigned machine = 0;
+#endif
+
+/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden one fails with EPERM. Every rule
 /// begins and ends with the number of the call in the accumulator.
 class Filter {
  public:
   Filter() {
-#if defined(__x86_64__)
-    constexpr unsigned machine = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-    constexpr unsigned machine = AUDIT_ARCH_AARCH64;
-#else
-    constexpr unsigned machine = 0;
-#endif
     load(offsetof(seccomp_data, arch));
     jump(BPF_JEQ, machine, 1, 0);
     refuse();
@@ -44,31 +46,32 @@ class Filter {
 #endif
   }
 
-  void forbid(unsigned call) {
-    jump(BPF_JEQ, call, 0, 1);
+  void forbid(int call) {
+    jump_if_equal(call, 0, 1);
     refuse();
   }
 
   /// Forbids a call with a value of an argument.
-  void forbid(unsigned call, unsigned argument, unsigned value) {
-    jump(BPF_JEQ, call, 0, 4);
+  void forbid(int call, unsigned argument, int value) {
+    jump_if_equal(call, 0, 4);
     load_argument(argument);
-    jump(BPF_JEQ, value, 0, 1);
+    jump_if_equal(value, 0, 1);
     refuse();
     load(offsetof(seccomp_data, nr));
   }
 
   /// Forbids a call unless its first argument has one of two values.
-  void limit(unsigned call, unsigned value, unsigned other) {
-    jump(BPF_JEQ, call, 0, 5);
+  void limit(int call, int value, int other) {
+    jump_if_equal(call, 0, 5);
     load_argument(0);
-    jump(BPF_JEQ, value, 2, 0);
-    jump(BPF_JEQ, other, 1, 0);
+    jump_if_equal(value, 2, 0);
+    jump_if_equal(other, 1, 0);
     refuse();
     load(offsetof(seccomp_data, nr));
   }
 
   void apply() {
+    if (machine == 0) return;
     code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
     const sock_fprog program{static_cast<unsigned short>(code_.size()), code_.data()};
     prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
@@ -82,6 +85,9 @@ class Filter {
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
+  }
+  void jump_if_equal(int value, unsigned char if_true, unsigned char if_false) {
+    jump(BPF_JEQ, static_cast<unsigned>(value), if_true, if_false);
   }
   void refuse() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)); }
 
@@ -108,18 +114,17 @@ void drop_privileges() {
 }
 
 void confine_signals() {
-  const auto self = static_cast<unsigned>(getpid());
+  const pid_t self = getpid();
   Filter filter;
-  for (const unsigned call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill,
-                              SYS_pidfd_open, SYS_pidfd_getfd, SYS_pidfd_send_signal})
+  for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
+                         SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
   // 0 is the own process group, or the own process.
-  for (const unsigned call :
-       {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64})
+  for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64})
     filter.limit(call, self, 0);
   // The owner of a file gets signals of one's choice.
-  for (const unsigned command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
-  for (const unsigned command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
+  for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
+  for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
   filter.apply();
 }
 
