@@ -1,70 +1,29 @@
 // Whatever a plug-in does to nearmiss, each query gets an answer or a fault, and nothing of the plug-in stays.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "ccd/error.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/signatures.hpp"
-#include "tests/queries.hpp"
+#include "tests/fuzz/copied_plugin.hpp"
 
 namespace nearmiss {
 namespace {
 
+using testing::answers_of;
+using testing::chosen;
+using testing::CopiedPlugin;
+using testing::plugin;
+using testing::queries;
+
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
-
-/// A hundred queries; a plug-in intrudes at number 40.
-constexpr std::size_t chosen = 40;
-std::vector<Query> queries() {
-  std::vector<Query> some(100, testing::falling_vertex(0.25, 0.25, 1, -1));
-  some[chosen].x[0] = 0.95;
-  return some;
-}
-
-std::vector<Verdict> answers_of(const Subject& subject, const std::vector<Query>& asked) {
-  std::vector<Verdict> verdicts(asked.size());
-  subject.decide(asked, verdicts);
-  return verdicts;
-}
-
-/// A copy of a plug-in, by whose path its processes are known.
-class CopiedPlugin {
- public:
-  explicit CopiedPlugin(const std::string& name) {
-    std::string folder = std::filesystem::temp_directory_path() / "nearmiss-XXXXXX";
-    path_ = std::filesystem::path(mkdtemp(folder.data())) / (name + ".so");
-    std::filesystem::copy(plugin(name), path_);
-  }
-  CopiedPlugin(const CopiedPlugin&) = delete;
-  CopiedPlugin& operator=(const CopiedPlugin&) = delete;
-  ~CopiedPlugin() { std::filesystem::remove_all(path_.parent_path()); }
-
-  [[nodiscard]] std::string path() const { return path_; }
-
-  /// The number of processes with this path among their arguments.
-  [[nodiscard]] int processes() const {
-    int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      std::ifstream file(entry.path() / "cmdline", std::ios::binary);
-      const std::string arguments(std::istreambuf_iterator<char>(file), {});
-      count += arguments.find(path_) != std::string::npos ? 1 : 0;
-    }
-    return count;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 struct Intrusion {
   std::string name;

@@ -53,6 +53,11 @@ class IsolatedPlugin final : public BatchSubject {
         claims_bound_(first->claims_bound()) {
     idle_.push_back(std::move(first));
   }
+  IsolatedPlugin(const IsolatedPlugin&) = delete;
+  IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
+  ~IsolatedPlugin() override {
+    for (const auto& worker : idle_) worker->dismiss();  // so that all end at the same time
+  }
 
   using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {

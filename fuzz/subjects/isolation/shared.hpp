@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 
 /// File descriptors with which a worker starts.
 inline constexpr int reply_socket = 3;   ///< a `Call` requests a batch; its number is the reply
-inline constexpr int status_socket = 4;  ///< of the supervisor: a `Status` for each change
+inline constexpr int status_socket = 4;  ///< a `Status` for each change
 inline constexpr int questions_memory = 5;
 inline constexpr int answers_memory = 6;
 
@@ -19,6 +19,7 @@ inline constexpr std::size_t batch_size = 2048;
 
 /// What a worker does with the queries of a batch.
 enum class Request : std::uint8_t {
+  load,  ///< loads the plug-in; comes first
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
   time_each,     ///< measures the time of each query
@@ -31,11 +32,12 @@ struct Call {
   Request request;
 };
 
-/// A message from the supervisor: the worker has started, or has ended.
+/// A message about the plug-in's process. The first one comes from that process before it loads the plug-in, and its
+/// credentials (unix(7)) name the process; the other one comes from the supervisor when the process has ended.
 struct Status {
-  std::int32_t process;  ///< of the plug-in
-  std::int32_t code;     ///< si_code when it has ended, else 0
-  std::int32_t status;   ///< si_status
+  std::int32_t code;             ///< si_code when it has ended, else 0
+  std::int32_t status;           ///< si_status
+  std::int32_t is_in_namespace;  ///< in the first message: 1 if the process is in a PID namespace of its own
 };
 
 /// Written by nearmiss. The worker can only read it.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 
@@ -10,11 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <ctime>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,64 +22,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-/// The path of nearmiss-worker: beside this program, or else where it was built.
-std::string worker_executable() {
-  std::error_code unknown;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const auto beside = self.parent_path() / "nearmiss-worker";
-  return std::filesystem::exists(beside, unknown) ? beside.string() : NEARMISS_WORKER;
-}
-
-struct SocketPair {
-  Descriptor ours, theirs;
-
-  SocketPair() {
-    std::array<int, 2> sockets{};
-    check(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
-    ours = Descriptor(sockets[0]);
-    theirs = Descriptor(sockets[1]);
-  }
-};
-
-/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts.
-class Spawn {
- public:
-  Spawn() {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID);
-  }
-  Spawn(const Spawn&) = delete;
-  Spawn& operator=(const Spawn&) = delete;
-  ~Spawn() {
-    posix_spawnattr_destroy(&attributes_);
-    posix_spawn_file_actions_destroy(&actions_);
-  }
-
-  void pass(int descriptor, int number) {
-    // A number above those that are passed, so that none overwrites another one.
-    constexpr int above = 16;
-    passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
-    check(passed_.back().number() >= 0, "descriptor");
-    posix_spawn_file_actions_adddup2(&actions_, passed_.back().number(), number);
-  }
-
-  pid_t run(const std::string& program, std::vector<std::string> arguments) {
-    std::vector<char*> words;
-    for (std::string& each : arguments) words.push_back(each.data());
-    words.push_back(nullptr);
-    pid_t process = -1;
-    errno = posix_spawn(&process, program.c_str(), &actions_, &attributes_, words.data(), environ);
-    check(errno == 0, program.c_str());
-    return process;
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-  std::vector<Descriptor> passed_;
-};
 
 /// Text that the worker wrote.
 template <std::size_t n>
@@ -109,18 +47,6 @@ double calls_per_query(Request request) {
     default:
       return 1;
   }
-}
-
-/// Waits until there is something to read. A signal to nearmiss does not end the wait.
-bool is_ready(int file, milliseconds time) {
-  const auto until = steady_clock::now() + time;
-  pollfd wanted{file, POLLIN, 0};
-  int ready = poll(&wanted, 1, static_cast<int>(time.count()));
-  while (ready < 0 && errno == EINTR) {
-    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
-    ready = poll(&wanted, 1, static_cast<int>(std::max(left, milliseconds(0)).count()));
-  }
-  return ready > 0;
 }
 
 }  // namespace
@@ -155,41 +81,15 @@ WorkerProcess::WorkerProcess(const PluginFile& file, const PluginLimits& limits)
   file.expect_unchanged();  // otherwise it might have loaded other bytes
 }
 
-WorkerProcess::~WorkerProcess() {
-  if (supervisor_ <= 0) return;
-  status_.close();  // the supervisor then ends the process, what that started, and itself
-  constexpr int tries = 2000;
-  for (int i = 0; i < tries; ++i) {
-    if (waitpid(supervisor_, nullptr, WNOHANG) != 0) return;
-    poll(nullptr, 0, 1);
-  }
-  kill(supervisor_, SIGKILL);
-  if (process_.process > 0) kill(process_.process, SIGKILL);
-  waitpid(supervisor_, nullptr, 0);
-}
-
 void WorkerProcess::start(const std::string& path) {
   SocketPair replies;
-  SocketPair status;
-  Spawn spawn;
-  spawn.pass(replies.theirs.number(), reply_socket);
-  spawn.pass(status.theirs.number(), status_socket);
-  spawn.pass(questions_.file(), questions_memory);
-  spawn.pass(answers_.file(), answers_memory);
   replies_ = std::move(replies.ours);
-  status_ = std::move(status.ours);
-  const std::string program = worker_executable();
-  supervisor_ = spawn.run(program, {"nearmiss-worker", path, std::to_string(limits_.bytes)});
-  replies.theirs.close();
-  status.theirs.close();
-  // The first message names the process.
-  constexpr milliseconds patience(60'000);
-  const bool started = is_ready(status_.number(), patience) &&
-                       recv(status_.number(), &process_, sizeof process_, MSG_DONTWAIT) == sizeof process_;
-  if (!started) throw Error(fmt::format("no worker process: {} does not start a process", program));
+  supervisor_.start({path, std::to_string(limits_.bytes), limits_.own_namespace ? "1" : "0"},
+                    {replies.theirs.number(), questions_.file(), answers_.file()});
 }
 
 void WorkerProcess::load(const std::string& path) {
+  ask({0, Request::load});
   const End end = wait(0, limits_.loading, limits_.loading);
   if (end == End::query_late || end == End::call_late)
     throw Error(
@@ -217,8 +117,7 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   questions_->last = last;
   answers_->current = first;
   const Call call{++call_, request};
-  // If the worker is dead or does not read, no reply comes.
-  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
+  ask(call);
   const Duration of_queries = limits_.time * calls_per_query(request);
   End end = wait(call.number, limits_.time, last - first == 1 ? of_queries : call_limit * of_queries);
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
@@ -232,6 +131,11 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   return failure(end, query);
 }
 
+void WorkerProcess::ask(const Call& call) {
+  // If the worker is dead or does not read, no reply comes.
+  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
+}
+
 WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
   if (answers_->memory_refused != 0 && end != End::broken) return {query, Fault::memory};
   switch (end) {
@@ -242,8 +146,8 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
     case End::dead: {
       if (std::string exception = text(answers_->exception); !exception.empty())
         return {.query = query, .fault = Fault::exception, .exception = std::move(exception)};
-      const bool exited = process_.code == CLD_EXITED;
-      return {query, Fault::crash, exited ? -process_.status : process_.status};
+      const bool exited = ended_.code == CLD_EXITED;
+      return {query, Fault::crash, exited ? -ended_.status : ended_.status};
     }
     default:
       return {query, Fault::protocol};
@@ -252,11 +156,11 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
 
 WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Duration of_call) {
   constexpr int look_again_ms = 10;
-  const Watch watch(process_.process);
+  const Watch watch(supervisor_.process());
   std::uint32_t calls = answers_->calls;
   Watch query_watch = watch;
   while (true) {
-    std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {status_.number(), POLLIN, 0}}};
+    std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
     if (limits_.stop != nullptr) limits_.stop->check();
     elapsed_ = watch.elapsed();
@@ -264,7 +168,7 @@ WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Du
       if (const auto end = end_of(call)) return *end;
     if (const std::uint32_t now = answers_->calls; now != calls) {
       calls = now;
-      query_watch = Watch(process_.process);
+      query_watch = Watch(supervisor_.process());
     } else if (query_watch.elapsed().exceeds(of_query)) {
       return End::query_late;
     }
@@ -298,11 +202,11 @@ bool WorkerProcess::ends_within(milliseconds time) {
   const auto until = steady_clock::now() + time;
   while (true) {
     const auto left = std::chrono::duration_cast<milliseconds>(until - steady_clock::now());
-    if (!is_ready(status_.number(), std::max(left, milliseconds(0)))) return false;
+    if (!is_ready(supervisor_.socket(), std::max(left, milliseconds(0)))) return false;
     Status told{};
-    if (recv(status_.number(), &told, sizeof told, MSG_DONTWAIT) != sizeof told)
+    if (recv(supervisor_.socket(), &told, sizeof told, MSG_DONTWAIT) != sizeof told)
       return true;  // it ended, too
-    process_ = told;
+    ended_ = told;
     if (told.code != 0) return true;
   }
 }

@@ -1,8 +1,6 @@
 // One worker process, as nearmiss sees it. It trusts nothing that the worker writes.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "fuzz/subjects/isolation/handles.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
+#include "fuzz/subjects/isolation/supervisor.hpp"
 
 namespace nearmiss::isolation {
 
@@ -27,6 +26,8 @@ struct PluginLimits {
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
+  /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
+  bool own_namespace = true;
 };
 
 /// A call with several queries may take this many times the limit of a query.
@@ -48,7 +49,9 @@ class WorkerProcess {
   WorkerProcess(const PluginFile& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
-  ~WorkerProcess();
+
+  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first.
+  void dismiss() { supervisor_.dismiss(); }
 
   /// The plug-in's own name, printable.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -86,6 +89,7 @@ class WorkerProcess {
 
   void start(const std::string& path);
   void load(const std::string& path);
+  void ask(const Call& call);
   /// Waits for the reply to a call.
   End wait(std::uint64_t call, Duration of_query, Duration of_call);
   /// How the call ended, if a message says so.
@@ -99,9 +103,9 @@ class WorkerProcess {
   PluginLimits limits_;
   SharedMemory<SharedQuestions> questions_{false};
   SharedMemory<SharedAnswers> answers_{true};
-  Descriptor replies_, status_;
-  pid_t supervisor_ = -1;
-  Status process_{};  ///< the plug-in's process, and how it ended
+  Descriptor replies_;
+  Supervisor supervisor_;
+  Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
   Elapsed elapsed_;  ///< of the last call
   std::string name_, version_;

@@ -140,6 +140,8 @@ void answer(const Plugin& plugin, const Call& call) {
     for (std::uint32_t i = first; i < end; ++i) ask(asked, call.number, i);
   };
   switch (call.request) {
+    case Request::load:
+      break;  // it is loaded
     case Request::decide:
       ask_all(plugin, last);
       break;
@@ -209,10 +211,12 @@ int answer_requests(const char* path, std::uint64_t bytes) {
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE);
   if (questions == nullptr || answers == nullptr) return 1;
   prepare_for_faults();
+  Call call{};
+  if (!receive(call)) return 0;
   const std::unique_ptr<Plugin> plugin = load(path);
   limit_memory(bytes);
-  reply(0);
-  for (Call call{}; plugin && receive(call);) {
+  reply(call.number);
+  while (plugin && receive(call)) {
     answer(*plugin, call);
     reply(call.number);
   }

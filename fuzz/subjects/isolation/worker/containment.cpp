@@ -2,7 +2,6 @@
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <sched.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -49,11 +48,6 @@ void close_files() {
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   constexpr int first_other = std::max({reply_socket, status_socket, questions_memory, answers_memory}) + 1;
   closefrom(first_other);
-}
-
-void leave_network() {
-  // Root keeps its rights to files only in its own user namespace, so the other one is the second choice.
-  if (unshare(CLONE_NEWNET) != 0) static_cast<void>(unshare(CLONE_NEWUSER | CLONE_NEWNET));
 }
 
 void limit_processes(unsigned long more) {

@@ -1,6 +1,10 @@
-// nearmiss-worker PLUGIN BYTES: runs a plug-in in a process of its own, under a supervisor that never runs the
-// plug-in's code. The supervisor tells nearmiss of the process and how it ended. When the process or nearmiss ends,
-// it ends all that the plug-in has started, and itself.
+// nearmiss-worker PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that never runs
+// the plug-in's code. The supervisor tells nearmiss how the process ended. When the process or nearmiss ends, it
+// ends all that the plug-in has started, and itself.
+//
+// If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no other process
+// can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also waits for the end of nearmiss,
+// and kills the supervisor. The system then ends everything in the namespace.
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
@@ -11,10 +15,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
+#include <optional>
 
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/worker/answering.hpp"
 #include "fuzz/subjects/isolation/worker/containment.hpp"
+#include "fuzz/subjects/isolation/worker/namespaces.hpp"
+#include "fuzz/subjects/isolation/worker/privileges.hpp"
 #include "fuzz/subjects/isolation/worker/process_tree.hpp"
 
 namespace {
@@ -23,59 +31,122 @@ using namespace nearmiss::isolation;
 
 constexpr unsigned long most_processes = 256;
 
+struct Assignment {
+  const char* plugin;
+  std::uint64_t bytes;
+  bool own_namespace;
+};
+
 void tell(const Status& status) {
   static_cast<void>(send(status_socket, &status, sizeof status, MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
-/// How the process ended, once it has.
-bool has_ended(pid_t process, siginfo_t& how) {
-  how.si_pid = 0;
-  return waitid(P_PID, static_cast<id_t>(process), &how, WEXITED | WNOHANG) == 0 && how.si_pid == process;
+void close_channel() {
+  for (const int each : {reply_socket, questions_memory, answers_memory}) close(each);
 }
 
-/// Waits until the process has ended, or nearmiss has closed the status socket.
-void supervise(pid_t process, int signals) {
-  while (true) {
+sigset_t end_of_child() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGCHLD);
+  return signals;
+}
+
+/// Waits for all children that have ended, which may be orphans. Says how one of them ended, if it did.
+std::optional<siginfo_t> end_of(pid_t process) {
+  std::optional<siginfo_t> end;
+  siginfo_t how{};
+  while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG) == 0 && how.si_pid != 0) {
+    if (how.si_pid == process) end = how;
+    how.si_pid = 0;
+  }
+  return end;
+}
+
+/// Waits until a child has ended, and says how; or until nearmiss has closed the status socket.
+std::optional<siginfo_t> watch(pid_t child) {
+  const sigset_t wanted = end_of_child();
+  const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
+  while (signals >= 0) {
     pollfd events[2]{{status_socket, 0, 0}, {signals, POLLIN, 0}};
-    if (poll(events, 2, -1) < 0 && errno != EINTR) return;
-    if ((events[0].revents & (POLLHUP | POLLERR)) != 0) return;
+    if (poll(events, 2, -1) < 0 && errno != EINTR) break;
+    if ((events[0].revents & (POLLHUP | POLLERR)) != 0) break;
     if ((events[1].revents & POLLIN) == 0) continue;
     signalfd_siginfo signal{};
-    static_cast<void>(read(signals, &signal, sizeof signal));
-    if (siginfo_t how{}; has_ended(process, how)) return tell({process, how.si_code, how.si_status});
+    static_cast<void>(!read(signals, &signal, sizeof signal));
+    if (const auto end = end_of(child)) return end;
   }
+  return std::nullopt;
 }
 
-int run(const char* plugin, std::uint64_t bytes) {
-  close_files();
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);
-  leave_network();
-  limit_processes(most_processes);
-  sigset_t child;
-  sigemptyset(&child);
-  sigaddset(&child, SIGCHLD);
-  sigprocmask(SIG_BLOCK, &child, nullptr);
-  const int signals = signalfd(-1, &child, SFD_CLOEXEC);
+/// The plug-in's process.
+int run_plugin(const Assignment& work) {
+  setsid();  // a signal to its group reaches no process in front of it
+  const sigset_t blocked = end_of_child();
+  sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
+  tell({.code = 0, .status = 0, .is_in_namespace = work.own_namespace ? 1 : 0});
+  close(status_socket);
+  drop_privileges();
+  if (!work.own_namespace) confine_signals();
+  prctl(PR_SET_DUMPABLE, 1);
+  return answer_requests(work.plugin, work.bytes);
+}
+
+/// The supervisor. Returns in the plug-in's process only.
+int supervise(const Assignment& work) {
+  // Nobody without more privileges may trace it, or take its descriptors.
+  prctl(PR_SET_DUMPABLE, 0);
   const pid_t supervisor = getpid();
   const pid_t process = fork();
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != supervisor) return 1;  // it ended before that call
-    close(signals);
-    close(status_socket);
-    sigprocmask(SIG_UNBLOCK, &child, nullptr);
-    return answer_requests(plugin, bytes);
+    if (getppid() != supervisor) _exit(1);  // it ended before that call
+    return run_plugin(work);
   }
-  for (const int other : {reply_socket, questions_memory, answers_memory}) close(other);
-  if (process < 0 || signals < 0) return 1;
-  tell({process, 0, 0});
-  supervise(process, signals);
-  kill(process, SIGKILL);
-  end_descendants();
-  return 0;
+  close_channel();
+  if (process < 0) _exit(1);
+  const auto end = watch(process);
+  if (end) tell({.code = end->si_code, .status = end->si_status, .is_in_namespace = 0});
+  if (!work.own_namespace) {
+    if (!end) kill(process, SIGKILL);
+    end_descendants();
+  }
+  _exit(0);
+}
+
+/// The guard, which starts the supervisor.
+int guard(const Assignment& work) {
+  const pid_t supervisor = fork();
+  if (supervisor == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    setsid();
+    mount_own_proc();
+    return supervise(work);
+  }
+  close_channel();
+  if (supervisor < 0) _exit(1);
+  if (!watch(supervisor)) {
+    kill(supervisor, SIGKILL);
+    waitpid(supervisor, nullptr, 0);  // returns when the namespace is empty
+  }
+  _exit(0);
+}
+
+int run(Assignment work) {
+  close_files();
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  limit_processes(most_processes);
+  const sigset_t blocked = end_of_child();
+  sigprocmask(SIG_BLOCK, &blocked, nullptr);
+  work.own_namespace = work.own_namespace && enter_namespaces();
+  if (work.own_namespace) return guard(work);
+  leave_network();
+  return supervise(work);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return argc == 3 ? run(argv[1], std::strtoull(argv[2], nullptr, 10)) : 2; }
+int main(int argc, char** argv) {
+  return argc == 4 ? run({argv[1], std::strtoull(argv[2], nullptr, 10), std::strcmp(argv[3], "1") == 0}) : 2;
+}

@@ -1,0 +1,148 @@
+#include "fuzz/subjects/isolation/supervisor.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "fuzz/subjects/isolation/shared.hpp"
+
+namespace nearmiss::isolation {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+/// The path of nearmiss-worker: beside this program, or else where it was built.
+std::string worker_executable() {
+  std::error_code unknown;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const auto beside = self.parent_path() / "nearmiss-worker";
+  return std::filesystem::exists(beside, unknown) ? beside.string() : NEARMISS_WORKER;
+}
+
+/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts.
+class Spawn {
+ public:
+  Spawn() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID);
+  }
+  Spawn(const Spawn&) = delete;
+  Spawn& operator=(const Spawn&) = delete;
+  ~Spawn() {
+    posix_spawnattr_destroy(&attributes_);
+    posix_spawn_file_actions_destroy(&actions_);
+  }
+
+  void pass(int descriptor, int number) {
+    // A number above those that are passed, so that none overwrites another one.
+    constexpr int above = 16;
+    passed_.emplace_back(fcntl(descriptor, F_DUPFD_CLOEXEC, above));
+    check(passed_.back().number() >= 0, "descriptor");
+    posix_spawn_file_actions_adddup2(&actions_, passed_.back().number(), number);
+  }
+
+  pid_t run(const std::string& program, std::vector<std::string> arguments) {
+    std::vector<char*> words;
+    for (std::string& each : arguments) words.push_back(each.data());
+    words.push_back(nullptr);
+    pid_t process = -1;
+    errno = posix_spawn(&process, program.c_str(), &actions_, &attributes_, words.data(), environ);
+    check(errno == 0, program.c_str());
+    return process;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+  std::vector<Descriptor> passed_;
+};
+
+}  // namespace
+
+SocketPair::SocketPair() {
+  std::array<int, 2> sockets{};
+  check(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets.data()) == 0, "socket");
+  ours = Descriptor(sockets[0]);
+  theirs = Descriptor(sockets[1]);
+}
+
+bool is_ready(int file, milliseconds time) {
+  const auto until = steady_clock::now() + time;
+  pollfd wanted{file, POLLIN, 0};
+  int ready = poll(&wanted, 1, static_cast<int>(time.count()));
+  while (ready < 0 && errno == EINTR) {
+    const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
+    ready = poll(&wanted, 1, static_cast<int>(std::max(left, milliseconds(0)).count()));
+  }
+  return ready > 0;
+}
+
+void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
+  SocketPair status;
+  const int wanted = 1;
+  check(setsockopt(status.ours.number(), SOL_SOCKET, SO_PASSCRED, &wanted, sizeof wanted) == 0, "socket");
+  Spawn spawn;
+  spawn.pass(files.replies, reply_socket);
+  spawn.pass(status.theirs.number(), status_socket);
+  spawn.pass(files.questions, questions_memory);
+  spawn.pass(files.answers, answers_memory);
+  status_ = std::move(status.ours);
+  const std::string program = worker_executable();
+  arguments.insert(arguments.begin(), "nearmiss-worker");
+  worker_ = spawn.run(program, std::move(arguments));
+  status.theirs.close();
+  if (!learns_process()) throw Error(fmt::format("no worker process: {} does not start a process", program));
+}
+
+bool Supervisor::learns_process() {
+  constexpr milliseconds patience(60'000);
+  if (!is_ready(status_.number(), patience)) return false;
+  Status first{};
+  iovec content{&first, sizeof first};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(ucred))> control{};
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  if (recvmsg(status_.number(), &message, MSG_DONTWAIT) != sizeof first) return false;
+  const cmsghdr* const attached = CMSG_FIRSTHDR(&message);
+  if (attached == nullptr || attached->cmsg_type != SCM_CREDENTIALS) return false;
+  ucred sender{};  // with the number of the process in this process's namespace
+  std::memcpy(&sender, CMSG_DATA(attached), sizeof sender);
+  process_ = sender.pid;
+  // Without a namespace, the plug-in could otherwise write to the memory of nearmiss through /proc.
+  if (first.is_in_namespace == 0) prctl(PR_SET_DUMPABLE, 0);
+  return process_ > 0;
+}
+
+Supervisor::~Supervisor() {
+  if (worker_ <= 0) return;
+  dismiss();
+  constexpr int tries = 2000;
+  for (int i = 0; i < tries; ++i) {
+    if (waitpid(worker_, nullptr, WNOHANG) != 0) return;
+    kill(worker_, SIGCONT);  // a plug-in without a namespace may have stopped it
+    poll(nullptr, 0, 1);
+  }
+  kill(worker_, SIGKILL);
+  waitpid(worker_, nullptr, 0);
+}
+
+}  // namespace nearmiss::isolation

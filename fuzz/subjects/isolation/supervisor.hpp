@@ -1,0 +1,57 @@
+// The processes in front of a plug-in's process, as nearmiss sees them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "fuzz/subjects/isolation/handles.hpp"
+
+namespace nearmiss::isolation {
+
+/// Two connected sockets.
+struct SocketPair {
+  Descriptor ours, theirs;
+
+  /// Throws Error.
+  SocketPair();
+};
+
+/// Waits until there is something to read. A signal to nearmiss does not end the wait.
+bool is_ready(int file, std::chrono::milliseconds time);
+
+/// Starts nearmiss-worker, and ends it with all that it started.
+class Supervisor {
+ public:
+  /// Descriptors that the worker gets.
+  struct Files {
+    int replies, questions, answers;
+  };
+
+  Supervisor() = default;
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+  ~Supervisor();
+
+  /// Returns when there is a process for the plug-in, which waits to be asked to load it. Throws Error.
+  void start(std::vector<std::string> arguments, const Files& files);
+  /// Begins to end all processes. The destructor waits until they have ended.
+  void dismiss() { status_.close(); }
+
+  /// The plug-in's process.
+  [[nodiscard]] pid_t process() const { return process_; }
+  /// Where each `Status` comes after the first one.
+  [[nodiscard]] int socket() const { return status_.number(); }
+
+ private:
+  /// Receives the first message.
+  [[nodiscard]] bool learns_process();
+
+  Descriptor status_;
+  pid_t worker_ = -1;  ///< the child of nearmiss
+  pid_t process_ = -1;
+};
+
+}  // namespace nearmiss::isolation

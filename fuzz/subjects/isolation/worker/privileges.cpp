@@ -1,0 +1,131 @@
+#include "fuzz/subjects/isolation/worker/privileges.hpp"
+
+#include <asm/ioctls.h>
+#include <fcntl.h>
+#include <linux/audit.h>
+#include <linux/capability.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <linux/sockios.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <initializer_list>
+#include <vector>
+
+namespace nearmiss::isolation {
+
+namespace {
+
+/// The machine whose system calls this program makes; 0 if the filter does not know it.
+#if defined(__x86_64__)
+constexpr unsigned machine = AUDIT_ARCH_X86_64;
+#elif defined(__aarch64__)
+constexpr unsigned machine = AUDIT_ARCH_AARCH64;
+#else
+constexpr unsigned machine = 0;
+#endif
+
+/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden one fails with EPERM. Every rule
+/// begins and ends with the number of the call in the accumulator.
+class Filter {
+ public:
+  Filter() {
+    load(offsetof(seccomp_data, arch));
+    jump(BPF_JEQ, machine, 1, 0);
+    refuse();
+    load(offsetof(seccomp_data, nr));
+#if defined(__x86_64__)
+    constexpr unsigned first_of_x32 = 0x40000000;
+    jump(BPF_JGE, first_of_x32, 0, 1);
+    refuse();
+#endif
+  }
+
+  void forbid(int call) {
+    jump_if_equal(call, 0, 1);
+    refuse();
+  }
+
+  /// Forbids a call with a value of an argument.
+  void forbid(int call, unsigned argument, int value) {
+    jump_if_equal(call, 0, 4);
+    load_argument(argument);
+    jump_if_equal(value, 0, 1);
+    refuse();
+    load(offsetof(seccomp_data, nr));
+  }
+
+  /// Forbids a call unless its first argument has one of two values.
+  void limit(int call, int value, int other) {
+    jump_if_equal(call, 0, 5);
+    load_argument(0);
+    jump_if_equal(value, 2, 0);
+    jump_if_equal(other, 1, 0);
+    refuse();
+    load(offsetof(seccomp_data, nr));
+  }
+
+  void apply() {
+    if (machine == 0) return;
+    code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
+    const sock_fprog program{static_cast<unsigned short>(code_.size()), code_.data()};
+    prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+  }
+
+ private:
+  void load(std::size_t offset) {
+    code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
+  }
+  /// The lower half, since the arguments that are judged have 32 bits; both machines put it first.
+  void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
+  void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
+    code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
+  }
+  void jump_if_equal(int value, unsigned char if_true, unsigned char if_false) {
+    jump(BPF_JEQ, static_cast<unsigned>(value), if_true, if_false);
+  }
+  void refuse() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM)); }
+
+  std::vector<sock_filter> code_;
+};
+
+}  // namespace
+
+void drop_privileges() {
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // programs that it starts get none, either
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+  if (syscall(SYS_capget, &header, sets.data()) != 0) return;
+  unsigned of_files = 0;
+  for (const int each : {CAP_CHOWN, CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH, CAP_FOWNER, CAP_FSETID})
+    of_files |= CAP_TO_MASK(each);
+  for (auto& set : sets) {
+    set.effective &= of_files;
+    set.permitted &= of_files;
+    set.inheritable = 0;
+    of_files = 0;  // the other half of the sets has none of them
+  }
+  syscall(SYS_capset, &header, sets.data());
+}
+
+void confine_signals() {
+  const pid_t self = getpid();
+  Filter filter;
+  for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
+                         SYS_pidfd_getfd, SYS_pidfd_send_signal})
+    filter.forbid(call);
+  // 0 is the own process group, or the own process.
+  for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64})
+    filter.limit(call, self, 0);
+  // The owner of a file gets signals of one's choice.
+  for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
+  for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
+  filter.apply();
+}
+
+}  // namespace nearmiss::isolation

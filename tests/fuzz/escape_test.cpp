@@ -1,0 +1,157 @@
+// A plug-in that acts on the processes around it reaches none of them, with a PID namespace of its own and without.
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "fuzz/subjects/isolation/isolated_plugin.hpp"
+#include "tests/fuzz/copied_plugin.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::answers_of;
+using testing::chosen;
+using testing::CopiedPlugin;
+using testing::plugin;
+using testing::queries;
+
+/// Whether the system lets this user have a PID namespace.
+bool grants_namespaces() {
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr int own = CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWNET;
+    _exit(unshare(own) == 0 || unshare(CLONE_NEWUSER | own) == 0 ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+/// The parameter says whether the plug-in may have a namespace.
+class Containment : public ::testing::TestWithParam<bool> {
+ protected:
+  Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
+
+  [[nodiscard]] static isolation::PluginLimits limits() { return {.own_namespace = GetParam()}; }
+  /// Whether a plug-in was refused what it tried.
+  [[nodiscard]] static bool refuses(const std::string& name) {
+    const auto subject = make_isolated_plugin(plugin(name), limits());
+    const Verdict verdict = answers_of(*subject, queries())[chosen];
+    EXPECT_EQ(verdict.fault, Fault::none);
+    return verdict.hit;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Containment, ::testing::Bool(), [](const auto& each) {
+  return std::string(each.param ? "InANamespace" : "WithoutANamespace");
+});
+
+TEST_P(Containment, EndsAllProcesses) {
+  for (const char* name : {"escaping_kill", "escaping_stop"}) {
+    const CopiedPlugin copied(name);
+    {
+      const auto subject = make_isolated_plugin(copied.path(), limits());
+      for (const Verdict& verdict : answers_of(*subject, queries())) EXPECT_TRUE(verdict.hit);
+      EXPECT_GT(copied.processes(), 0);
+    }
+    EXPECT_EQ(copied.processes(), 0) << name;
+  }
+}
+
+TEST_P(Containment, APluginEndsItsOwnGroupOnly) {
+  const CopiedPlugin copied("escaping_kill_group");
+  {
+    const auto subject = make_isolated_plugin(copied.path(), limits());
+    const auto verdicts = answers_of(*subject, queries());
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+      EXPECT_EQ(verdicts[i].fault, i == chosen ? Fault::crash : Fault::none) << i;
+    EXPECT_EQ(verdicts[chosen].fault_code, SIGKILL);
+  }
+  EXPECT_EQ(copied.processes(), 0);
+}
+
+TEST_P(Containment, EndsAllProcessesOfAPluginThatDoesNotLoad) {
+  for (const char* name : {"escaping_kill_while_loaded", "escaping_stop_while_loaded"}) {
+    const CopiedPlugin copied(name);
+    isolation::PluginLimits brief = limits();
+    brief.loading = std::chrono::milliseconds(20);
+    EXPECT_THROW(make_isolated_plugin(copied.path(), brief), Error);
+    EXPECT_EQ(copied.processes(), 0) << name;
+  }
+}
+
+TEST_P(Containment, EndsAllProcessesWhenThisProcessIsKilled) {
+  for (const char* name : {"escaping_stop", "escaping_trace"}) {
+    const CopiedPlugin copied(name);
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1);
+      setenv("NEARMISS_ADDRESS", "0", 1);
+      const auto subject = make_isolated_plugin(copied.path(), limits());
+      answers_of(*subject, queries());
+      if (write(ready[1], "", 1) == 1)
+        while (true) pause();
+      _exit(1);
+    }
+    close(ready[1]);
+    char byte = 0;
+    EXPECT_EQ(read(ready[0], &byte, 1), 1);
+    close(ready[0]);
+    EXPECT_GT(copied.processes(), 0);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    // They notice it at once, but nobody waits for them. Processes that stay fail the test after a minute.
+    constexpr int tries = 6000;
+    for (int i = 0; i < tries && copied.processes() > 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(copied.processes(), 0) << name;
+  }
+}
+
+std::atomic<int> signals{0};
+
+TEST_P(Containment, NoSignalReachesThisProcess) {
+  signals = 0;
+  const auto before = std::signal(SIGUSR1, [](int) { ++signals; });
+  EXPECT_TRUE(refuses("escaping_signal"));
+  std::signal(SIGUSR1, before);
+  EXPECT_EQ(signals, 0);
+}
+
+TEST_P(Containment, NoProcessCanBeTraced) {
+  static volatile char memory = 0;
+  setenv("NEARMISS_ADDRESS", std::to_string(reinterpret_cast<std::uintptr_t>(&memory)).c_str(), 1);
+  EXPECT_TRUE(refuses("escaping_trace"));
+  EXPECT_EQ(memory, 0);
+}
+
+TEST_P(Containment, APluginHasNoPrivilegesExceptOnFiles) { EXPECT_TRUE(refuses("escaping_privileges")); }
+
+TEST_P(Containment, APluginHasItsOwnNamespaceIfTheSystemGrantsOne) {
+  EXPECT_EQ(refuses("escaping_namespace"), GetParam() && grants_namespaces());
+}
+
+TEST(Dismissal, EndsManyWorkersAtOnce) {
+  const CopiedPlugin copied("escaping_stop");
+  const isolation::PluginFile file(copied.path());
+  std::vector<std::unique_ptr<isolation::WorkerProcess>> workers;
+  for (int i = 0; i < 8; ++i)
+    workers.push_back(std::make_unique<isolation::WorkerProcess>(file, isolation::PluginLimits()));
+  for (const auto& each : workers) each->dismiss();
+  workers.clear();
+  EXPECT_EQ(copied.processes(), 0);
+}
+
+}  // namespace
+}  // namespace nearmiss

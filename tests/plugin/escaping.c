@@ -1,0 +1,112 @@
+/* A subject that reports a query if it may not do what it tries: to act on its supervisor, or on the process that the
+   environment names as NEARMISS_PROCESS. It tries at the first query with x > 0.9, or while it is loaded. */
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include "ccd/nearmiss_subject.h"
+
+static pid_t nearmiss(void) { return atoi(getenv("NEARMISS_PROCESS")); }
+
+/* A process that is no descendant of its supervisor's children any more. */
+static void leave_one_behind(void) {
+  if (fork() != 0) return;
+  setsid();
+  if (fork() != 0) _exit(0);
+  while (1) pause();
+}
+
+#if defined(SIGNAL)
+/* Sends SIGUSR1 in every way that there is. */
+static int attempt(void) {
+  const pid_t victim = nearmiss();
+  siginfo_t how = {0};
+  how.si_code = SI_QUEUE;
+  int sent = kill(victim, SIGUSR1) == 0;
+  sent += syscall(SYS_tkill, victim, SIGUSR1) == 0;
+  sent += syscall(SYS_tgkill, victim, victim, SIGUSR1) == 0;
+  sent += syscall(SYS_rt_sigqueueinfo, victim, SIGUSR1, &how) == 0;
+  sent += syscall(SYS_rt_tgsigqueueinfo, victim, victim, SIGUSR1, &how) == 0;
+  const int process = (int)syscall(SYS_pidfd_open, victim, 0);
+  sent += syscall(SYS_pidfd_send_signal, process, SIGUSR1, NULL, 0) == 0;
+  int ends[2];
+  if (pipe(ends) != 0) return 0;
+  fcntl(ends[0], F_SETSIG, SIGUSR1);
+  sent += fcntl(ends[0], F_SETOWN, victim) == 0;
+  fcntl(ends[0], F_SETFL, O_ASYNC | O_NONBLOCK);
+  if (write(ends[1], "", 1) != 1) return 0;
+  return sent == 0;
+}
+#elif defined(TRACE)
+static int may_trace(pid_t victim) {
+  char path[64];
+  snprintf(path, sizeof path, "/proc/%d/mem", victim);
+  int done = open(path, O_RDWR) >= 0;
+  char* const address = (char*)strtoul(getenv("NEARMISS_ADDRESS"), NULL, 0);
+  char changed = 1;
+  const struct iovec ours = {&changed, 1}, theirs = {address, 1};
+  done += process_vm_writev(victim, &ours, 1, &theirs, 1, 0) == 1;
+  done += syscall(SYS_pidfd_getfd, syscall(SYS_pidfd_open, victim, 0), 1, 0) >= 0;
+  done += ptrace(PTRACE_SEIZE, victim, NULL, NULL) == 0;
+  return done;
+}
+static int attempt(void) { return !may_trace(nearmiss()) && !may_trace(getppid()); }
+#elif defined(PRIVILEGES)
+/* Only the first five, which are those of files, may be left. */
+static int attempt(void) {
+  FILE* const status = fopen("/proc/self/status", "r");
+  char line[256];
+  int fine = 0;
+  unsigned long set = 0;
+  while (fgets(line, sizeof line, status) != NULL) {
+    if (sscanf(line, "CapPrm: %lx", &set) == 1 || sscanf(line, "CapEff: %lx", &set) == 1) fine += set < 32;
+    if (strncmp(line, "NoNewPrivs:\t1", 13) == 0) ++fine;
+  }
+  fclose(status);
+  return fine == 3;
+}
+#elif defined(NAMESPACE)
+static int attempt(void) {
+  return getppid() == 1 && kill(nearmiss(), 0) != 0 && errno == ESRCH && kill(1, SIGKILL) == 0;
+}
+#else
+static int attempt(void) {
+  leave_one_behind();
+  prctl(PR_SET_PDEATHSIG, 0);
+  kill(getppid(), HOW);
+#if defined(GROUP)
+  kill(0, HOW);
+#endif
+  return 1;
+}
+#endif
+
+#if defined(WHILE_LOADED)
+__attribute__((constructor)) static void begin(void) {
+  attempt();
+  while (1) pause();
+}
+#endif
+
+static int answer(const double* x, double* toi) {
+  static int result = -1;
+  *toi = 0.5;
+  if (x[0] <= 0.9) return 1;
+  if (result < 0) result = attempt();
+  return result;
+}
+
+static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "escaping", "1", answer, answer, NULL};
+const nearmiss_subject* nearmiss_get_subject(void) {
+  (void)nearmiss, (void)leave_one_behind;
+  return &subject;
+}
