@@ -66,8 +66,13 @@ std::set<pid_t> stop_descendants() {
 }  // namespace
 
 void end_descendants() {
-  // A child that has ended already only needs to be waited for.
-  while (waitpid(-1, nullptr, WNOHANG) >= 0) {
+  // Children that have ended already only need to be waited for. It takes long to look for the others.
+  const auto any_is_left = [] {
+    pid_t ended = 1;
+    while (ended > 0) ended = waitpid(-1, nullptr, WNOHANG);
+    return ended == 0;
+  };
+  while (any_is_left()) {
     for (const pid_t process : stop_descendants()) kill(process, SIGKILL);
     waitpid(-1, nullptr, 0);
   }
