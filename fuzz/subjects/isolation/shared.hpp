@@ -26,7 +26,7 @@ enum class Request : std::uint8_t {
   bounds,        ///< gives the distance bound of each query
 };
 
-/// A message that requests something. The plug-in cannot know the number beforehand.
+/// A message that requests something. The number tells its answers from those of earlier calls.
 struct Call {
   std::uint64_t number;
   Request request;
