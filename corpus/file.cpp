@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_be_written(const fs::path& file) {
-  return Error(fmt::format("{}: cannot be written", file.string()));
+Error cannot_be_written(const fs::path& file, const std::string& why = "") {
+  return Error(fmt::format("{}: cannot be written{}{}", file.string(), why.empty() ? "" : ": ", why));
 }
 
-void write(const fs::path& file, std::string_view text) {
+bool write(const fs::path& file, std::string_view text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw cannot_be_written(file);
+  return static_cast<bool>(out);
 }
 
 /// Makes a file with a name that nothing else has.
@@ -38,8 +38,7 @@ fs::path new_file_beside(const fs::path& place) {
       close(descriptor);
       return name;
     }
-    if (errno != EEXIST)
-      throw Error(fmt::format("{}: cannot be written: {}", place.string(), std::strerror(errno)));
+    if (errno != EEXIST) throw cannot_be_written(place, std::strerror(errno));
   }
 }
 
@@ -55,23 +54,24 @@ PartFile::~PartFile() {
 void PartFile::put_in_place() {
   std::error_code error;
   fs::rename(path_, place_, error);
-  if (error) throw Error(fmt::format("{}: cannot be written: {}", place_.string(), error.message()));
+  if (error) throw cannot_be_written(place_, error.message());
   path_.clear();
 }
 
 void replace_file(const fs::path& file, std::string_view text) {
   std::error_code error;
   const auto status = fs::symlink_status(file, error);
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    return write(file, text);  // a link, pipe or device is written through, never replaced
-  PartFile part(file);
-  try {
-    write(part.path(), text);
-  } catch (const Error&) {
-    throw cannot_be_written(file);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    // A link, pipe or device is written through, never replaced.
+    if (!write(file, text)) throw cannot_be_written(file);
+    return;
   }
+  PartFile part(file);
+  if (!write(part.path(), text)) throw cannot_be_written(file);
   part.put_in_place();
 }
+
+fs::path true_path(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
 
 void expect_regular_file(const fs::path& file) {
   std::error_code error;

@@ -1,4 +1,4 @@
-// Writes a file whole or not at all.
+// Files: written whole or not at all, known by one path, and regular.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace nearmiss {
 
-/// A new file beside another one, whose place it takes at the end. It is removed if it does not.
+/// A new file beside a place, which it takes when it is complete. Otherwise it is removed.
 class PartFile {
  public:
   /// Makes an empty file. Throws Error.
@@ -28,8 +28,11 @@ class PartFile {
 /// file unchanged. A link or a device (/dev/stdout) is written through. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
-/// Throws Error if a path is something other than a regular file, such as a pipe or a folder. Nothing is said if there
-/// is no such file.
+/// The absolute path of a file without links, whether or not the file exists.
+std::filesystem::path true_path(const std::filesystem::path& path);
+
+/// Throws Error if a path leads to something other than a regular file, such as a pipe or a folder. A path that leads to
+/// nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -27,10 +27,7 @@ void JsonOutput::expect_folder() const {
 
 void JsonOutput::expect_other_file(const std::filesystem::path& file) const {
   if (file_.empty() || file.empty() || is_stdout()) return;
-  const auto whole = [](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
-  };
-  if (whole(file_) == whole(file))
+  if (true_path(file_) == true_path(file))
     throw Error(fmt::format("{}: found the same file for --json and --db, expected two", file.string()));
 }
 

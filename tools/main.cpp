@@ -109,7 +109,7 @@ void print_continuation(const CLI::App& command, int argc, char** argv) {
   std::string again;
   for (int i = 0; i < argc; ++i) again += " " + nearmiss::shell_quoted(argv[i]);
   if (resume->count() == 0) again += " --resume";
-  fmt::print(stderr, "nearmiss: interrupted; to continue:{}\n", again);
+  std::fputs(("nearmiss: interrupted; to continue:" + again + "\n").c_str(), stderr);
 }
 
 int run(int argc, char** argv) {
@@ -163,8 +163,11 @@ int main(int argc, char** argv) {
     return nearmiss::tools::exit_interrupted;
   } catch (const std::filesystem::filesystem_error& error) {
     print_reason(fmt::format("{}: {}", error.path1().string(), error.code().message()));
-  } catch (const std::system_error& error) {  // fmt::print's
-    print_reason(fmt::format("standard output cannot be written: {}", error.code().message()));
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0)  // fmt::print throws, and does not name the stream
+      print_reason(fmt::format("standard output cannot be written: {}", error.code().message()));
+    else
+      print_reason(error.what());
   } catch (const std::bad_alloc&) {
     print_reason("found too little memory");
   } catch (const std::exception& error) {

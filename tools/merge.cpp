@@ -10,7 +10,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// Reads what is intact of several stores as one campaign, and prints what was lost of each.
+/// Reads the intact parts of several stores as one campaign, and prints the rows that were lost.
 Campaign salvage_campaigns(const std::vector<std::filesystem::path>& files) {
   std::vector<Campaign> campaigns;
   std::vector<std::string> names;
@@ -38,7 +38,7 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_option("IN", options->in, "Stores to add up")->required()->type_name("IN.db...");
   command->add_flag(
       "--salvage", options->salvage,
-      "Take what is intact of damaged stores, and say what was lost; nothing can resume the result");
+      "Take the intact part of damaged stores, and say what was lost; nothing can resume the result");
   command->callback([options, &exit_code] {
     const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
     write_campaign(merged, options->out);

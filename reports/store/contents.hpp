@@ -25,8 +25,8 @@ class Damage : public Error {
 /// the values.
 std::uint64_t checksum(const std::string& table, std::span<const Value> values);
 
-/// What a table holds: the number of its rows, and the sum of their checksums modulo 2^64. A save updates it without
-/// reading other rows. It reveals rows that are missing, doubled, or left from an earlier save.
+/// The number of rows of a table, and the sum of their checksums modulo 2^64. A save updates both without reading other
+/// rows. They reveal rows that are missing, doubled, or left from an earlier save.
 struct Contents {
   std::uint64_t rows = 0, sum = 0;
 
@@ -40,10 +40,10 @@ struct Contents {
 /// Makes the table of contents in an empty database.
 void make_contents(SQLite::Database& db);
 
-/// Sets what a table holds.
+/// Sets the contents of a table.
 void write_contents(SQLite::Database& db, const std::string& table, const Contents& contents);
 
-/// What a table holds, as last written. Throws Damage.
+/// The contents of a table, as last written. Throws Damage.
 Contents read_contents(SQLite::Database& db, const std::string& table);
 
 }  // namespace nearmiss

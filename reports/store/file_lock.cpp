@@ -10,11 +10,11 @@
 #include <cstring>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 
 namespace nearmiss {
 
-FileLock::FileLock(const std::filesystem::path& file)
-    : lock_(std::filesystem::weakly_canonical(std::filesystem::absolute(file)).string() + ".lock") {
+FileLock::FileLock(const std::filesystem::path& file) : lock_(true_path(file).string() + ".lock") {
   std::error_code ignored;
   if (const auto names = std::filesystem::hard_link_count(file, ignored); !ignored && names > 1)
     throw Error(

@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// What was lost of a table; "" if nothing.
+/// The rows of a table that were lost, in words; "" if none were.
 std::string lost(const Salvaged& table) {
   if (!table.rows) return fmt::format("an unknown number of rows of {}", table.table);
   if (table.intact >= *table.rows) return "";

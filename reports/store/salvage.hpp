@@ -1,4 +1,4 @@
-// Saves what is intact of a damaged store.
+// Saves the intact part of a damaged store.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace nearmiss {
 /// it.
 inline constexpr const char* salvaged_fact = "salvaged";
 
-/// What is intact of a store.
+/// The intact part of a store.
 struct Salvage {
   Campaign campaign;       ///< each run has the fact `salvaged_fact`, if anything was lost
   std::uint64_t rows = 0;  ///< number of intact rows

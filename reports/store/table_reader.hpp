@@ -1,4 +1,4 @@
-// Reads a store: all of it, or what is intact.
+// Reads a store: all of it, or its intact part.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -1,4 +1,4 @@
-// A damaged store is refused, or it gives the same campaign as before. A salvage takes only what is intact.
+// A damaged store is refused, or it gives the same campaign as before. A salvage takes the intact part only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>

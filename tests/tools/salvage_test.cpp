@@ -1,4 +1,4 @@
-// nearmiss merge --salvage: what is intact of a damaged store.
+// nearmiss merge --salvage: the intact part of a damaged store.
 #include <sqlite3.h>
 
 #include "reports/store/store.hpp"

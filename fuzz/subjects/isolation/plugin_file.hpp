@@ -35,7 +35,7 @@ class PluginFile {
   void expect_unchanged() const;
 
  private:
-  /// What the system changes when a file is written or replaced.
+  /// The attributes that change when a file is written or replaced.
   struct Stamp {
     dev_t device{};
     ino_t inode{};

@@ -42,7 +42,7 @@ class Supervisor {
 
   /// The plug-in's process.
   [[nodiscard]] pid_t process() const { return process_; }
-  /// Where each `Status` comes after the first one.
+  /// The socket on which the supervisor tells how the process ended, by a `Status`.
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:

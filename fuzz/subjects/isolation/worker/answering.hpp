@@ -5,7 +5,8 @@
 
 namespace nearmiss::isolation {
 
-/// Loads a plug-in at the first request and answers the others until the other end of `reply_socket` is closed; returns the exit code.
+/// Loads a plug-in at the first request, and answers the others until the other end of `reply_socket` is closed.
+/// Returns the exit code.
 /// `bytes` limits the memory that the plug-in may use in addition to what loading took; 0 is no limit.
 int answer_requests(const char* path, std::uint64_t bytes);
 

@@ -1,4 +1,4 @@
-// What a plug-in's process may use, whatever code runs in it.
+// Limits on the files and processes of a plug-in's process.
 #pragma once
 
 namespace nearmiss::isolation {

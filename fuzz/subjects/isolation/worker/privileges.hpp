@@ -1,4 +1,4 @@
-// What the plug-in's process may do to other processes.
+// Limits on what the plug-in's process can do to other processes.
 #pragma once
 
 namespace nearmiss::isolation {
