@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -38,10 +40,13 @@ struct Input {
   Queries queries;  ///< queries that pass the box test
 };
 
-/// Times of one subject on one input in ns per query, one entry for each run.
+/// Times of one subject on one input in ns per query, one entry for each run; NaN if it answered no query.
 using RunTimes = std::vector<double>;
 
+/// NaN if no run has a time.
 double median(RunTimes times) {
+  std::erase_if(times, [](double time) { return std::isnan(time); });
+  if (times.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
 }
@@ -72,7 +77,8 @@ Input file_input(const std::filesystem::path& path) {
   return input;
 }
 
-/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be timed.
+/// ns per query, measured as in a trial: one pass over the queries, repeated until it lasts long enough to be timed. NaN
+/// if no query was answered.
 double time_once(const Subject& subject, const std::vector<Query>& queries, std::vector<Verdict>& verdicts) {
   using std::chrono::steady_clock;
   constexpr auto least = std::chrono::microseconds(500);
@@ -83,6 +89,7 @@ double time_once(const Subject& subject, const std::vector<Query>& queries, std:
     sum.queries += pass.queries;
     sum.nanoseconds += pass.nanoseconds;
   } while (steady_clock::now() - start < least);
+  if (sum.queries == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
 }
 
@@ -126,12 +133,18 @@ std::vector<Input> inputs_of(const Options& options) {
   return inputs;
 }
 
+/// A number with some decimals, as a table shows it.
+std::string in_table(double number, int decimals) {
+  return std::isnan(number) ? "no answer" : fmt::format("{:.{}f}", number, decimals);
+}
+
 /// Prints a line for each subject to `out`. `kind` is vt, ee or both.
 void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, std::string_view kind,
                 std::size_t queries, const std::vector<RunTimes>& times) {
   for (std::size_t s = 0; s < subjects.size(); ++s)
-    fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9.1f} {:>10.3f}\n", input.name, kind, queries,
-               subjects[s]->name(), median(times[s]), median_ratio(times[s], times.front()));
+    fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", input.name, kind, queries,
+               subjects[s]->name(), in_table(median(times[s]), 1),
+               in_table(median_ratio(times[s], times.front()), 3));
 }
 
 void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const Input& input, Kind kind,

@@ -182,7 +182,7 @@ void scale_products(Random& random, Query& query, std::size_t left_out, int x, i
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t axis = (first + i) % 3;
     if (axis == left_out) continue;
-    const int part = exponent / axes + (axes == 1 ? 0 : random.integer(-spread, spread));
+    const int part = axes > 1 ? exponent / axes + random.integer(-spread, spread) : exponent;
     scale_axis(query, axis, part);
     exponent -= part;
     --axes;

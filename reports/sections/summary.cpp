@@ -149,7 +149,7 @@ constexpr const char* footnotes =
 }  // namespace
 
 std::string summary_table(const Statistics& statistics) {
-  const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
+  std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
   return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + oracle_lines(statistics) +
          extremes + footnotes + footnote_on_units(statistics);

@@ -47,6 +47,12 @@ bool is_damage(const std::exception& error) {
   return reason->getErrorCode() == SQLITE_CORRUPT || reason->getErrorCode() == SQLITE_ERROR;
 }
 
+/// Whether SQLite fails because the writer of a store was killed, and its log is in a folder that cannot be written.
+bool has_locked_log(const fs::path& file, const std::exception& error) {
+  const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
+  return reason != nullptr && reason->getErrorCode() == SQLITE_CANTOPEN && fs::exists(file.string() + "-wal");
+}
+
 /// Opens a store, and runs `act` with it. If it is damaged, the Error also says how much a salvage would save.
 template <class Act>
 auto reading(const fs::path& file, const Act& act) {
@@ -58,6 +64,11 @@ auto reading(const fs::path& file, const Act& act) {
       check_version(db);
       return act(db);
     } catch (const std::exception& error) {
+      if (has_locked_log(file, error))
+        throw Error(fmt::format(
+            "found the log {}-wal in a folder that cannot be written, expected write permission or "
+            "a copy of both files elsewhere",
+            file.filename().string()));
       if (!is_damage(error)) throw;
       throw Error(fmt::format("damaged: {}; {}", error.what(), advice(file)));
     }

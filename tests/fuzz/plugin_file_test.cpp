@@ -116,6 +116,14 @@ TEST_F(PluginFileTest, MustBeARegularFile) {
               ThrowsMessage<Error>(HasSubstr("p.so: cannot load the plug-in: found no regular file")));
 }
 
+TEST_F(PluginFileTest, HasAtMostTwoGibibytes) {
+  replace("always");
+  fs::resize_file(file("p.so"), (std::uintmax_t{1} << 31) + 1);
+  EXPECT_THAT(
+      [&] { (void)make(); },
+      ThrowsMessage<Error>(HasSubstr("found 2147483649 bytes, expected a shared object of at most 2 GiB")));
+}
+
 /// An ELF file with these notes in its only segment.
 std::string elf_with(const std::string& notes) {
   ElfW(Ehdr) header{};

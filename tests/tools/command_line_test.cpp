@@ -280,6 +280,17 @@ TEST_F(CommandLine, BenchWritesItsResults) {
   EXPECT_EQ(results[0]["input"], "own.vt");
 }
 
+TEST_F(CommandLine, BenchSaysThatASubjectGivesNoAnswer) {
+  const Output output = run("bench --queries 1 --runs 1 --json new.json --subject basic," + plugin("crash"),
+                            "NEARMISS_ONE_IN=1");
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out, MatchesRegex(".*misbehaving +no answer +no answer\n.*"));
+  const json results = read_json("new.json")["results"];
+  EXPECT_GT(results[0]["ns_per_query"], 0);
+  EXPECT_EQ(results[1]["ns_per_query"], nullptr);
+  EXPECT_EQ(results[1]["ratio"], nullptr);
+}
+
 TEST_F(CommandLine, SubjectsAreListed) {
   const Output output = run("subjects");
   for (const char* name :

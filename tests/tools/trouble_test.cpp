@@ -248,6 +248,26 @@ TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {
   EXPECT_EQ(read("precious"), "mine, too");
 }
 
+TEST_F(CommandLine, AStoreWithItsLogInAReadOnlyFolderIsRefusedWithAdvice) {
+  {
+    Background campaign(file(""), endless_campaign);
+    ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
+    campaign.stop(SIGKILL);
+  }
+  std::filesystem::create_directory(file("archive"));
+  for (const char* name : {"a.db", "a.db-wal"})
+    std::filesystem::copy_file(file(name), file("archive") / name);
+  std::filesystem::permissions(file("archive"), std::filesystem::perms{0555});
+  // Root may write everywhere, unless this right is taken away.
+  const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
+  const Output refused = run("report archive/a.db -o report", as_reader);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.error,
+              HasSubstr("archive/a.db: found the log a.db-wal in a folder that cannot be written"));
+  std::filesystem::permissions(file("archive"), std::filesystem::perms{0755});
+  EXPECT_EQ(run("report archive/a.db -o report", as_reader).code, 0);
+}
+
 TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
   ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
   for (const char* command : {"verdict --kind vt <>endless", "oracle --kind vt <>endless",

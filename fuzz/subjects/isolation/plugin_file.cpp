@@ -16,6 +16,9 @@ namespace nearmiss::isolation {
 
 namespace {
 
+/// Code for x86-64 and AArch64 addresses no more than this with its usual relocations.
+constexpr off_t most_bytes = off_t{1} << 31;
+
 bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
 
 }  // namespace
@@ -56,6 +59,8 @@ PluginFile::Snapshot PluginFile::read() const {
   struct stat about {};
   if (file.number() < 0 || fstat(file.number(), &about) != 0) refuse(std::strerror(errno));
   if (!S_ISREG(about.st_mode)) refuse("found no regular file");
+  if (about.st_size > most_bytes)
+    refuse(fmt::format("found {} bytes, expected a shared object of at most 2 GiB", about.st_size));
   Snapshot reading{"", stamp_of(about), is_recent(stamp_of(about))};
   std::array<char, 1 << 16> block{};
   while (true) {
