@@ -18,6 +18,7 @@ struct Candidate {
   std::array<int, 4> vertices{};
 
   bool operator==(const Candidate&) const = default;
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 finds a 0 in the generated comparison
   auto operator<=>(const Candidate&) const = default;
 };
 

@@ -30,7 +30,7 @@ std::string build_id_in(std::string_view notes) {
     const auto note = at<ElfW(Nhdr)>(notes, 0);
     const std::size_t start = sizeof note + aligned(note.n_namesz);
     if (note.n_type == NT_GNU_BUILD_ID &&
-        part(notes, sizeof note, note.n_namesz) == std::string_view("GNU", 4))
+        part(notes, sizeof note, note.n_namesz) == std::string_view("GNU\0", 4))
       return hex(part(notes, start, note.n_descsz));
     notes = part(notes, start + aligned(note.n_descsz), notes.size());
   }
