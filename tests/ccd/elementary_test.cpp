@@ -17,11 +17,15 @@ TEST(Elementary, PowersOfTwoAreExactAtWholeNumbers) {
 }
 
 TEST(Elementary, PowersOfTwoAreWithinTheirError) {
-  for (double x = -999.3; x < 999; x += 0.0173) ASSERT_NEAR(exp2_of(x) / std::exp2(x), 1, 0x1p-50) << x;
+  for (int i = 0; i < 115'000; ++i) {
+    const double x = -999.3 + 0.0173 * i;
+    ASSERT_NEAR(exp2_of(x) / std::exp2(x), 1, 0x1p-50) << x;
+  }
 }
 
 TEST(Elementary, LogarithmsAreWithinTheirError) {
-  for (double x = 0x1p-1060; x < 1e308; x *= 1.0173) {
+  for (int i = 0; i < 80'000; ++i) {
+    const double x = std::exp2(-1060 + 0.026 * i);
     const double exact = std::log2(x);
     ASSERT_NEAR(log2_of(x), exact, 0x1p-50 * std::max(1.0, std::abs(exact))) << x;
   }

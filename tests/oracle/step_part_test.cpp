@@ -61,7 +61,7 @@ TEST(CrossBound, HoldsForErrorsAsLargeAsTheFactors) {
   p.error = {1, 1, 1};
   Motion<double> q = p;
   q.error = {3, 3, 3};
-  for (const std::size_t k : {0, 1, 2})
+  for (std::size_t k = 0; k < 3; ++k)
     EXPECT_GE(certified::cross_bound(p, q, k).l, 2 * ((2 + 1) * (2 + 3) - 2 * 2)) << k;
 }
 

@@ -39,11 +39,11 @@ class ReportFolder : public testing::TemporaryFolder {
   void expect_refused(const std::string& folder, const std::string& words) const {
     const ReportPaths before = files_in(folder);
     std::map<std::string, std::string> contents;
-    for (const std::string& each : before) contents[each] = read(folder + "/" + each);
+    for (const std::string& each : before) contents[each] = read(fs::path(folder) / each);
     EXPECT_THAT([&] { write_report_of("bad", folder); },
                 ThrowsMessage<Error>(AllOf(HasSubstr(folder), HasSubstr(words))));
     EXPECT_EQ(files_in(folder), before);
-    for (const auto& [name, content] : contents) EXPECT_EQ(read(folder + "/" + name), content) << name;
+    for (const auto& [name, content] : contents) EXPECT_EQ(read(fs::path(folder) / name), content) << name;
   }
 };
 
@@ -78,11 +78,13 @@ TEST_F(ReportFolder, RefusesAFileInItsWay) {
 
 TEST_F(ReportFolder, RefusesALinkInPlaceOfItsFolders) {
   for (const std::string name : {"cases", "farthest"}) {
-    write_report_of("wang", name + "-linked");
-    fs::rename(file(name + "-linked/" + name), file(name + "-elsewhere"));
-    fs::create_directory_symlink(file(name + "-elsewhere"), file(name + "-linked/" + name));
-    expect_refused(name + "-linked", name);
-    EXPECT_FALSE(files_in(name + "-elsewhere").empty());
+    const std::string linked = name + "-linked";
+    const std::string elsewhere = name + "-elsewhere";
+    write_report_of("wang", linked);
+    fs::rename(file(linked) / name, file(elsewhere));
+    fs::create_directory_symlink(file(elsewhere), file(linked) / name);
+    expect_refused(linked, name);
+    EXPECT_FALSE(files_in(elsewhere).empty());
   }
 }
 
