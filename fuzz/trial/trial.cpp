@@ -202,7 +202,9 @@ void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
   check_coordinates(batch_);
   const std::vector<Verdict> not_asked(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
   for (std::size_t s = 0; s < subjects_.size(); ++s)
-    answers_.push_back(subjects_[s]->decides(batch_.kind) && asks(s) ? decide_all(*subjects_[s], batch_, times_[s]) : not_asked);
+    answers_.push_back(subjects_[s]->decides(batch_.kind) && asks(s)
+                           ? decide_all(*subjects_[s], batch_, times_[s])
+                           : not_asked);
 }
 
 TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }
