@@ -1,31 +1,78 @@
-/* The plug-in interface of nearmiss: a shared object that exports nearmiss_get_subject() puts any continuous
- * collision detector on trial. C99; this header is the whole interface. */
+/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts any number of
+ * continuous collision detectors on trial. C99; this header is the whole interface. A field that is left out is 0. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
+
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define NEARMISS_SUBJECT_ABI 1
+#define NEARMISS_INTERFACE 2
+
+/* Kinds of queries. */
+#define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
+#define NEARMISS_EDGE_EDGE 2       /* edges x0x1 and x2x3 */
+
+/* Answers. A negative number is an error; all other numbers are invalid. */
+#define NEARMISS_NO_COLLISION 0
+#define NEARMISS_COLLISION 1
+#define NEARMISS_UNKNOWN 2 /* cannot tell; counts as a collision, because a user must treat it as one */
+
+/* Sorts of times. */
+#define NEARMISS_NO_TIME 0
+#define NEARMISS_TIME_ESTIMATE 1
+#define NEARMISS_TIME_LOWER_BOUND 2 /* nothing happens before this time */
+
+/* What a detector takes for granted. It is not judged on other queries. */
+typedef struct {
+  int apart_at_start; /* 1: the primitives do not touch at t = 0 */
+  int one_root;       /* 1: the four vertices are coplanar at one time in [0, 1] at most */
+  double grid;        /* if not 0: a power of two of which every coordinate is a multiple */
+  double shortest,
+      longest; /* if not 0: limits of the lengths of all edges at t = 0 and t = 1; the paths of the vertices
+                               are not longer than `longest`, either */
+} nearmiss_contract;
 
 typedef struct {
-  int abi; /* NEARMISS_SUBJECT_ABI */
-  const char *name, *version;
-  /* x: 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
-   * The answer must depend on x alone: a query that fails is asked again, when it is shrunk and when it is replayed.
-   * vertex_triangle: vertex x0, triangle x1 x2 x3. edge_edge: edges x0x1 and x2x3.
-   * Returns 1 for a collision within [0, 1], 0 for none, a negative number for an error. *toi is the time of
-   * a collision; it is NaN on entry and may stay so. Several threads may call at once. Arithmetic rounds to
-   * nearest, keeps subnormals and does not trap; if a plug-in changes that, it is restored after the call. */
-  int (*vertex_triangle)(const double* x, double* toi);
-  int (*edge_edge)(const double* x, double* toi);
-  /* The largest distance of a false positive that the plug-in claims; NULL if it claims no bound. */
-  double (*distance_bound)(const double* x, int is_edge_edge);
+  int interface_version; /* NEARMISS_INTERFACE */
+  /* The name must be unique within the shared object, and has neither ':' nor '='. `about` is one line of text. */
+  const char *name, *version, *about;
+  int kinds;            /* sum of the kinds that it decides */
+  int bits;             /* 53, or 24: coordinates are rounded to float, and it is judged on these; 0 is 53 */
+  int time_sort;        /* the sort of time that it gives with every collision */
+  int takes_separation; /* 1 if it uses h */
+  size_t batch;         /* how many queries decide() should get, if there are so many; 0 is 1 */
+  nearmiss_contract contract;
+
+  /* Opens the detector for one thread, and returns its state. `options` is what the user wrote after its name, such as
+   * "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1 bytes to `message`, and
+   * returns NULL. If the function is NULL, there are no options, and the state is NULL. */
+  void* (*open)(const char* options, char* message, size_t size);
+  /* Closes a state; may be NULL. */
+  void (*close)(void* state);
+
+  /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at any time
+   * in [0, 1]; h = 0 asks for contact.
+   *   x: n times 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
+   *   h: n separations, at least 0; 0 unless takes_separation is set.
+   *   answer: n answers, all to be written.
+   *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only for
+   *        collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is invalid.
+   * An answer must depend on its own x and h and on the options alone: a query that fails is asked again, when it is
+   * shrunk and when it is replayed. Arithmetic rounds to nearest, keeps subnormals and does not trap; if the detector
+   * changes that, it is restored after the call. */
+  void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
+
+  /* The largest distance of a false positive that the detector claims for a query, in the unit of its coordinates; NULL
+   * if it claims no bound. */
+  double (*distance_bound)(void* state, int kind, const double* x);
 } nearmiss_subject;
 
-/* The one exported function. The object it points to stays valid until the plug-in is unloaded. */
-const nearmiss_subject* nearmiss_get_subject(void);
+/* The one exported function. Returns detector number `index`, from 0; NULL behind the last one. The object that it points
+ * to stays valid until the shared object is unloaded. */
+const nearmiss_subject* nearmiss_get_subject(size_t index);
 
 #ifdef __cplusplus
 }

@@ -1,60 +1,73 @@
-// Subjects that shared objects export (nearmiss_subject.h).
+// Plug-ins as subjects of this process.
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "ccd/nearmiss_subject.h"
+#include "ccd/detector.hpp"
 #include "ccd/subject.hpp"
 
 namespace nearmiss {
 
-/// Whether a subject's name is the path of a plug-in, that is, contains a '/'.
-inline bool is_plugin_path(std::string_view name) { return name.find('/') != std::string_view::npos; }
+/// What the name of a subject begins with that is a program of its own: "pipe:COMMAND".
+inline constexpr std::string_view program_prefix = "pipe:";
 
-/// The subject that a shared object exports, run in this process. A plug-in may change the rounding mode, the
-/// treatment of subnormals or the traps; arithmetic is plain again after each answer.
+inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }
+
+/// Whether a subject's name is that of a plug-in: a program, or the path of a shared object, which contains a '/'.
+inline bool is_plugin(std::string_view name) {
+  return is_program(name) || name.find('/') != std::string_view::npos;
+}
+
+/// A plug-in as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path.
+struct PluginName {
+  std::string path;
+  std::string subject;  ///< one of the shared object's subjects; "" if it is not said which
+  std::string options;  ///< "KEY=VALUE:KEY=VALUE"
+
+  /// Throws Error if a subject is named twice, or behind an option.
+  static PluginName parse(std::string_view name);
+};
+
+/// A detector of a shared object as a subject, run in this process.
 class Plugin final : public Subject {
  public:
-  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, has another abi, or lacks a
-  /// function.
-  explicit Plugin(const std::string& path);
+  /// Throws Error.
+  explicit Plugin(std::string_view name);
 
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  /// The plug-in's own version; "" if it gives none.
-  [[nodiscard]] const std::string& version() const { return version_; }
+  [[nodiscard]] const std::string& name() const override { return info_.name; }
+  [[nodiscard]] const DetectorInfo& info() const { return info_; }
 
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override;
   [[nodiscard]] double distance_bound(const Query& query) const override;
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override;
-  [[nodiscard]] bool claims_bound() const override { return subject_->distance_bound != nullptr; }
-
-  /// The plug-in's return value. `time` is set to the time that the plug-in gives, and is left unchanged if
-  /// it gives none.
-  int ask(const Query& query, double& time) const;
-
-  /// A plug-in that does nothing and answers 0.
-  static const Plugin& empty_plugin();
+  [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
+  [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
+  [[nodiscard]] Contract contract() const override { return info_.contract; }
+  [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
+  [[nodiscard]] Query rounded(const Query& query) const override { return rounded_for(info_, query); }
 
  protected:
-  [[nodiscard]] const Subject& empty() const override { return empty_plugin(); }
+  [[nodiscard]] const Subject& empty() const override;
 
  private:
-  /// Makes a plug-in of a subject that is part of this program.
-  explicit Plugin(const nearmiss_subject& subject) : subject_(&subject), name_(subject.name) {}
+  /// Makes the empty subject.
+  Plugin();
 
-  struct Unload {
-    void operator()(void* handle) const;
-  };
+  /// Calls act(detector) with a detector that no other thread uses meanwhile.
+  template <class Act>
+  auto with_detector(const Act& act) const;
 
-  std::unique_ptr<void, Unload> library_;
-  const nearmiss_subject* subject_ = nullptr;  // owned by the library
-  std::string name_, version_;
+  std::unique_ptr<PluginLibrary> library_;
+  const nearmiss_subject* subject_;
+  std::string options_;
+  DetectorInfo info_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Detector>> idle_;
 };
-
-/// A plug-in's answer as a verdict.
-Verdict plugin_verdict(int answer, double time);
 
 }  // namespace nearmiss

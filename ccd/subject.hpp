@@ -28,14 +28,15 @@ enum class Stage : std::uint8_t {
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
   unspecified,  ///< the subject does not say, as a plug-in
+  unknown,      ///< no test: the subject cannot tell, which counts as a collision
 };
 
-inline constexpr std::size_t stage_count = 10;
+inline constexpr std::size_t stage_count = 11;
 
 /// Names of the stages, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, stage_count> stage_names{
-    "none",    "proximity", "ve-end", "ve-minimum", "ve-equal",
-    "ve-zero", "vv",        "filter", "exact",      "unspecified"};
+    "none", "proximity", "ve-end", "ve-minimum",  "ve-equal", "ve-zero",
+    "vv",   "filter",    "exact",  "unspecified", "unknown"};
 
 /// Why a pair was not reported.
 enum class Rejection : std::uint8_t {
@@ -59,20 +60,39 @@ inline constexpr std::array<std::string_view, rejection_count> rejection_names{
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
-  error,      ///< it reported an error, or gave an invalid answer
+  error,      ///< it reported an error, or a bound that is no distance
   crash,      ///< its process ended
   time,       ///< it exceeded its time limit
   memory,     ///< it exceeded its memory limit
   exception,  ///< it threw an exception that it did not catch
   protocol,   ///< it wrote to nearmiss's channels, or closed them
-  not_asked,  ///< it was set aside, because it exceeded its time limit too often
+  not_asked,  ///< it does not decide this kind, or was set aside, because it exceeded its time limit too often
+  invalid,    ///< it gave an answer that is none, or a collision without the time that it promises
 };
 
-inline constexpr std::size_t fault_count = 8;
+inline constexpr std::size_t fault_count = 9;
 
 /// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
-    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked"};
+    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked", "invalid"};
+
+/// What a subject says about the time of a collision.
+enum class TimeSort : std::uint8_t {
+  none,         ///< nothing
+  estimate,     ///< a time near it
+  lower_bound,  ///< nothing happens before this time
+};
+
+/// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
+struct Contract {
+  bool apart_at_start = false;  ///< the primitives do not touch at t = 0
+  bool one_root = false;        ///< the four vertices are coplanar at one time in [0, 1] at most
+  double grid = 0;              ///< a power of two of which every coordinate is a multiple
+  double shortest = 0;          ///< all edges, at t = 0 and t = 1, are at least as long
+  double longest = 0;           ///< these edges and the paths of the vertices are at most as long
+
+  bool operator==(const Contract&) const = default;
+};
 
 /// A subject's answer to one query.
 struct Verdict {
@@ -149,6 +169,12 @@ class Subject {
 
   /// Whether the subject claims a bound; it does so for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
+
+  /// Whether the subject decides queries of a kind. About others, it is not asked.
+  [[nodiscard]] virtual bool decides(Kind /*kind*/) const { return true; }
+
+  /// What the subject takes for granted.
+  [[nodiscard]] virtual Contract contract() const { return {}; }
 
   /// Whether the subject rounds coordinates to fewer digits than those of double.
   [[nodiscard]] virtual bool rounds() const { return false; }

@@ -172,7 +172,7 @@ const Subject& Subject::empty() const {
 
 SplitName split_bound(std::string_view name, std::optional<double> given_bound) {
   const auto at = name.rfind('@');
-  if (at == std::string_view::npos || is_plugin_path(name)) return {name, given_bound};
+  if (at == std::string_view::npos || is_plugin(name)) return {name, given_bound};
   if (name.substr(at) == of_scene && given_bound) return {name.substr(0, at), given_bound};
   double bound = 0;
   const char* const end = name.data() + name.size();
@@ -188,7 +188,7 @@ std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::op
   const auto [name, bound] = split_bound(name_or_path, given_bound);
   for (const Entry& each : registry)
     if (each.info.name == name) return each.make(name_or_path, bound);
-  if (is_plugin_path(name_or_path)) return std::make_unique<Plugin>(std::string(name_or_path));
+  if (is_plugin(name_or_path)) return std::make_unique<Plugin>(name_or_path);
   return nullptr;
 }
 

@@ -108,12 +108,12 @@ Subjects make_subjects(const std::vector<std::string>& names, const isolation::P
                        std::optional<double> given_bound) {
   Subjects made;
   std::set<std::string> seen;
-  for (const std::string& name : names) {
-    made.push_back(make_any_subject(name, given_bound, limits));
-    if (!seen.insert(made.back()->name()).second)
-      throw Error(
-          fmt::format("found two subjects named '{}', expected different names", made.back()->name()));
-  }
+  for (const std::string& name : names)
+    for (auto& subject : make_any_subjects(name, given_bound, limits)) {
+      if (!seen.insert(subject->name()).second)
+        throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
+      made.push_back(std::move(subject));
+    }
   return made;
 }
 

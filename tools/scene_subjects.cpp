@@ -46,10 +46,10 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
   SceneSubjects all;
   std::set<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (names.insert(name).second)
-      all.subjects.push_back(std::move(make_subjects({name}, trial.plugin_limits(stop),
-                                                     name.ends_with(of_scene) ? all.bound : std::nullopt)
-                                           .front()));
+    if (!names.insert(name).second) return;
+    const auto bound = name.ends_with(of_scene) ? all.bound : std::nullopt;
+    for (auto& subject : make_subjects({name}, trial.plugin_limits(stop), bound))
+      all.subjects.push_back(std::move(subject));
   };
   for (const std::string& bound : bounds) {
     if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
@@ -57,7 +57,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
                                : bound == "scene" ? std::string(of_scene)
                                                   : fmt::format("@{}", *parse_bound(bound));
     for (const std::string& name : trial.subjects)
-      add(is_plugin_path(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
+      add(is_plugin(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
   }
   return all;
 }

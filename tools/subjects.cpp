@@ -1,5 +1,11 @@
 // nearmiss subjects: lists the CCDs that can be put on trial.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
@@ -8,12 +14,53 @@
 
 namespace nearmiss::tools {
 
+namespace {
+
+/// What a contract takes for granted, in words.
+std::string text(const Contract& contract) {
+  std::vector<std::string> parts;
+  if (contract.apart_at_start) parts.emplace_back("primitives apart at t = 0");
+  if (contract.one_root) parts.emplace_back("vertices coplanar at one time at most");
+  if (contract.grid != 0) parts.push_back(fmt::format("coordinates that are multiples of {}", contract.grid));
+  if (contract.shortest != 0) parts.push_back(fmt::format("edges of length {} or more", contract.shortest));
+  if (contract.longest != 0)
+    parts.push_back(fmt::format("edges and paths of length {} or less", contract.longest));
+  return parts.empty() ? "" : "; for queries with " + fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Prints two lines about a detector.
+void print(const DetectorInfo& info) {
+  constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
+                                             "a lower bound of the time"};
+  std::vector<std::string> kinds_decided;
+  for (const Kind kind : kinds)
+    if (decides(info, kind)) kinds_decided.emplace_back(short_name(kind));
+  fmt::print("{:<23} {}\n", info.name, info.about);
+  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}{}\n", "",
+             info.version.empty() ? "?" : info.version, fmt::join(kinds_decided, " and "),
+             info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
+             info.claims_bound ? "claims a bound; " : "", info.takes_separation ? "takes a separation; " : "",
+             info.batch, text(info.contract));
+}
+
+}  // namespace
+
 void add_subjects(CLI::App& app, int& /*exit_code*/) {
-  auto* command = app.add_subcommand("subjects", "List the built-in subjects");
+  auto* command =
+      app.add_subcommand("subjects", "List the built-in subjects, or describe the detectors of plug-ins");
+  auto plugins = std::make_shared<std::vector<std::string>>();
+  command->add_option("PLUGIN", *plugins,
+                      "Plug-ins whose detectors to describe instead, such as ./plugin.so");
   command->footer(
-      "\nA plug-in is named by its path, which must contain a slash: ./plugin.so (see "
-      "ccd/nearmiss_subject.h).");
-  command->callback([] {
+      "\nA plug-in is a shared object, named by its path, which must contain a slash: ./plugin.so, or one of "
+      "its "
+      "detectors with options: ./plugin.so:NAME:KEY=VALUE (ccd/nearmiss_subject.h); or a program: "
+      "'pipe:COMMAND' "
+      "(fuzz/subjects/PROGRAMS.md).");
+  command->callback([plugins] {
+    for (const std::string& name : *plugins)
+      for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
+    if (!plugins->empty()) return;
     for (const SubjectInfo& subject : built_in_subjects())
       fmt::print("{:<23} {}\n", subject.name, subject.about);
     fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");

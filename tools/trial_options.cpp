@@ -46,7 +46,7 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
   std::string& again = info["again"];
   again = fmt::format("nearmiss {} --subject {} --compare {}", what, shell_quoted(names), comparison.one_in);
   if (comparison.near_bounds) again += " --compare-near-bounds";
-  if (std::any_of(subjects.begin(), subjects.end(), is_plugin_path)) {
+  if (std::any_of(subjects.begin(), subjects.end(), is_plugin)) {
     info["query-time"] = limits.time;
     info["query-memory"] = fmt::format("{}", limits.bytes);
     again += fmt::format(" --query-time {} --query-memory {}", limits.time, limits.bytes);

@@ -39,9 +39,7 @@ std::string show_distance_bound(const Subject& subject, const Judge& judge, cons
 }
 
 void run(const Options& options) {
-  const Subjects subjects =
-      make_subjects({options.subject}, options.limits.limits(), parse_bound(options.bound));
-  const Subject* const subject = subjects.front().get();
+  const auto subject = make_any_subject(options.subject, parse_bound(options.bound), options.limits.limits());
   const Judge judge(*subject);
   options.input.read([&](const Query& query) {
     const Verdict verdict = subject->decide(query);

@@ -43,7 +43,7 @@ std::string environment(const char* name, const char* otherwise) {
 const Subject& subject() {
   // A plug-in runs in this process, since libFuzzer sees no other one's coverage.
   static const std::string name = environment("NEARMISS_SUBJECT", "wang");
-  static const auto subject = is_plugin_path(name) ? make_subject(name) : make_built_in(name);
+  static const auto subject = is_plugin(name) ? make_subject(name) : make_built_in(name);
   return *subject;
 }
 

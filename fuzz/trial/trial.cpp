@@ -93,7 +93,9 @@ class Judging {
         answers_(answers),
         decisions_(batch.queries.size()) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
-      counts_.push_back(&result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}]);
+      counts_.push_back(nullptr);
+      if (!subjects[s]->decides(batch.kind)) continue;
+      counts_.back() = &result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}];
       counts_.back()->times = times[s];
     }
   }
@@ -109,6 +111,7 @@ class Judging {
       Truth truth(batch_.queries[i], decisions_[i]);
       try_oracle(i, truth);
       for (std::size_t s = 0; s < subjects_.size(); ++s) {
+        if (counts_[s] == nullptr) continue;
         std::optional<Truth> own = rounded_[s].truth(i);
         try_subject(i, s, own ? *own : truth);
       }
@@ -174,7 +177,7 @@ class Judging {
   const Comparison& comparison_;
   const Verdicts& answers_;  // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;      // by subject, in the result
+  std::vector<Counts*> counts_;      // by subject, in the result; null if it does not decide this kind
   std::vector<Judge> judges_;        // by subject
   std::vector<Rounded> rounded_;     // by subject
   std::vector<Decision> decisions_;  // by query
@@ -199,7 +202,9 @@ void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
   check_coordinates(batch_);
   const std::vector<Verdict> not_asked(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
   for (std::size_t s = 0; s < subjects_.size(); ++s)
-    answers_.push_back(asks(s) ? decide_all(*subjects_[s], batch_, times_[s]) : not_asked);
+    answers_.push_back(subjects_[s]->decides(batch_.kind) && asks(s)
+                           ? decide_all(*subjects_[s], batch_, times_[s])
+                           : not_asked);
 }
 
 TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }

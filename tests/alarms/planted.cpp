@@ -45,21 +45,37 @@ bool wang(const Query& query) {
 }
 
 template <Kind kind>
-int decide(const double* x, double* /*toi*/) {
+int decide(const double* x) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
   const bool hit = PLANTED_IN<kind>(query);
-  return hit != is_chosen(query) ? 1 : 0;
+  return hit != is_chosen(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+}
+
+void decide_all(void* /*state*/, int kind, std::size_t n, const double* x, const double* /*h*/, int* answer,
+                double* /*toi*/) {
+  const bool is_vertex_triangle = kind == NEARMISS_VERTEX_TRIANGLE;
+  for (std::size_t i = 0; i < n; ++i)
+    answer[i] =
+        is_vertex_triangle ? decide<Kind::vertex_triangle>(x + 24 * i) : decide<Kind::edge_edge>(x + 24 * i);
 }
 
 }  // namespace
 
-extern "C" const nearmiss_subject* nearmiss_get_subject() {
-  static const nearmiss_subject subject{NEARMISS_SUBJECT_ABI,
-                                        "planted-in-" NEARMISS_TEXT(PLANTED_IN),
-                                        "1",
-                                        decide<Kind::vertex_triangle>,
-                                        decide<Kind::edge_edge>,
-                                        nullptr};
-  return &subject;
+extern "C" const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
+  static const nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
+                                        .name = "planted-in-" NEARMISS_TEXT(PLANTED_IN),
+                                        .version = "1",
+                                        .about = "a CCD with a planted defect",
+                                        .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
+                                        .bits = 53,
+                                        .time_sort = NEARMISS_NO_TIME,
+                                        .takes_separation = 0,
+                                        .batch = 1,
+                                        .contract = {},
+                                        .open = nullptr,
+                                        .close = nullptr,
+                                        .decide = decide_all,
+                                        .distance_bound = nullptr};
+  return index == 0 ? &subject : nullptr;
 }

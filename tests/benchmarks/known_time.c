@@ -3,14 +3,11 @@
 
 #include <stddef.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static int decide(const double* x, double* toi) {
   (void)toi;
   return known_time(x, STEPS);
 }
 
-const nearmiss_subject* nearmiss_get_subject(void) {
-  static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "known", "1", decide, decide, NULL};
-  return &subject;
-}
+EXPORT_DETECTOR("known", decide, NULL)

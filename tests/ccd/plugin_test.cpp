@@ -60,9 +60,9 @@ TEST(Plugin, AnErrorIsAnError) {
   EXPECT_FALSE(verdict.hit);
 }
 
-TEST(Plugin, AnotherAbiIsRefused) {
-  EXPECT_THAT([] { (void)make_subject(plugin("other_abi")); },
-              ThrowsMessage<Error>(HasSubstr("abi 99, expected 1")));
+TEST(Plugin, AnotherVersionOfTheInterfaceIsRefused) {
+  EXPECT_THAT([] { (void)make_subject(plugin("version_1")); },
+              ThrowsMessage<Error>(HasSubstr("found version 1 of the plug-in interface, expected 2")));
 }
 
 TEST(Plugin, ASharedObjectWithoutTheFunctionIsRefused) {

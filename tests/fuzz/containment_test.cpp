@@ -109,7 +109,7 @@ TEST(Throwing, WhileItIsLoadedIsSaid) {
 }
 
 TEST(Isolation, ANameIsMadePrintable) {
-  EXPECT_EQ(make_isolated_plugin(plugin("bad_name"))->name(), "=1+1?[31m?");
+  EXPECT_EQ(make_isolated_plugin(plugin("bad_name"))->name(), "+1+1?[31m?");
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_P(Containment, APluginHasItsOwnNamespaceIfTheSystemGrantsOne) {
 
 TEST(Dismissal, EndsManyWorkersAtOnce) {
   const CopiedPlugin copied("escaping_stop");
-  const isolation::PluginFile file(copied.path());
+  const isolation::PluginCode file(copied.path());
   std::vector<std::unique_ptr<isolation::WorkerProcess>> workers;
   for (int i = 0; i < 8; ++i)
     workers.push_back(std::make_unique<isolation::WorkerProcess>(file, isolation::PluginLimits()));

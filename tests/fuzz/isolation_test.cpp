@@ -201,8 +201,8 @@ TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
 TEST(Isolation, WhatCannotBeLoadedIsRefused) {
   EXPECT_THAT([] { make_isolated_plugin("./none.so"); },
               ThrowsMessage<Error>(HasSubstr("none.so: cannot load")));
-  EXPECT_THAT([] { make_isolated_plugin(plugin("other_abi")); },
-              ThrowsMessage<Error>(HasSubstr("found plug-in abi 99, expected 1")));
+  EXPECT_THAT([] { make_isolated_plugin(plugin("version_1")); },
+              ThrowsMessage<Error>(HasSubstr("found version 1 of the plug-in interface, expected 2")));
 }
 
 TEST(Isolation, WhatThePluginPrintsIsLost) {

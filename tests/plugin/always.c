@@ -2,18 +2,16 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "ccd/nearmiss_subject.h"
+#define TIME_SORT NEARMISS_TIME_ESTIMATE
+#include "tests/plugin/one_by_one.h"
 
 #ifndef ANSWER
 #define ANSWER 1
 #endif
 #ifdef BAD_NAME
-#define NAME "=1+1\033[31m\xff"
+#define NAME "+1+1\033[31m\xff"
 #else
 #define NAME "always"
-#endif
-#ifndef ABI
-#define ABI NEARMISS_SUBJECT_ABI
 #endif
 
 static int answer(const double* x, double* toi) {
@@ -29,15 +27,13 @@ static inline double hang(void) {
 }
 
 #ifdef BOUND
-static double distance_bound(const double* x, int is_edge_edge) {
-  (void)x;
-  (void)is_edge_edge;
+static double claimed_bound(void* state, int kind, const double* x) {
+  const int is_edge_edge = kind == NEARMISS_EDGE_EDGE;
+  (void)state, (void)x, (void)is_edge_edge;
   return BOUND;
 }
 #else
-#define distance_bound NULL
+#define claimed_bound NULL
 #endif
 
-static const nearmiss_subject subject = {ABI, NAME, "1.0", answer, answer, distance_bound};
-
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR(NAME, answer, claimed_bound)

@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <time.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static double computed(void) {
   struct timespec time;
@@ -20,5 +20,4 @@ static int test(const double* x, double* toi) {
   return 1;
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "computes", "1", test, test, NULL};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("computes", test, NULL)

@@ -31,17 +31,23 @@ static int boxes_meet(const double* x, int split) {
   return 1;
 }
 
-static int vertex_triangle(const double* x, double* toi) {
-  (void)toi; /* the time is not known */
-  return boxes_meet(x, 1);
+static void decide(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                   double* toi) {
+  const int split = kind == NEARMISS_VERTEX_TRIANGLE ? 1 : 2;
+  (void)state; /* there are no options */
+  (void)h;     /* contact alone is decided */
+  (void)toi;   /* the time is not known */
+  for (size_t i = 0; i < n; ++i)
+    answer[i] = boxes_meet(x + 24 * i, split) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 
-static int edge_edge(const double* x, double* toi) {
-  (void)toi;
-  return boxes_meet(x, 2);
-}
+static const nearmiss_subject boxes = {
+    .interface_version = NEARMISS_INTERFACE,
+    .name = "boxes",
+    .version = "1.0",
+    .about = "whether the axis-aligned boxes around the moving primitives meet",
+    .kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE,
+    .decide = decide,
+};
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "boxes",   "1.0",
-                                         vertex_triangle,      edge_edge, NULL};
-
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+const nearmiss_subject* nearmiss_get_subject(size_t index) { return index == 0 ? &boxes : NULL; }

@@ -1,7 +1,7 @@
 /* A plug-in whose answers come from the library beside it. */
 #include <stddef.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 int beside(void);
 
@@ -11,6 +11,4 @@ static int answer(const double* x, double* toi) {
   return beside();
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "finds-beside", NULL, answer, answer, NULL};
-
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("finds-beside", answer, NULL)

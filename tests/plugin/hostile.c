@@ -3,7 +3,7 @@
 #include <fenv.h>
 #include <pmmintrin.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 __attribute__((constructor)) static void make_hostile(void) {
   fesetround(FE_UPWARD);
@@ -13,14 +13,16 @@ __attribute__((constructor)) static void make_hostile(void) {
 
 static int test(const double* x, double* toi) {
   const volatile double one = 1, tiny = 0x1p-60, subnormal = 0x1p-1040, large = 0x1p100;
-  const int is_hostile = one + tiny > one || subnormal * large == 0;
+  const volatile int is_hostile = one + tiny > one || subnormal * large == 0;
   (void)x;
   (void)toi;
   make_hostile();
   return is_hostile;
 }
 
-static double distance_bound(const double* x, int is_edge_edge) { return test(x, NULL) + is_edge_edge; }
+static double distance_bound(void* state, int kind, const double* x) {
+  (void)state;
+  return test(x, NULL) + (kind == NEARMISS_EDGE_EDGE);
+}
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "hostile", "1", test, test, distance_bound};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("hostile", test, distance_bound)

@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 #define MOST_FILES 64
 
@@ -61,5 +61,4 @@ static int answer(const double* x, double* toi) {
   return 1;
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "intruding", "1", answer, answer, NULL};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("intruding", answer, NULL)

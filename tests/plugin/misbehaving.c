@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static int is_chosen(const double* x) {
   const char* const text = getenv("NEARMISS_ONE_IN");
@@ -55,5 +55,4 @@ static int test(const double* x, double* toi) {
   return is_chosen(x) ? misbehave() : 1;
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "misbehaving", "1", test, test, NULL};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("misbehaving", test, NULL)

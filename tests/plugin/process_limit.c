@@ -2,7 +2,7 @@
 #include <stddef.h>
 #include <sys/resource.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static int answer(const double* x, double* toi) {
   struct rlimit processes;
@@ -13,5 +13,4 @@ static int answer(const double* x, double* toi) {
          processes.rlim_cur == processes.rlim_max;
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "process_limit", "1", answer, answer, NULL};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("process_limit", answer, NULL)

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static int test(const double* x, double* toi) {
   static int calls = 0;
@@ -16,5 +16,4 @@ static int test(const double* x, double* toi) {
   return 1;
 }
 
-static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "recovers", "1", test, test, NULL};
-const nearmiss_subject* nearmiss_get_subject(void) { return &subject; }
+EXPORT_DETECTOR("recovers", test, NULL)

@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 namespace {
 
@@ -11,13 +11,13 @@ int answer(const double* x, double* /*toi*/) {
   return 0;
 }
 
-const nearmiss_subject subject{NEARMISS_SUBJECT_ABI, "throwing", "1", answer, answer, nullptr};
-
-}  // namespace
-
-extern "C" const nearmiss_subject* nearmiss_get_subject() {
+const char* name() {
 #ifdef WHILE_LOADED
   throw std::runtime_error("no licence");
 #endif
-  return &subject;
+  return "throwing";
 }
+
+}  // namespace
+
+EXPORT_DETECTOR(name(), answer, nullptr)

@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <time.h>
 
-#include "ccd/nearmiss_subject.h"
+#include "tests/plugin/one_by_one.h"
 
 static int decide(const double* x, double* toi) {
   const struct timespec time = {0, 100000};
@@ -13,7 +13,4 @@ static int decide(const double* x, double* toi) {
   return 0;
 }
 
-const nearmiss_subject* nearmiss_get_subject(void) {
-  static const nearmiss_subject subject = {NEARMISS_SUBJECT_ABI, "waits", "1", decide, decide, NULL};
-  return &subject;
-}
+EXPORT_DETECTOR("waits", decide, NULL)

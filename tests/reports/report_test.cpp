@@ -261,7 +261,7 @@ TEST_F(ReportTest, NamesTheStagesThatAccept) {
   const auto json = report_json(some_campaign("wang"))["stages"];
   EXPECT_EQ(json.size(), stage_count - 1);
   EXPECT_EQ(json[0], "proximity");
-  EXPECT_EQ(json.back(), "unspecified");
+  EXPECT_EQ(json.back(), "unknown");
 }
 
 TEST_F(ReportTest, TextFromOutsideCannotLeaveItsPlaceInThePage) {

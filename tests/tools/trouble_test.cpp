@@ -118,7 +118,7 @@ TEST_F(CommandLine, BadPlugins) {
     expect_refused("replay q.vt --db new.db --json new.json --subject " + plugin(name), words);
   };
   refused("no_function", {"no_function.so", "nearmiss_get_subject"});
-  refused("other_abi", {"other_abi.so", "abi 99", "expected 1"});
+  refused("version_1", {"version_1.so", "found version 1 of the plug-in interface", "expected 2"});
   refused("absent", {"absent.so", "cannot load"});
 }
 

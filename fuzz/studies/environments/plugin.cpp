@@ -41,25 +41,41 @@ Query query_of(Kind kind, const double* x) {
   return query;
 }
 
-template <Kind kind>
-int test(const double* x, double* /*toi*/) {
-  const Query query = query_of(kind, x);
+Kind kind_of(int kind) { return kind == NEARMISS_VERTEX_TRIANGLE ? Kind::vertex_triangle : Kind::edge_edge; }
+
+int test(const Query& query) {
   try {
     const Mode mode;
-    return environments::collides(query) ? 1 : 0;
+    return environments::collides(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
   } catch (const std::exception&) {
     return -1;
   }
 }
 
-double distance_bound(const double* x, int is_edge_edge) {
-  return environments::distance_bound(
-      query_of(is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_triangle, x));
+void decide(void* /*state*/, int kind, std::size_t n, const double* x, const double* /*h*/, int* answer,
+            double* /*toi*/) {
+  for (std::size_t i = 0; i < n; ++i) answer[i] = test(query_of(kind_of(kind), x + 24 * i));
 }
 
-constexpr nearmiss_subject subject{NEARMISS_SUBJECT_ABI,  NAME,          "1", test<Kind::vertex_triangle>,
-                                   test<Kind::edge_edge>, distance_bound};
+double distance_bound(void* /*state*/, int kind, const double* x) {
+  return environments::distance_bound(query_of(kind_of(kind), x));
+}
+
+constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
+                                   .name = NAME,
+                                   .version = "1",
+                                   .about = "one of nearmiss's own CCDs, in a mode of the processor",
+                                   .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
+                                   .bits = 53,
+                                   .time_sort = NEARMISS_NO_TIME,
+                                   .takes_separation = 0,
+                                   .batch = 1,
+                                   .contract = {},
+                                   .open = nullptr,
+                                   .close = nullptr,
+                                   .decide = decide,
+                                   .distance_bound = distance_bound};
 
 }  // namespace
 
-const nearmiss_subject* nearmiss_get_subject() { return &subject; }
+const nearmiss_subject* nearmiss_get_subject(std::size_t index) { return index == 0 ? &subject : nullptr; }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
 
@@ -13,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-using isolation::PluginFile;
+using isolation::PluginCode;
 using isolation::PluginLimits;
 using isolation::Request;
 using isolation::WorkerFailure;
@@ -41,16 +42,18 @@ class ExceptionTexts {
   std::vector<std::string> texts_;
 };
 
+/// The name of the same plug-in with one of its detectors chosen.
+std::string with_subject(const std::string& name, const std::string& subject) {
+  const std::size_t path = PluginName::parse(name).path.size();
+  return name.substr(0, path) + ":" + subject + name.substr(path);
+}
+
 class IsolatedPlugin final : public BatchSubject {
  public:
-  /// `first` is a worker with the plug-in in the file.
-  IsolatedPlugin(std::unique_ptr<PluginFile> file, const PluginLimits& limits,
+  /// `first` is a worker with the plug-in.
+  IsolatedPlugin(std::shared_ptr<const PluginCode> code, const PluginLimits& limits,
                  std::unique_ptr<WorkerProcess> first)
-      : BatchSubject(first->name()),
-        file_(std::move(file)),
-        limits_(limits),
-        version_(first->version()),
-        claims_bound_(first->claims_bound()) {
+      : BatchSubject(first->info().name), code_(std::move(code)), limits_(limits), info_(first->info()) {
     idle_.push_back(std::move(first));
   }
   IsolatedPlugin(const IsolatedPlugin&) = delete;
@@ -84,7 +87,12 @@ class IsolatedPlugin final : public BatchSubject {
     });
   }
 
-  [[nodiscard]] bool claims_bound() const override { return claims_bound_; }
+  [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
+  [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
+  [[nodiscard]] Contract contract() const override { return info_.contract; }
+  [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
+  [[nodiscard]] Query rounded(const Query& query) const override { return rounded_for(info_, query); }
+  [[nodiscard]] const DetectorInfo& info() const { return info_; }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     return ask_bound(query).bound_or_nan();
@@ -107,7 +115,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   [[nodiscard]] PluginIdentity identity() const {
-    return {file_->path(), version_, file_->sha256(), file_->build_id()};
+    return {code_->name(), info_.version, code_->sha256(), code_->build_id()};
   }
 
  private:
@@ -122,7 +130,7 @@ class IsolatedPlugin final : public BatchSubject {
   void answer(const Done& done, std::span<Verdict> verdicts) const {
     for (std::uint32_t i = done.first; i < done.end; ++i) {
       const isolation::PluginAnswer& given = done.worker.answer(i);
-      verdicts[done.start + i] = plugin_verdict(given.value, given.number);
+      verdicts[done.start + i] = verdict_of(info_, given.value, given.number);
     }
     if (done.failure)
       verdicts[done.start + done.end] = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
@@ -165,17 +173,18 @@ class IsolatedPlugin final : public BatchSubject {
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
+    const bool can_decide = decides(batch.front().kind);
     worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
     for (std::uint32_t first = 0; first < size;) {
-      if (limits_.most_late != 0 && late >= limits_.most_late) {
+      if (!can_decide || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
         ++first;
         continue;
       }
       const std::uint32_t last = first + std::min(size - first, in_a_call_.load());
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
-      file_->expect_unchanged();  // a running process, too, may see what is written to its file
+      code_->expect_unchanged();  // a running process, too, may see what is written to its file
       adapt(last - first, *worker, failure);
       if (!failure || !failure->of_call) {
         const std::uint32_t end = failure ? failure->query : last;
@@ -184,7 +193,7 @@ class IsolatedPlugin final : public BatchSubject {
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
-      worker = std::make_unique<WorkerProcess>(*file_, limits_);
+      worker = std::make_unique<WorkerProcess>(*code_, limits_);
       worker->give(batch);
     }
   }
@@ -207,7 +216,7 @@ class IsolatedPlugin final : public BatchSubject {
         return worker;
       }
     }
-    return std::make_unique<WorkerProcess>(*file_, limits_);
+    return std::make_unique<WorkerProcess>(*code_, limits_);
   }
 
   void give_back(std::unique_ptr<WorkerProcess> worker) const {
@@ -215,10 +224,9 @@ class IsolatedPlugin final : public BatchSubject {
     idle_.push_back(std::move(worker));
   }
 
-  std::unique_ptr<PluginFile> file_;
+  std::shared_ptr<const PluginCode> code_;
   PluginLimits limits_;
-  std::string version_;
-  bool claims_bound_;
+  DetectorInfo info_;
   mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
   mutable ExceptionTexts exceptions_;
   mutable std::mutex mutex_;
@@ -227,15 +235,36 @@ class IsolatedPlugin final : public BatchSubject {
 
 }  // namespace
 
-std::unique_ptr<Subject> make_isolated_plugin(const std::string& path, const PluginLimits& limits) {
-  auto file = std::make_unique<PluginFile>(path);
-  auto first = std::make_unique<WorkerProcess>(*file, limits);
-  return std::make_unique<IsolatedPlugin>(std::move(file), limits, std::move(first));
+std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
+                                                            const PluginLimits& limits) {
+  auto code = std::make_shared<const PluginCode>(name);
+  auto first = std::make_unique<WorkerProcess>(*code, limits);
+  const std::vector<std::string> names = first->names();
+  const bool has_chosen = is_program(name) || !PluginName::parse(name).subject.empty();
+  std::vector<std::unique_ptr<Subject>> subjects;
+  subjects.push_back(std::make_unique<IsolatedPlugin>(std::move(code), limits, std::move(first)));
+  for (std::size_t i = 1; i < names.size() && !has_chosen; ++i)
+    subjects.push_back(make_isolated_plugin(with_subject(name, names[i]), limits));
+  return subjects;
+}
+
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& name, const PluginLimits& limits) {
+  auto subjects = make_isolated_plugins(name, limits);
+  if (subjects.size() == 1) return std::move(subjects.front());
+  std::string names;
+  for (const auto& each : subjects) names += (names.empty() ? "" : ", ") + each->name();
+  throw Error(name + ": found several detectors, expected one of " + names + " behind the path, such as " +
+              name + ":" + subjects.front()->name());
 }
 
 std::optional<PluginIdentity> plugin_identity(const Subject& subject) {
   const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&subject);
   return plugin == nullptr ? std::nullopt : std::optional(plugin->identity());
+}
+
+const DetectorInfo* plugin_info(const Subject& subject) {
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&subject);
+  return plugin == nullptr ? nullptr : &plugin->info();
 }
 
 }  // namespace nearmiss

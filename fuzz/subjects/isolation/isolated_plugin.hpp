@@ -4,24 +4,30 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "ccd/detector.hpp"
 #include "ccd/subject.hpp"
 #include "fuzz/subjects/isolation/worker_process.hpp"
 
 namespace nearmiss {
 
-/// The plug-in at a path, with one worker process for each thread that asks at the same time. A failure
-/// becomes the verdict's fault, and the next query gets a new process. The plug-in's output is discarded.
-/// Throws Error if the plug-in cannot be loaded.
+/// The plug-in of a name (ccd/plugin.hpp), with one worker process for each thread that asks at the same time. A failure
+/// becomes the verdict's fault, and the next query gets a new process. The plug-in's output is discarded. Throws Error if
+/// the plug-in cannot be loaded, or has several detectors and the name does not say which.
 ///
-/// All answers come from the same bytes. If the file is changed, calls throw isolation::PluginChanged, and the answers
-/// of the call that was under way are not used.
-std::unique_ptr<Subject> make_isolated_plugin(const std::string& path,
+/// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the answers of
+/// the call that was under way are not used.
+std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
+
+/// The same, but all detectors of a shared object if the name does not say which.
+std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
+                                                            const isolation::PluginLimits& limits = {});
 
 /// Which code a plug-in is.
 struct PluginIdentity {
-  std::string path;      ///< as it was given
+  std::string path;      ///< or command, with its options, as it was given
   std::string version;   ///< the plug-in's own; "" if it gives none
   std::string sha256;    ///< of the file, in hexadecimal
   std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none
@@ -29,5 +35,8 @@ struct PluginIdentity {
 
 /// Which code a subject is, if make_isolated_plugin made it.
 std::optional<PluginIdentity> plugin_identity(const Subject& subject);
+
+/// What a subject says about itself, if make_isolated_plugin made it; otherwise null.
+const DetectorInfo* plugin_info(const Subject& subject);
 
 }  // namespace nearmiss

@@ -46,6 +46,17 @@ struct SharedQuestions {
   std::uint32_t first = 0;  ///< the request is about the queries [first, last)
   std::uint32_t last = 0;
   std::array<std::array<double, 24>, batch_size> queries{};
+  std::array<double, batch_size> separations{};
+};
+
+/// DetectorInfo and Contract (ccd/), as plain numbers, whose every value can be read.
+struct PluginDescription {
+  std::array<char, 256> name{}, version{}, about{};
+  std::array<char, 4096> names{};  ///< of all detectors in the shared object, a line each
+  std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, takes_separation = 0, claims_bound = 0;
+  std::int32_t apart_at_start = 0, one_root = 0;
+  double grid = 0, shortest = 0, longest = 0;
+  std::uint64_t batch = 0;
 };
 
 /// The plug-in's answer to one query.
@@ -58,19 +69,20 @@ struct PluginAnswer {
 
 /// Written by the worker, in whose process the plug-in can write anything here.
 struct SharedAnswers {
-  std::atomic<std::uint32_t> current{0};         ///< the query that is being decided
+  std::atomic<std::uint32_t> current{0};         ///< the query that is being decided, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
+  std::atomic<std::uint64_t> program_time{
+      0};  ///< computing time in ns of the program that the plug-in is, if it is one
   std::array<PluginAnswer, batch_size> of{};
   std::uint64_t nanoseconds = 0;      ///< measured by decide_timed
   std::array<char, 256> exception{};  ///< what() of an exception that the plug-in did not catch
   // Written after loading, before any request:
-  std::array<char, 256> name{};     ///< the plug-in's own name
-  std::array<char, 256> version{};  ///< the plug-in's own version
-  bool claims_bound = false;
+  PluginDescription about;
   std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can
 };
 
-static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free &&
+              std::atomic<std::uint64_t>::is_always_lock_free);
 
 }  // namespace nearmiss::isolation

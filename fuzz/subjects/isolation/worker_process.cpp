@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,27 @@ using std::chrono::steady_clock;
 template <std::size_t n>
 std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
+}
+
+/// What the worker wrote about the plug-in, with values that are possible.
+DetectorInfo info_of(const PluginDescription& about) {
+  DetectorInfo info;
+  info.name = text(about.name);
+  info.version = text(about.version);
+  info.about = text(about.about);
+  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  info.is_narrow = about.is_narrow != 0;
+  info.time_sort =
+      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
+  info.takes_separation = about.takes_separation != 0;
+  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
+  info.claims_bound = about.claims_bound != 0;
+  info.contract = {.apart_at_start = about.apart_at_start != 0,
+                   .one_root = about.one_root != 0,
+                   .grid = about.grid,
+                   .shortest = about.shortest,
+                   .longest = about.longest};
+  return info;
 }
 
 Duration computing_time(pid_t process) {
@@ -59,21 +81,25 @@ bool WorkerProcess::Elapsed::exceeds(Duration limit) const {
 /// Measures from its construction.
 class WorkerProcess::Watch {
  public:
-  explicit Watch(pid_t process) : process_(process), computing_(computing_time(process)) {}
+  explicit Watch(const WorkerProcess& worker) : worker_(worker), computing_(worker.computing()) {}
   [[nodiscard]] Elapsed elapsed() const {
-    return {std::max(Duration{}, computing_time(process_) - computing_), steady_clock::now() - start_};
+    return {std::max(Duration{}, worker_.computing() - computing_), steady_clock::now() - start_};
   }
 
  private:
-  pid_t process_;
+  const WorkerProcess& worker_;
   Duration computing_;
   steady_clock::time_point start_ = steady_clock::now();
 };
 
-WorkerProcess::WorkerProcess(const PluginFile& file, const PluginLimits& limits) : limits_(limits) {
-  start(file.path());
+Duration WorkerProcess::computing() const {
+  return computing_time(supervisor_.process()) + std::chrono::nanoseconds(answers_->program_time.load());
+}
+
+WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits) : limits_(limits) {
+  start(file.name());
   try {
-    load(file.path());
+    load(file.name());
   } catch (const Error&) {
     file.expect_unchanged();  // a change is the reason
     throw;
@@ -81,34 +107,35 @@ WorkerProcess::WorkerProcess(const PluginFile& file, const PluginLimits& limits)
   file.expect_unchanged();  // otherwise it might have loaded other bytes
 }
 
-void WorkerProcess::start(const std::string& path) {
+void WorkerProcess::start(const std::string& plugin) {
   SocketPair replies;
   replies_ = std::move(replies.ours);
-  supervisor_.start({path, std::to_string(limits_.bytes), limits_.own_namespace ? "1" : "0"},
+  supervisor_.start({plugin, std::to_string(limits_.bytes), limits_.own_namespace ? "1" : "0"},
                     {replies.theirs.number(), questions_.file(), answers_.file()});
 }
 
-void WorkerProcess::load(const std::string& path) {
+void WorkerProcess::load(const std::string& plugin) {
   ask({0, Request::load});
   const End end = wait(0, limits_.loading, limits_.loading);
   if (end == End::query_late || end == End::call_late)
     throw Error(
-        fmt::format("{}: the plug-in takes longer than {:.0f} s to load", path, limits_.loading.count()));
+        fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
   if (end != End::done) {
     const std::string exception = text(answers_->exception);
-    throw Error(path + ": the plug-in " +
+    throw Error(plugin + ": the plug-in " +
                 (exception.empty() ? "ended its process" : "threw an exception: " + exception) +
                 " while it was loaded");
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error));
-  name_ = text(answers_->name);
-  version_ = text(answers_->version);
-  claims_bound_ = answers_->claims_bound;
+  info_ = info_of(answers_->about);
+  std::istringstream lines{std::string(answers_->about.names.data(),
+                                       strnlen(answers_->about.names.data(), answers_->about.names.size()))};
+  for (std::string line; std::getline(lines, line);) names_.push_back(printable(line));
 }
 
 void WorkerProcess::give(std::span<const Query> queries) {
   questions_->kind = queries.front().kind;
-  for (std::size_t i = 0; i < queries.size(); ++i) questions_->queries[i] = queries[i].x;
+  for (std::size_t i = 0; i < queries.size(); ++i) questions_->queries[i] = rounded_for(info_, queries[i]).x;
 }
 
 std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32_t first,
@@ -119,7 +146,8 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   const Call call{++call_, request};
   ask(call);
   const Duration of_queries = limits_.time * calls_per_query(request);
-  End end = wait(call.number, limits_.time, last - first == 1 ? of_queries : call_limit * of_queries);
+  const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
+  End end = wait(call.number, info_.batch == 1 ? limits_.time : of_call, of_call);
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
   for (std::uint32_t i = first; i < last && end == End::done; ++i)
     if (!answers(i)) end = End::broken;
@@ -128,7 +156,9 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   std::uint32_t query = std::clamp<std::uint32_t>(answers_->current, first, last - 1);
   for (std::uint32_t i = first; i < query; ++i)
     if (!answers(i)) query = i;
-  return failure(end, query);
+  WorkerFailure found = failure(end, query);
+  found.of_call |= info_.batch > 1 && last - first > 1;
+  return found;
 }
 
 void WorkerProcess::ask(const Call& call) {
@@ -156,9 +186,9 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
 
 WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Duration of_call) {
   constexpr int look_again_ms = 10;
-  const Watch watch(supervisor_.process());
+  const Watch watch(*this);
   std::uint32_t calls = answers_->calls;
-  Watch query_watch = watch;
+  std::optional<Watch> query_watch(watch);
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
@@ -168,8 +198,8 @@ WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Du
       if (const auto end = end_of(call)) return *end;
     if (const std::uint32_t now = answers_->calls; now != calls) {
       calls = now;
-      query_watch = Watch(supervisor_.process());
-    } else if (query_watch.elapsed().exceeds(of_query)) {
+      query_watch.emplace(*this);
+    } else if (query_watch->elapsed().exceeds(of_query)) {
       return End::query_late;
     }
     if (elapsed_.exceeds(of_call)) return End::call_late;

@@ -6,11 +6,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "ccd/detector.hpp"
 #include "ccd/subject.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
-#include "fuzz/subjects/isolation/plugin_file.hpp"
+#include "fuzz/subjects/isolation/plugin_code.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/supervisor.hpp"
 
@@ -39,25 +41,24 @@ struct WorkerFailure {
   Fault fault;
   std::int32_t code = 0;       ///< for a crash: the signal, or the negated exit code
   std::string exception = {};  ///< for an exception: what it says
-  bool of_call = false;        ///< the whole call took too long; which query is to blame is not known
+  bool of_call = false;        ///< which query of the call is to blame is not known
 };
 
 /// A running worker. It cannot be used after a call failed.
 class WorkerProcess {
  public:
   /// Throws Error if the plug-in cannot be used, PluginChanged, and Stopped.
-  WorkerProcess(const PluginFile& file, const PluginLimits& limits);
+  WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first.
   void dismiss() { supervisor_.dismiss(); }
 
-  /// The plug-in's own name, printable.
-  [[nodiscard]] const std::string& name() const { return name_; }
-  /// The plug-in's own version, printable.
-  [[nodiscard]] const std::string& version() const { return version_; }
-  [[nodiscard]] bool claims_bound() const { return claims_bound_; }
+  /// What the plug-in says about itself; all text is printable.
+  [[nodiscard]] const DetectorInfo& info() const { return info_; }
+  /// The names of all detectors in a shared object, printable.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Gives the worker a batch of queries of one kind, at most batch_size.
   void give(std::span<const Query> queries);
@@ -87,9 +88,11 @@ class WorkerProcess {
   };
   class Watch;
 
-  void start(const std::string& path);
-  void load(const std::string& path);
+  void start(const std::string& plugin);
+  void load(const std::string& plugin);
   void ask(const Call& call);
+  /// The computing time of the plug-in's process, and of the program that it runs, if it does.
+  [[nodiscard]] Duration computing() const;
   /// Waits for the reply to a call.
   End wait(std::uint64_t call, Duration of_query, Duration of_call);
   /// How the call ended, if a message says so.
@@ -108,8 +111,8 @@ class WorkerProcess {
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
   Elapsed elapsed_;  ///< of the last call
-  std::string name_, version_;
-  bool claims_bound_ = false;
+  DetectorInfo info_;
+  std::vector<std::string> names_;
 };
 
 }  // namespace nearmiss::isolation

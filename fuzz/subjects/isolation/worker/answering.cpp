@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,13 +14,17 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "ccd/detector.hpp"
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/stopwatch.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
+#include "fuzz/subjects/isolation/worker/program.hpp"
 
 namespace {
 
@@ -98,22 +103,16 @@ void prepare_for_faults() {
   std::set_terminate(note_exception);
 }
 
-void limit_memory(rlim_t more) {
+/// Limits the memory that a process may use in addition to what it has.
+void limit_memory(pid_t process, rlim_t more) {
   if (more == 0) return;
-  std::FILE* const statm = std::fopen("/proc/self/statm", "r");
+  std::FILE* const statm = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "r");
   unsigned long pages = 0;
   if (statm == nullptr || std::fscanf(statm, "%lu", &pages) != 1) _exit(1);
   std::fclose(statm);
   const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
   const rlimit limit{bytes, bytes};
-  setrlimit(RLIMIT_AS, &limit);
-}
-
-Query query_at(std::uint32_t i) {
-  Query query;
-  query.kind = questions->kind;
-  query.x = questions->queries[i];
-  return query;
+  prlimit(process, RLIMIT_AS, &limit, nullptr);
 }
 
 /// Notes which query comes next, because the plug-in may crash in it.
@@ -123,49 +122,63 @@ void begin(std::uint32_t i) {
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Decides one query.
-void ask(const Plugin& plugin, std::uint64_t call, std::uint32_t i) {
-  begin(i);
-  PluginAnswer& answer = answers->of[i];
-  answer.number = std::numeric_limits<double>::quiet_NaN();
-  answer.value = plugin.ask(query_at(i), answer.number);
-  answer.call = call;
+/// Has a detector decide the queries [first, last) in steps of `step`, and notes the answers.
+void ask(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last,
+         std::uint32_t step) {
+  static std::array<int, batch_size> values;
+  static std::array<double, batch_size> times;
+  for (std::uint32_t i = first; i < last; i += step) {
+    const std::uint32_t n = std::min(step, last - i);
+    begin(i);
+    detector.decide(questions->kind, questions->queries[i].data(), &questions->separations[i],
+                    std::span(values).first(n), std::span(times).first(n));
+    for (std::uint32_t k = 0; k < n; ++k)
+      answers->of[i + k] = {.call = call,
+                            .nanoseconds = answers->of[i + k].nanoseconds,
+                            .number = times[k],
+                            .value = values[k]};
+  }
 }
 
-void answer(const Plugin& plugin, const Call& call) {
-  const Plugin& empty = Plugin::empty_plugin();
+void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t i = first; i < last; ++i) {
+    begin(i);
+    answers->of[i].number = detector.bound(questions->kind, questions->queries[i].data()).bound;
+    answers->of[i].call = call;
+  }
+}
+
+void answer(const Detector& detector, const Call& call) {
+  const Detector& empty = Detector::empty();
   const std::uint32_t first = questions->first;
-  const std::uint32_t last = questions->last;
-  const auto ask_all = [&](const Plugin& asked, std::uint32_t end) {
-    for (std::uint32_t i = first; i < end; ++i) ask(asked, call.number, i);
+  const std::uint32_t last = std::min<std::uint32_t>(questions->last, batch_size);
+  const auto step = static_cast<std::uint32_t>(std::min(detector.info().batch, batch_size));
+  const auto ask_all = [&](const Detector& asked, std::uint32_t end) {
+    ask(asked, call.number, first, end, step);
   };
   switch (call.request) {
     case Request::load:
       break;  // it is loaded
     case Request::decide:
-      ask_all(plugin, last);
+      ask_all(detector, last);
       break;
     case Request::decide_timed: {
       const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
       ask_all(empty, few);
-      ask_all(plugin, few);
+      ask_all(detector, few);
       // The time of all threads, since a plug-in may have threads of its own.
       answers->nanoseconds = time_beyond(
-          CLOCK_PROCESS_CPUTIME_ID, [&] { ask_all(plugin, last); }, [&] { ask_all(empty, last); });
+          CLOCK_PROCESS_CPUTIME_ID, [&] { ask_all(detector, last); }, [&] { ask_all(empty, last); });
       break;
     }
     case Request::time_each:
       for (std::uint32_t i = first; i < last; ++i)
         answers->of[i].nanoseconds = best_time_beyond(
-            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(plugin, call.number, i); },
-            [&] { ask(empty, call.number, i); });
+            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(detector, call.number, i, i + 1, 1); },
+            [&] { ask(empty, call.number, i, i + 1, 1); });
       break;
     case Request::bounds:
-      for (std::uint32_t i = first; i < last; ++i) {
-        begin(i);
-        answers->of[i].number = plugin.ask_bound(query_at(i)).bound;
-        answers->of[i].call = call.number;
-      }
+      give_bounds(detector, call.number, first, last);
       break;
   }
 }
@@ -189,16 +202,54 @@ Memory* map(int descriptor, int protection) {
   return memory == MAP_FAILED ? nullptr : static_cast<Memory*>(memory);
 }
 
-std::unique_ptr<Plugin> load(const char* path) {
+void describe(const DetectorInfo& info, const std::string& names) {
+  PluginDescription& about = answers->about;
+  copy(info.name, about.name);
+  copy(info.version, about.version);
+  copy(info.about, about.about);
+  copy(names, about.names);
+  about.kinds = info.kinds;
+  about.is_narrow = info.is_narrow ? 1 : 0;
+  about.time_sort = static_cast<std::int32_t>(info.time_sort);
+  about.takes_separation = info.takes_separation ? 1 : 0;
+  about.claims_bound = info.claims_bound ? 1 : 0;
+  about.apart_at_start = info.contract.apart_at_start ? 1 : 0;
+  about.one_root = info.contract.one_root ? 1 : 0;
+  about.grid = info.contract.grid;
+  about.shortest = info.contract.shortest;
+  about.longest = info.contract.longest;
+  about.batch = info.batch;
+}
+
+/// Opens a detector, and describes it.
+std::unique_ptr<Detector> open_detector(const nearmiss_subject& subject, const std::string& options,
+                                        const std::vector<std::string>& names) {
+  auto detector = std::make_unique<Detector>(subject, options);
+  std::string lines;
+  for (const std::string& name : names) lines += name + "\n";
+  describe(detector->info(), lines);
+  return detector;
+}
+
+/// A detector that is ready to be asked, and the process that it is in.
+struct Loaded {
+  std::unique_ptr<Detector> detector;  ///< null if it cannot be used
+  pid_t process = getpid();
+};
+
+/// Loads the plug-in of this name, whose library or program lives as long as this process.
+Loaded load(std::string_view name) {
   try {
-    auto plugin = std::make_unique<Plugin>(path);
-    copy(plugin->name(), answers->name);
-    copy(plugin->version(), answers->version);
-    answers->claims_bound = plugin->claims_bound();
-    return plugin;
+    if (is_program(name)) {
+      static const Program program(std::string(name.substr(program_prefix.size())), answers->program_time);
+      return {open_detector(program.subject(), "", {}), program.process()};
+    }
+    const PluginName parsed = PluginName::parse(name);
+    static const PluginLibrary library(parsed.path);
+    return {open_detector(library.subject(parsed.subject), parsed.options, library.names())};
   } catch (const Error& error) {
     copy(error.what(), answers->error);
-    return nullptr;
+    return {};
   }
 }
 
@@ -206,18 +257,18 @@ std::unique_ptr<Plugin> load(const char* path) {
 
 namespace nearmiss::isolation {
 
-int answer_requests(const char* path, std::uint64_t bytes) {
+int answer_requests(const char* plugin, std::uint64_t bytes) {
   questions = map<const SharedQuestions>(questions_memory, PROT_READ);
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE);
   if (questions == nullptr || answers == nullptr) return 1;
   prepare_for_faults();
   Call call{};
   if (!receive(call)) return 0;
-  const std::unique_ptr<Plugin> plugin = load(path);
-  limit_memory(bytes);
+  const Loaded loaded = load(plugin);
+  limit_memory(loaded.process, bytes);
   reply(call.number);
-  while (plugin && receive(call)) {
-    answer(*plugin, call);
+  while (loaded.detector && receive(call)) {
+    answer(*loaded.detector, call);
     reply(call.number);
   }
   return 0;

@@ -1,0 +1,34 @@
+// The code of a plug-in: which bytes it has, and that they stay the same.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fuzz/subjects/isolation/plugin_file.hpp"
+
+namespace nearmiss::isolation {
+
+/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the command of a
+/// program names, the program included. What these load is not part of it. Many threads use it at once.
+class PluginCode {
+ public:
+  /// Reads the files. Throws Error if that fails.
+  explicit PluginCode(std::string name);
+
+  /// The plug-in's name on the command line.
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// The SHA-256 digest of the file, in hexadecimal; of the digests of the files, if there are several.
+  [[nodiscard]] const std::string& sha256() const { return sha256_; }
+  /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
+  [[nodiscard]] const std::string& build_id() const { return build_id_; }
+
+  /// Throws PluginChanged as PluginFile does.
+  void expect_unchanged() const;
+
+ private:
+  std::string name_, sha256_, build_id_;
+  std::vector<std::unique_ptr<PluginFile>> files_;
+};
+
+}  // namespace nearmiss::isolation

@@ -1,0 +1,155 @@
+// What the plug-in interface can say (ccd/nearmiss_subject.h), in a process of its own and in this one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "ccd/error.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::string several(const std::string& subject) { return NEARMISS_PLUGINS "/several.so" + subject; }
+
+/// A query that starts at x[0] = `x`.
+Query query_at(double x, Kind kind = Kind::edge_edge) {
+  Query query{.kind = kind};
+  query.x[0] = x;
+  return query;
+}
+
+/// The detector in this process, and in a process of its own.
+std::vector<std::unique_ptr<Subject>> both(const std::string& subject) {
+  std::vector<std::unique_ptr<Subject>> subjects;
+  subjects.push_back(make_subject(several(subject)));
+  subjects.push_back(make_any_subject(several(subject)));
+  return subjects;
+}
+
+TEST(Interface, ASharedObjectMayHaveSeveralDetectors) {
+  std::vector<std::string> names;
+  for (const auto& each : make_any_subjects(several(""))) names.push_back(each->name());
+  EXPECT_THAT(names, ElementsAre("told", "edges", "floats", "batches"));
+  EXPECT_EQ(make_any_subjects(several(":floats")).size(), 1);
+  EXPECT_THAT([] { make_any_subject(several("")); },
+              ThrowsMessage<Error>(
+                  HasSubstr("found several detectors, expected one of told, edges, floats, batches")));
+  EXPECT_THAT([] { make_any_subject(several(":none")); },
+              ThrowsMessage<Error>(
+                  HasSubstr("found no detector 'none', expected one of told, edges, floats, batches")));
+}
+
+TEST(Interface, OptionsArePassedOnAndPartOfTheName) {
+  for (const auto& subject : both(":told:answer=0")) {
+    EXPECT_EQ(subject->name(), "told:answer=0");
+    EXPECT_FALSE(subject->decide(query_at(0)).hit);
+  }
+  for (const auto& subject : both(":told")) EXPECT_TRUE(subject->decide(query_at(0)).hit);
+  for (const char* bad : {":told:answer=x", ":told:reply=1"})
+    EXPECT_THAT([&] { both(bad); }, ThrowsMessage<Error>(HasSubstr("expected answer=NUMBER"))) << bad;
+  EXPECT_THAT([] { make_any_subject(several(":edges:a=1")); },
+              ThrowsMessage<Error>(HasSubstr("found the options 'a=1', expected none")));
+  EXPECT_THAT([] { make_any_subject(several(":told:edges")); },
+              ThrowsMessage<Error>(HasSubstr("found 'edges', expected PATH[:SUBJECT][:KEY=VALUE]")));
+}
+
+TEST(Interface, AnUnknownAnswerCountsAsAHit) {
+  for (const auto& subject : both(":told:answer=2")) {
+    const Verdict verdict = subject->decide(query_at(0));
+    EXPECT_TRUE(verdict.hit);
+    EXPECT_EQ(verdict.stage, Stage::unknown);
+  }
+}
+
+TEST(Interface, AnAnswerThatIsNoneIsInvalid) {
+  for (const auto& subject : both(":told:answer=3"))
+    EXPECT_EQ(subject->decide(query_at(0)).fault, Fault::invalid);
+  for (const auto& subject : both(":told:answer=-3")) {
+    EXPECT_EQ(subject->decide(query_at(0)).fault, Fault::error);
+    EXPECT_EQ(subject->decide(query_at(0)).fault_code, -3);
+  }
+  for (const auto& subject : both(":batches")) EXPECT_EQ(subject->decide(query_at(-1)).fault, Fault::error);
+}
+
+TEST(Interface, APromisedTimeMustBeATime) {
+  for (const auto& subject : both(":edges")) {
+    for (const double time : {0.0, 0.25, 1.0}) {
+      EXPECT_TRUE(subject->decide(query_at(time)).hit);
+      EXPECT_EQ(subject->decide(query_at(time)).time, time);
+    }
+    for (const double time : {-1e-300, 1.0000000001, 1e300})
+      EXPECT_EQ(subject->decide(query_at(time)).fault, Fault::invalid) << time;
+  }
+}
+
+TEST(Interface, AnotherKindIsNeitherAskedNorJudged) {
+  for (const auto& subject : both(":edges")) {
+    EXPECT_EQ(subject->decide(query_at(0.5, Kind::vertex_triangle)).fault, Fault::not_asked);
+    EXPECT_FALSE(subject->decides(Kind::vertex_triangle));
+    EXPECT_TRUE(subject->decides(Kind::edge_edge));
+  }
+  Subjects subjects = make_any_subjects(several(":edges"));
+  subjects.push_back(make_subject("wang"));
+  const TrialResult result = hold_trial(
+      subjects, {.kind = Kind::vertex_triangle, .queries = {testing::falling_vertex(0.25, 0.25, 1, -1)}});
+  ASSERT_EQ(result.statistics.counts.size(), 1);
+  EXPECT_EQ(result.statistics.counts.begin()->first.subject, "wang");
+}
+
+TEST(Interface, CoordinatesOf24BitsAreRoundedBeforeTheDetectorSeesThem) {
+  Query query = testing::falling_vertex(0.1, 0.3, 1e300, -1);
+  for (const auto& subject : both(":floats")) {
+    EXPECT_TRUE(subject->rounds());
+    EXPECT_TRUE(subject->decide(query).hit);
+    EXPECT_EQ(subject->rounded(query).x[0], static_cast<double>(0.1F));
+    EXPECT_EQ(subject->rounded(query).x[2], static_cast<double>(std::numeric_limits<float>::max()));
+  }
+}
+
+TEST(Interface, ADetectorGetsAsManyQueriesAtOnceAsItLikes) {
+  const auto subject = make_any_subject(several(":batches"));
+  const std::vector<Query> queries(100, query_at(0.5));
+  std::vector<Verdict> verdicts(queries.size());
+  subject->decide(queries, verdicts);
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+    EXPECT_EQ(verdicts[i].fault_code, i < 64 ? -64 : -36) << i;
+}
+
+TEST(Interface, ACrashInABatchIsThatOfOneQuery) {
+  const auto subject = make_any_subject(several(":batches"));
+  std::vector<Query> queries(200, query_at(0.5));
+  queries[70] = query_at(0.95);
+  std::vector<Verdict> verdicts(queries.size());
+  subject->decide(queries, verdicts);
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+    EXPECT_EQ(verdicts[i].fault, i == 70 ? Fault::crash : Fault::error) << i;
+}
+
+TEST(Interface, AContractIsKnown) {
+  const Contract expected{
+      .apart_at_start = true, .one_root = false, .grid = 0x1p-10, .shortest = 0, .longest = 2};
+  for (const auto& subject : both(":batches")) EXPECT_EQ(subject->contract(), expected);
+}
+
+TEST(Interface, TheExampleOnEigenTakesAToleranceAndGivesATime) {
+  const std::string path = NEARMISS_PLUGINS "/sampling.so";
+  const Query falls = testing::falling_vertex(0.25, 0.25, 1, -1);
+  const Query passes = testing::falling_vertex(0.25, 0.25, 1, 0.25);
+  const auto exact = make_any_subject(path);
+  EXPECT_TRUE(exact->decide(falls).hit);
+  EXPECT_EQ(exact->decide(falls).time, 0.5);
+  EXPECT_FALSE(exact->decide(passes).hit);
+  EXPECT_TRUE(make_any_subject(path + ":tolerance=0.25")->decide(passes).hit);
+  EXPECT_THAT([&] { make_any_subject(path + ":tolerance=-1"); },
+              ThrowsMessage<Error>(HasSubstr("expected tolerance=LENGTH")));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,43 @@
+/* Makes a plug-in with one detector of a function that answers one query. */
+#ifndef NEARMISS_TESTS_ONE_BY_ONE_H
+#define NEARMISS_TESTS_ONE_BY_ONE_H
+
+#include "ccd/nearmiss_subject.h"
+
+#ifndef TIME_SORT
+#define TIME_SORT NEARMISS_NO_TIME
+#endif
+#define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
+
+/* The detector `text`, which answers test(x, toi), with a bound, which may be NULL. */
+#define EXPORT_DETECTOR(text, test, bound)                                                         \
+  static void decide_one_by_one(void* state, int kind, size_t n, const double* x, const double* h, \
+                                int* answers, double* times) {                                     \
+    (void)state, (void)kind, (void)h;                                                              \
+    for (size_t i = 0; i < n; ++i) answers[i] = test(x + 24 * i, times + i);                       \
+  }                                                                                                \
+  NEARMISS_EXPORTED const nearmiss_subject* nearmiss_get_subject(size_t index) {                   \
+    static const nearmiss_subject detector = {.interface_version = NEARMISS_INTERFACE,             \
+                                              .name = text,                                        \
+                                              .version = "1",                                      \
+                                              .about = "",                                         \
+                                              .kinds = ANY_KIND,                                   \
+                                              .bits = 0,                                           \
+                                              .time_sort = TIME_SORT,                              \
+                                              .takes_separation = 0,                               \
+                                              .batch = 0,                                          \
+                                              .contract = {0, 0, 0, 0, 0},                         \
+                                              .open = NULL,                                        \
+                                              .close = NULL,                                       \
+                                              .decide = decide_one_by_one,                         \
+                                              .distance_bound = bound};                            \
+    return index == 0 ? &detector : NULL;                                                          \
+  }
+
+#ifdef __cplusplus
+#define NEARMISS_EXPORTED extern "C"
+#else
+#define NEARMISS_EXPORTED
+#endif
+
+#endif
