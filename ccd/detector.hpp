@@ -24,6 +24,8 @@ struct DetectorInfo {
   std::size_t batch = 1;
   bool claims_bound = false;
   Contract contract;
+
+  bool operator==(const DetectorInfo&) const = default;
 };
 
 /// What of a description contradicts nearmiss_subject.h; "" if nothing does.

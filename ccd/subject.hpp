@@ -68,13 +68,14 @@ enum class Fault : std::uint8_t {
   protocol,   ///< it wrote to nearmiss's channels, or closed them
   not_asked,  ///< it does not decide this kind, or was set aside, because it exceeded its time limit too often
   invalid,    ///< it gave an answer that is none, or a collision without the time that it promises
+  load,       ///< it could not be loaded again after it had failed
 };
 
-inline constexpr std::size_t fault_count = 9;
+inline constexpr std::size_t fault_count = 10;
 
 /// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
-    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked", "invalid"};
+    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked", "invalid", "load"};
 
 /// What a subject says about the time of a collision.
 enum class TimeSort : std::uint8_t {
@@ -102,7 +103,7 @@ struct Verdict {
   Fault fault = Fault::none;                               ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
   /// The return value of an error; the signal or negated exit code of a crash; a number that Subject::fault_text knows
-  /// for an exception.
+  /// for an exception and a failure to load.
   std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }
@@ -182,7 +183,7 @@ class Subject {
   /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
 
-  /// What an exception said, of a verdict of this subject; "" for any other verdict.
+  /// What an exception said, or why the subject could not be loaded, of a verdict of this subject; "" for any other.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
   /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as

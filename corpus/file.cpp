@@ -17,11 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_be_written(const fs::path& file, const std::string& why = "") {
-  return Error(fmt::format("{}: cannot be written{}{}", file.string(), why.empty() ? "" : ": ", why));
+Error cannot_be_written(const fs::path& file, const std::string& why) {
+  return Error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
+/// If it fails, errno says why.
 bool write(const fs::path& file, std::string_view text) {
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
@@ -58,17 +60,48 @@ void PartFile::put_in_place() {
   path_.clear();
 }
 
-void replace_file(const fs::path& file, std::string_view text) {
+namespace {
+
+/// Whether a path leads, perhaps over links, to an open file of a process, such as /dev/stdout.
+bool is_open_file(fs::path path) {
+  constexpr int most_links = 40;
+  std::error_code none;
+  for (int i = 0; i < most_links; ++i) {
+    path = fs::absolute(path).lexically_normal();
+    if (path.string().starts_with("/proc/") || path.string().starts_with("/dev/")) return true;
+    const fs::path target = fs::read_symlink(path, none);
+    if (none) return false;
+    path = path.parent_path() / target;
+  }
+  return false;
+}
+
+/// Whether a path leads to a pipe, a device or an open file, which cannot be replaced.
+bool is_written_through(const fs::path& file) {
   std::error_code error;
-  const auto status = fs::symlink_status(file, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    // A link, pipe or device is written through, never replaced.
-    if (!write(file, text)) throw cannot_be_written(file);
+  const auto status = fs::status(file, error);
+  if (fs::is_directory(status))
+    throw Error(fmt::format("{}: found a folder, expected a file", file.string()));
+  return fs::exists(status) && (!fs::is_regular_file(status) || is_open_file(file));
+}
+
+/// The file that a link leads to; the file itself if it is no link.
+fs::path target_of(const fs::path& file) { return fs::is_symlink(file) ? true_path(file) : file; }
+
+}  // namespace
+
+void replace_file(const fs::path& file, std::string_view text) {
+  if (is_written_through(file)) {
+    if (!write(file, text)) throw cannot_be_written(file, std::strerror(errno));
     return;
   }
-  PartFile part(file);
-  if (!write(part.path(), text)) throw cannot_be_written(file);
+  PartFile part(target_of(file));
+  if (!write(part.path(), text)) throw cannot_be_written(file, std::strerror(errno));
   part.put_in_place();
+}
+
+void expect_replaceable(const fs::path& file) {
+  if (!is_written_through(file)) const PartFile part(target_of(file));
 }
 
 fs::path true_path(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }

@@ -24,9 +24,12 @@ class PartFile {
   std::filesystem::path place_, path_;
 };
 
-/// Replaces the file's content by this text. No reader ever sees half of it, and a full disk leaves the old
-/// file unchanged. A link or a device (/dev/stdout) is written through. Throws Error.
+/// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees half of it,
+/// and a full disk leaves the old file unchanged. A pipe or a device (/dev/stdout) is written through. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
+
+/// Throws the Error that replace_file would throw because of the file or its folder.
+void expect_replaceable(const std::filesystem::path& file);
 
 /// The absolute path of a file without links, whether or not the file exists.
 std::filesystem::path true_path(const std::filesystem::path& path);

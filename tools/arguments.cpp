@@ -156,8 +156,10 @@ std::pair<std::uint64_t, std::uint64_t> parse_shard(std::string_view text) {
   const auto first = std::from_chars(text.data(), end, shard);
   const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
   const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, shards);
-  if (!slash || second.ec != std::errc() || second.ptr != end || shard >= shards)
-    throw Error(fmt::format("--shard: found '{}', expected I/N with 0 <= I < N, such as 0/4", excerpt(text)));
+  constexpr std::uint64_t most = 1'000'000;
+  if (!slash || second.ec != std::errc() || second.ptr != end || shard >= shards || shards > most)
+    throw Error(fmt::format("--shard: found '{}', expected I/N with 0 <= I < N <= {}, such as 0/4",
+                            excerpt(text), most));
   return {shard, shards};
 }
 

@@ -19,10 +19,12 @@ void JsonOutput::add_to(CLI::App& command, const std::string& description) {
       ->type_name("FILE|-");
 }
 
-void JsonOutput::expect_folder() const {
+void JsonOutput::expect_writable() const {
+  if (!is_wanted() || is_stdout()) return;
   const auto folder = file_.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw Error(fmt::format("{}: no folder {} to write it in", file_.string(), folder.string()));
+  expect_replaceable(file_);
 }
 
 void JsonOutput::expect_other_file(const std::filesystem::path& file) const {

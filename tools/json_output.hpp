@@ -22,8 +22,8 @@ class JsonOutput {
   /// Where the command prints its text.
   [[nodiscard]] std::FILE* text() const { return is_stdout() ? stderr : stdout; }
 
-  /// Throws Error if the folder of the file does not exist.
-  void expect_folder() const;
+  /// Throws Error if the file cannot be written, as far as can be known before.
+  void expect_writable() const;
 
   /// Throws Error if the JSON would replace this file.
   void expect_other_file(const std::filesystem::path& file) const;

@@ -55,7 +55,7 @@ RunInfo run_info(const std::string& command) {
 
 Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
     : options_(std::move(options)), info_(std::move(info)), shard_(shard) {
-  options_.json.expect_folder();
+  options_.json.expect_writable();
   options_.json.expect_other_file(options_.db);
   shard_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   shard_.environment.merge(environment());
@@ -146,7 +146,6 @@ int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
   save();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
-  options_.json.write(summary_json(campaign));
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_) : "",
              sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
@@ -156,6 +155,8 @@ int Record::finish(bool interrupted, bool complete) {
   for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)
     fmt::print(text, "  {} {} {} ({})\n", name(findings[i].what), findings[i].subject, findings[i].provenance,
                findings[i].signature);
+  std::fflush(text);  // so that it is there if the file cannot be written
+  options_.json.write(summary_json(campaign));
   if (interrupted) return exit_interrupted;
   return found_anything(statistics_) ? exit_found : exit_fine;
 }

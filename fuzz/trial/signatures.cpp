@@ -49,6 +49,7 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
       return signature(kind, name + " " + (abbreviation != nullptr ? abbreviation : "of an unknown signal"));
     }
     case Fault::exception:
+    case Fault::load:
       return signature(kind, name + " " + without_numbers(text));
     case Fault::error:
       return signature(kind, name + " " + std::to_string(verdict.fault_code));

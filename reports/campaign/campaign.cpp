@@ -39,10 +39,18 @@ std::string describe(const RunInfo& info) {
   return text;
 }
 
-/// The facts of a run that say what it was asked to do.
-RunInfo task_of(RunInfo info) {
-  std::erase_if(info, [](const auto& fact) { return says_which_code(fact.first); });
+/// The facts of a run without its losses: a salvaged run has the queries of the original.
+RunInfo original_of(RunInfo info) {
+  info.erase(salvaged_fact);
+  info.erase(origin_fact);
   return info;
+}
+
+/// The facts of a run that say what it was asked to do.
+RunInfo task_of(const RunInfo& info) {
+  RunInfo task = original_of(info);
+  std::erase_if(task, [](const auto& fact) { return says_which_code(fact.first); });
+  return task;
 }
 
 }  // namespace
@@ -76,6 +84,15 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
+/// Throws Error if it is not known which run some results are of, because they could count twice.
+void expect_known_runs(const Campaign& campaign, const std::string& name) {
+  if (std::any_of(campaign.runs.begin(), campaign.runs.end(),
+                  [](const Run& run) { return run.info.contains(origin_fact); }))
+    throw Error(name +
+                ": found results of an unknown run, because rows about runs were lost, expected a "
+                "store whose results cannot count twice");
+}
+
 /// Merges the runs of several campaigns.
 class RunMerger {
  public:
@@ -102,20 +119,21 @@ class RunMerger {
  private:
   void expect_same_code(const RunInfo& info, const std::string& name) {
     const auto& [other, other_name] = by_task_.try_emplace(task_of(info), info, name).first->second;
-    if (const auto fact = different_fact(other, info))
+    if (const auto fact = different_fact(original_of(other), original_of(info)))
       throw Error(fmt::format("{}: found {} '{}', expected '{}' as in {}, for the run with {}", name,
                               fact->name, fact->other, fact->one, other_name, describe(task_of(info))));
   }
 
   void add(const Shard& shard, Run& run, const std::string& name) {
-    const auto [other, is_new] = from_.emplace(std::tuple(run.info, shard.index), name);
+    const RunInfo original = original_of(run.info);
+    const auto [other, is_new] = from_.emplace(std::tuple(original, shard.index), name);
     if (!is_new)
       throw Error(fmt::format("{} and {}: both have shard {}/{} of the run with {}", other->second, name,
-                              shard.index, shard.count, describe(run.info)));
+                              shard.index, shard.count, describe(original)));
     if (!run.shards.empty() && run.shards.front().count != shard.count)
       throw Error(fmt::format("{}: found a shard of {}, and one of {} in {}, of the run with {}", name,
                               shard.count, run.shards.front().count,
-                              from_.at({run.info, run.shards.front().index}), describe(run.info)));
+                              from_.at({original, run.shards.front().index}), describe(original)));
     run.shards.push_back(shard);
   }
 
@@ -130,6 +148,7 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
   Statistics statistics;
   RunMerger runs;
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    if (campaigns.size() > 1) expect_known_runs(campaigns[i], names[i]);
     statistics.merge(campaigns[i].statistics);
     for (const Run& each : campaigns[i].runs) runs.add(each, names[i]);
   }

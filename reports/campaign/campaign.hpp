@@ -32,6 +32,12 @@ struct DifferentFact {
 };
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
+/// Name of the fact of a run that says what a salvage lost of it. With this fact, it is another run, so that nothing
+/// resumes it.
+inline constexpr const char* salvaged_fact = "salvaged";
+/// Name of the fact that a salvage gives a run if rows about runs were lost, so that some results are of unknown runs.
+inline constexpr const char* origin_fact = "origin";
+
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
 inline constexpr std::string_view until_the_time_is_over = "until the time is over";
 

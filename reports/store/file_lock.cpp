@@ -25,8 +25,13 @@ FileLock::FileLock(const std::filesystem::path& file) : lock_(true_path(file).st
       throw Error(fmt::format("{}: cannot be made: {}", lock_.string(), std::strerror(errno)));
     struct stat held {};
     const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-    if (locked && fstat(descriptor_, &held) == 0 && held.st_nlink > 0) return;
+    const bool is_in_place = locked && fstat(descriptor_, &held) == 0 && held.st_nlink > 0;
+    if (is_in_place && held.st_size == 0) return;
     close(descriptor_);
+    if (is_in_place)
+      throw Error(
+          fmt::format("{}: found a file with {} bytes, expected none: the lock of {} would replace it",
+                      lock_.string(), held.st_size, file.string()));
     if (!locked) throw Error(fmt::format("{}: another process is writing it", file.string()));
     // The holder removed the lock file just before it released the lock. Try again with a new lock file.
   }

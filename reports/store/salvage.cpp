@@ -21,11 +21,12 @@ std::string lost(const Salvaged& table) {
   return fmt::format("{} of {} rows of {}", *table.rows - table.intact, *table.rows, table.table);
 }
 
-void mark(std::vector<Run>& runs, const std::string& lost) {
+void mark(std::vector<Run>& runs, const std::string& lost, bool lost_runs) {
   if (runs.empty()) runs.emplace_back();
   for (Run& run : runs) {
     run.info.try_emplace("command", "unknown");
     run.info[salvaged_fact] = "lost " + lost;
+    if (lost_runs) run.info[origin_fact] = "partly unknown";
   }
 }
 
@@ -49,14 +50,16 @@ Salvage salvage_campaign(const std::filesystem::path& file) {
     db.exec("PRAGMA schema_version");        // throws if this is no database
     TableReader read(db, true);
     Salvage salvage{{read_runs(read), read_statistics(read)}, 0, ""};
+    bool lost_runs = false;
     for (const Salvaged& table : read.salvaged()) {
       salvage.rows += table.intact;
-      if (const std::string each = lost(table); !each.empty())
-        salvage.lost += (salvage.lost.empty() ? "" : ", ") + each;
+      const std::string each = lost(table);
+      lost_runs |= !each.empty() && (table.table == "run" || table.table == "shard");
+      if (!each.empty()) salvage.lost += (salvage.lost.empty() ? "" : ", ") + each;
     }
     if (salvage.rows == 0) throw Error("found no intact row, so that nothing can be saved");
     if (!salvage.lost.empty()) {
-      mark(salvage.campaign.runs, salvage.lost);
+      mark(salvage.campaign.runs, salvage.lost, lost_runs);
       count_findings(salvage.campaign);
     }
     return salvage;

@@ -8,10 +8,6 @@
 
 namespace nearmiss {
 
-/// Name of the fact of a run that says what was lost of it. A run with this fact is another run, so that nothing resumes
-/// it.
-inline constexpr const char* salvaged_fact = "salvaged";
-
 /// The intact part of a store.
 struct Salvage {
   Campaign campaign;       ///< each run has the fact `salvaged_fact`, if anything was lost

@@ -44,7 +44,7 @@ void set_time_per_query(benchmark::State& state, double nanoseconds) {
 
 void time_subject(benchmark::State& state, const Subject& subject) {
   std::vector<Verdict> verdicts(queries().size());
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto each : state) {
     const BatchTime time = subject.decide_timed(queries(), verdicts);
     set_time_per_query(state, static_cast<double>(time.nanoseconds));
   }
@@ -52,7 +52,7 @@ void time_subject(benchmark::State& state, const Subject& subject) {
 
 void time_plain_loop(benchmark::State& state, int steps) {
   using Clock = std::chrono::steady_clock;
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto each : state) {
     const auto start = Clock::now();
     for (const Query& query : queries()) benchmark::DoNotOptimize(known_time(query.x.data(), steps));
     set_time_per_query(state, std::chrono::duration<double, std::nano>(Clock::now() - start).count());

@@ -64,6 +64,7 @@ TEST(Campaign, DividesTheCasesAmongTheFamilies) {
   const Ran all = run(plan_of(4000, 2));
   std::uint64_t in_a_round = 0;
   for (const Family& family : families()) in_a_round += family.block_cases;
+  ASSERT_GT(in_a_round, 0);
   std::uint64_t sum = 0;
   for (const Family& family : families()) {
     const auto own = queries(all.statistics, "wang", family.name);
@@ -134,8 +135,8 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
 TEST(Campaign, AnnouncesTheCasesThatAShardHas) {
   CampaignPlan plan = plan_of(0, 1);
   plan.families = {find_family("uniform"), find_family("planted"), find_family("overflow")};
-  for (const std::uint64_t shards : {1, 2, 3, 7})
-    for (const std::uint64_t cases : {1, 100, 630, 631, 1499}) {
+  for (const std::uint64_t shards : {1U, 2U, 3U, 7U})
+    for (const std::uint64_t cases : {1U, 100U, 630U, 631U, 1499U}) {
       plan.cases = cases;
       plan.shards = shards;
       std::uint64_t sum = 0;
@@ -182,7 +183,7 @@ TEST(Campaign, AfterAResumeIsThatOfAnUninterruptedRun) {
   plan.families = {find_family("planted"), find_family("degenerate"), find_family("aspect@8")};
   const auto never = [] { return std::make_unique<Stopping>(ignored, std::uint64_t{1} << 62); };
   const Ran whole = run(plan, true, Stop::never(), never());
-  for (const std::uint64_t queries : {1, 100, 777, 2500, 6000}) {
+  for (const std::uint64_t queries : {1U, 100U, 777U, 2500U, 6000U}) {
     plan.before = {};
     plan.findings_before = {};
     std::atomic<bool> requested{false};

@@ -2,16 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdlib.h>
+
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "fuzz/subjects/isolation/fault_texts.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "tests/fuzz/copied_plugin.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
@@ -82,6 +87,61 @@ TEST(Isolation, LeavesNoFileAndNoMemory) {
     EXPECT_EQ(held(), during);
   }
   EXPECT_EQ(held(), before);
+}
+
+/// The signal mask of this process, and its reaction to the end of a child.
+class ForeignSignals {
+ public:
+  ForeignSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+    reaction_ = std::signal(SIGCHLD, SIG_IGN);
+  }
+  ForeignSignals(const ForeignSignals&) = delete;
+  ForeignSignals& operator=(const ForeignSignals&) = delete;
+  ~ForeignSignals() {
+    std::signal(SIGCHLD, reaction_);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t before_{};
+  decltype(SIG_DFL) reaction_;
+};
+
+TEST(Isolation, DoesNotDependOnTheSignalsOfItsParent) {
+  const ForeignSignals foreign;
+  setenv("NEARMISS_ONE_IN", "1", 1);
+  const Verdict verdict = make_isolated_plugin(plugin("crash"))->decide(queries().front());
+  unsetenv("NEARMISS_ONE_IN");
+  EXPECT_EQ(verdict.fault, Fault::crash);
+  EXPECT_EQ(verdict.fault_code, SIGSEGV);
+}
+
+class LaterProcess : public testing::TemporaryFolder, public ::testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, LaterProcess, ::testing::Values("leaves_later", "renamed_later"));
+
+TEST_P(LaterProcess, ThatCannotBeUsedIsAFaultOfTheLaterQueries) {
+  setenv("NEARMISS_MARK", file("mark").c_str(), 1);
+  const auto subject = make_isolated_plugin(plugin(GetParam()));
+  const auto asked = queries();
+  const auto verdicts = answers_of(*subject, asked);
+  unsetenv("NEARMISS_MARK");
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    EXPECT_EQ(verdicts[i].fault, i < chosen ? Fault::none : i == chosen ? Fault::crash : Fault::load) << i;
+  EXPECT_THAT(subject->fault_text(verdicts.back()), HasSubstr(std::string(GetParam()) + ".so: the plug-in "));
+  EXPECT_EQ(answers_of(*subject, asked).front().fault, Fault::load);
+}
+
+TEST(FaultTexts, AreAThousandWhoseNumbersStay) {
+  FaultTexts texts;
+  for (int i = 0; i < 3000; ++i) texts.number("text " + std::to_string(i));
+  EXPECT_EQ(texts.text(0), "text 0");
+  EXPECT_EQ(texts.text(998), "text 998");
+  EXPECT_EQ(texts.text(999), "one of more than a thousand texts");
+  EXPECT_EQ(texts.number("text 998"), 998);
+  EXPECT_EQ(texts.number("another"), 999);
 }
 
 TEST(Isolation, MayStartSomeProcesses) {

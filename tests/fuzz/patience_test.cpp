@@ -84,7 +84,7 @@ TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
 TEST(Patience, IsThatOfTheWholeCampaignAfterAResume) {
   CampaignPlan plan = plan_of(2);
   const Statistics whole = run(plan);
-  for (const std::uint64_t queries : {20, 50, 80}) {
+  for (const std::uint64_t queries : {20U, 50U, 80U}) {
     plan.before = {};
     Statistics sum = run(plan, queries);
     EXPECT_LT(sum.oracle_total().queries, 4000) << queries;

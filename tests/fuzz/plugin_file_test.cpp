@@ -19,7 +19,6 @@ namespace {
 using isolation::gnu_build_id;
 using isolation::PluginChanged;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 namespace fs = std::filesystem;
@@ -146,7 +145,7 @@ std::string note(std::uint32_t type, std::string name, std::string content) {
   return std::string(reinterpret_cast<const char*>(&header), sizeof header) + name + content;
 }
 
-const std::string gnu("GNU", 4);
+const std::string gnu("GNU\0", 4);
 
 TEST(BuildId, IsTheContentOfItsNote) {
   const std::string id = note(NT_GNU_BUILD_ID, gnu, "\x01\xab\xff");

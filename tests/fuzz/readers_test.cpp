@@ -95,10 +95,11 @@ TEST_F(ReadersTest, AMillionSidesAreAPolygonToo) {
   for (int i = 0; i < sides; ++i) face.append(" ").append(std::to_string(i % 3 + 1));
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n";
+  const std::string rest = points + "1000000" + corners;
+  std::string ply = head;
+  ply.append("element face 1\nproperty list int int vertex_index\nend_header\n").append(rest);
   for (const Mesh& mesh :
-       {read_text(".obj", face), read_text(".off", "OFF\n3 1 0\n" + points + "1000000" + corners),
-        read_text(".ply", head + "element face 1\nproperty list int int vertex_index\nend_header\n" + points +
-                              "1000000" + corners)}) {
+       {read_text(".obj", face), read_text(".off", "OFF\n3 1 0\n" + rest), read_text(".ply", ply)}) {
     ASSERT_EQ(mesh.triangles.size(), sides - 2);
     EXPECT_EQ(mesh.triangles.back(), (std::array{0, (sides - 2) % 3, (sides - 1) % 3}));
   }

@@ -14,8 +14,6 @@ namespace nearmiss {
 namespace {
 
 using testing::falling_vertex;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 /// A subject with the answers and claims that the test sets.
 class Told final : public Subject {

@@ -149,7 +149,7 @@ std::optional<Contradiction> first_disagreement(std::span<const Query> queries, 
                                                 const Watch& watch) {
   watch(0);
   const Filtered filtered = ask_filters(queries);
-  if (const auto found = filters_disagree(queries, filtered)) return found;
+  if (auto found = filters_disagree(queries, filtered)) return found;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     watch(i);
     std::string what = query_disagreement(queries[i], first + i, i, filtered);

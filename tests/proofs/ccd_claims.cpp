@@ -170,8 +170,8 @@ std::vector<CcdClaim> other_claims() {
   constexpr auto margin = "bound_margin - bound_needs, ccd/motion.hpp";
   constexpr auto culled = "weight_error + spread_error, ccd/ve_culling.hpp";
   return {
-      {"VT: E + W", motion, bound_needs / 2, proven::extents_vt, beps, gappa, [] { return extents(vt); }},
-      {"EE: E + W", motion, bound_needs / 2, proven::extents_ee, beps, "Gappa, p within 4B",
+      {"VT: E + W", motion, bound_needs / 2.0, proven::extents_vt, beps, gappa, [] { return extents(vt); }},
+      {"EE: E + W", motion, bound_needs / 2.0, proven::extents_ee, beps, "Gappa, p within 4B",
        [] { return extents(ee); }},
       {"VT: B", margin, bound_margin - bound_needs, proven::bound_vt, beps, gappa, [] { return bound(vt); }},
       {"EE: B", margin, bound_margin - bound_needs, proven::bound_ee, beps, "Gappa, p within 4B",

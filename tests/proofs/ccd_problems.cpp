@@ -51,7 +51,7 @@ Problem begun() {
 }
 
 Traced threshold(Problem& problem, const char* name) {
-  const Traced input = problem.trace->input(name, 1);
+  Traced input = problem.trace->input(name, 1);
   problem.inputs.push_back({input, 0, 1, 1});
   return input;
 }

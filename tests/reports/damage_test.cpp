@@ -232,9 +232,30 @@ TEST_F(DamageTest, ARunWithoutItsFactsIsSaved) {
   execute("a.db", "UPDATE run SET info = '{}'");
   const Campaign saved = salvage_campaign(file("a.db")).campaign;
   ASSERT_EQ(saved.runs.size(), 1);
-  EXPECT_EQ(saved.runs[0].info,
-            (RunInfo{{"command", "unknown"}, {salvaged_fact, "lost 1 of 1 rows of run"}}));
+  EXPECT_EQ(saved.runs[0].info, (RunInfo{{"command", "unknown"},
+                                         {salvaged_fact, "lost 1 of 1 rows of run"},
+                                         {origin_fact, "partly unknown"}}));
   EXPECT_EQ(saved.runs[0].findings, whole.runs[0].findings);
+}
+
+TEST_F(DamageTest, ASalvageIsNotMergedWithItsOriginal) {
+  write_campaign(whole_campaign(), file("a.db"));
+  execute("a.db", "DELETE FROM seen");
+  const std::array<Campaign, 2> both{whole_campaign(), salvage_campaign(file("a.db")).campaign};
+  const std::array<std::string, 2> names{"whole.db", "salvaged.db"};
+  EXPECT_THAT([&] { merge_campaigns(both, names); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("whole.db and salvaged.db: both have shard "),
+                                         Not(HasSubstr("salvaged lost")))));
+}
+
+TEST_F(DamageTest, WithoutItsRunIsNotMerged) {
+  write_campaign(whole_campaign(), file("a.db"));
+  execute("a.db", "DELETE FROM shard");
+  const std::array<Campaign, 2> both{whole_campaign(), salvage_campaign(file("a.db")).campaign};
+  const std::array<std::string, 2> names{"whole.db", "salvaged.db"};
+  EXPECT_THAT([&] { merge_campaigns(both, names); },
+              ThrowsMessage<Error>(HasSubstr("salvaged.db: found results of an unknown run")));
+  merge_campaigns(std::span(both).last(1), std::span(names).last(1));
 }
 
 }  // namespace

@@ -102,6 +102,13 @@ TEST_F(StoreTest, IsWrittenByOneAtATime) {
   Store(file("a.db")).save(some_statistics("wang"), shard, {});
 }
 
+TEST_F(StoreTest, ALockDoesNotReplaceAFileOfTheUser) {
+  write("a.db.lock", "mine");
+  EXPECT_THAT([&] { Store(file("a.db"), {}, {}); },
+              ThrowsMessage<Error>(HasSubstr("a.db.lock: found a file with 4 bytes, expected none")));
+  EXPECT_EQ(read("a.db.lock"), "mine");
+}
+
 TEST_F(StoreTest, IsOneStoreUnderEachOfItsNames) {
   Store store(file("a.db"), info, shard);
   std::filesystem::create_symlink(file("a.db"), file("link.db"));

@@ -99,6 +99,7 @@ TEST_F(Messages, OptionsTakeTheirValueBehindAnEqualsSignToo) {
   write("start.obj", square + "1" + others);
   write("end.obj", square + "-1" + others);
   const std::vector<std::string> commands{
+      // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one command in several literals
       "fuzz --cases=40 --family=uniform,planted --seed=2 --shard=0/1 --subject=wang,basic --jobs=1 "
       "--compare=1 "
       "--query-time=1s --query-memory=1G --time=1m --json=a.json --db=a.db",

@@ -56,8 +56,10 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   std::string shards;
   for (const int shard : {4, 0, 6, 2, 5, 1, 3}) {
     const std::string number = std::to_string(shard);
-    EXPECT_LE(run(std::string(campaign) + " --shard " + number + "/7 --db " + number + ".db").code, 1);
-    shards += " " + number + ".db";
+    std::string command = campaign;
+    command.append(" --shard ").append(number).append("/7 --db ").append(number).append(".db");
+    EXPECT_LE(run(command).code, 1);
+    shards.append(" ").append(number).append(".db");
   }
   EXPECT_EQ(run("merge merged.db" + shards).code, 1);
   EXPECT_EQ(timeless_report("merged.db"), report);

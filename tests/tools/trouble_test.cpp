@@ -107,6 +107,8 @@ TEST_F(CommandLine, BadUsage) {
   expect_refused("fuzz --cases 10 --mesh a.obj --db new.db", {"--mesh"});
   expect_refused("fuzz --time 3parsec --db new.db", {"--time: found '3parsec'", "30s"});
   expect_refused("fuzz --cases 10 --shard 2/2 --db new.db", {"--shard: found '2/2'"});
+  expect_refused("fuzz --cases 10 --shard 0/18446744073709551615",
+                 {"--shard: found '0/18446744073709551615', expected I/N with 0 <= I < N <= 1000000"});
   expect_refused("replay q.vt --json no/folder/new.json", {"no/folder"});
   expect_refused("replay q.vt --db no/folder/new.db", {"no/folder/new.db"});
   expect_refused("replay", {"PATH"});
@@ -278,6 +280,35 @@ TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
       process.stop(signal);
       EXPECT_EQ(process.code(), 130) << command;
     }
+}
+
+TEST_F(CommandLine, AFileThatCannotBeWrittenIsRefusedAtOnce) {
+  std::filesystem::create_directory(file("folder"));
+  write("q.vt", hit);
+  for (const std::string command : {"fuzz --time 24h", "replay q.vt"})
+    expect_refused(command + " --json folder", {"folder: found a folder, expected a file"});
+  const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
+  std::filesystem::permissions(file("folder"), std::filesystem::perms{0555});
+  const Output refused = run("fuzz --time 24h --json folder/a.json", as_reader);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.error, "nearmiss: folder/a.json: cannot be written: Permission denied\n");
+}
+
+TEST_F(CommandLine, AFileBehindALinkIsReplacedAsAWhole) {
+  write("q.vt", hit);
+  write("a.json", "old");
+  std::filesystem::create_symlink("a.json", file("link.json"));
+  std::filesystem::create_hard_link(file("a.json"), file("reader.json"));
+  EXPECT_EQ(run("replay q.vt --json link.json").code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(file("link.json")));
+  EXPECT_EQ(read_json("a.json")["subjects"]["wang"]["vt"]["queries"], 1);
+  EXPECT_EQ(read("reader.json"), "old");
+}
+
+TEST_F(CommandLine, AnOpenFileIsWrittenNotReplaced) {
+  write("q.vt", hit);
+  EXPECT_EQ(run("replay q.vt --json /dev/fd/3", "", "3>open.json").code, 0);
+  EXPECT_EQ(read_json("open.json")["subjects"]["wang"]["vt"]["queries"], 1);
 }
 
 TEST_F(CommandLine, AFileIsReplacedAsAWhole) {

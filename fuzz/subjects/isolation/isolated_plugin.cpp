@@ -9,6 +9,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
+#include "fuzz/subjects/isolation/fault_texts.hpp"
 
 namespace nearmiss {
 
@@ -20,33 +21,14 @@ using isolation::Request;
 using isolation::WorkerFailure;
 using isolation::WorkerProcess;
 
-/// What exceptions said, by numbers that a verdict can hold. Many threads use it at once.
-class ExceptionTexts {
- public:
-  /// The number of a text. Texts beyond the first thousand share one.
-  std::int32_t number(const std::string& text) {
-    const std::lock_guard lock(mutex_);
-    auto known = std::find(texts_.begin(), texts_.end(), text);
-    if (known == texts_.end()) known = texts_.insert(texts_.size() < most ? known : known - 1, text);
-    return static_cast<std::int32_t>(known - texts_.begin());
-  }
-
-  std::string text(std::int32_t number) const {
-    const std::lock_guard lock(mutex_);
-    return texts_.at(static_cast<std::size_t>(number));
-  }
-
- private:
-  static constexpr std::size_t most = 1000;
-  mutable std::mutex mutex_;
-  std::vector<std::string> texts_;
-};
-
 /// The name of the same plug-in with one of its detectors chosen.
 std::string with_subject(const std::string& name, const std::string& subject) {
   const std::size_t path = PluginName::parse(name).path.size();
   return name.substr(0, path) + ":" + subject + name.substr(path);
 }
+
+/// Whether a verdict with this fault has a text.
+bool has_text(Fault fault) { return fault == Fault::exception || fault == Fault::load; }
 
 class IsolatedPlugin final : public BatchSubject {
  public:
@@ -73,7 +55,7 @@ class IsolatedPlugin final : public BatchSubject {
       answer(done, verdicts);
       if (done.failure) return;
       sum.queries += done.end - done.first;
-      sum.nanoseconds += done.worker.measured();
+      sum.nanoseconds += done.worker->measured();
     });
     return sum;
   }
@@ -82,7 +64,7 @@ class IsolatedPlugin final : public BatchSubject {
                  std::span<std::optional<std::uint64_t>> nanoseconds) const override {
     perform(Request::time_each, queries, [&](const Done& done) {
       for (std::uint32_t i = done.first; i < done.end; ++i)
-        nanoseconds[done.start + i] = done.worker.measured(i);
+        nanoseconds[done.start + i] = done.worker->measured(i);
       if (done.failure) nanoseconds[done.start + done.end].reset();
     });
   }
@@ -104,14 +86,14 @@ class IsolatedPlugin final : public BatchSubject {
       if (done.failure) {
         answer = {.fault = done.failure->fault, .fault_code = code_of(*done.failure)};
       } else {
-        answer = BoundAnswer::given(done.worker.answer(0).number);
+        answer = BoundAnswer::given(done.worker->answer(0).number);
       }
     });
     return answer;
   }
 
   [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
-    return verdict.fault == Fault::exception ? exceptions_.text(verdict.fault_code) : "";
+    return has_text(verdict.fault) ? texts_.text(verdict.fault_code) : "";
   }
 
   [[nodiscard]] PluginIdentity identity() const {
@@ -121,15 +103,15 @@ class IsolatedPlugin final : public BatchSubject {
  private:
   /// What a worker did of a batch: the queries [first, end), and a failure at `end` if there is one.
   struct Done {
-    const WorkerProcess& worker;
-    std::size_t start;  ///< index of the batch's first query among all queries
+    const WorkerProcess* worker;  ///< null if there is none, and nothing is done
+    std::size_t start;            ///< index of the batch's first query among all queries
     std::uint32_t first, end;
     const std::optional<WorkerFailure>& failure;
   };
 
   void answer(const Done& done, std::span<Verdict> verdicts) const {
     for (std::uint32_t i = done.first; i < done.end; ++i) {
-      const isolation::PluginAnswer& given = done.worker.answer(i);
+      const isolation::PluginAnswer& given = done.worker->answer(i);
       verdicts[done.start + i] = verdict_of(info_, given.value, given.number);
     }
     if (done.failure)
@@ -137,7 +119,7 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   std::int32_t code_of(const WorkerFailure& failure) const {
-    return failure.fault == Fault::exception ? exceptions_.number(failure.exception) : failure.code;
+    return has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
   }
 
   /// The size of the next batch: queries of one kind, up to batch_size.
@@ -159,7 +141,7 @@ class IsolatedPlugin final : public BatchSubject {
       const auto batch = queries.subspan(start, batch_at(queries.subspan(start)));
       perform_batch(worker, request, batch, late,
                     [&](std::uint32_t first, std::uint32_t end, const std::optional<WorkerFailure>& failure) {
-                      take_done(Done{*worker, start, first, end, failure});
+                      take_done(Done{worker.get(), start, first, end, failure});
                     });
       start += batch.size();
     }
@@ -174,11 +156,17 @@ class IsolatedPlugin final : public BatchSubject {
                      std::uint64_t& late, const Take& take_part) const {
     const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
     const bool can_decide = decides(batch.front().kind);
-    worker->give(batch);
+    if (worker) worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
     for (std::uint32_t first = 0; first < size;) {
       if (!can_decide || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
+        ++first;
+        continue;
+      }
+      if (!worker) {
+        take_part(first, first,
+                  WorkerFailure{.query = first, .fault = Fault::load, .text = why_not_loaded()});
         ++first;
         continue;
       }
@@ -193,8 +181,8 @@ class IsolatedPlugin final : public BatchSubject {
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
-      worker = std::make_unique<WorkerProcess>(*code_, limits_);
-      worker->give(batch);
+      worker = start_worker();
+      if (worker) worker->give(batch);
     }
   }
 
@@ -216,20 +204,48 @@ class IsolatedPlugin final : public BatchSubject {
         return worker;
       }
     }
-    return std::make_unique<WorkerProcess>(*code_, limits_);
+    return start_worker();
+  }
+
+  /// A new worker; null if the plug-in cannot be loaded, or says something else about itself than at first. After some
+  /// failures, this is not tried any more.
+  std::unique_ptr<WorkerProcess> start_worker() const {
+    constexpr int most_failed = 3;
+    if (failed_starts_ >= most_failed) return nullptr;
+    try {
+      auto worker = std::make_unique<WorkerProcess>(*code_, limits_);
+      if (worker->info() != info_)
+        throw Error(code_->name() + ": the plug-in says something else about itself than before");
+      failed_starts_ = 0;
+      return worker;
+    } catch (const isolation::PluginChanged&) {
+      throw;
+    } catch (const Error& error) {
+      const std::lock_guard lock(mutex_);
+      why_not_loaded_ = error.what();
+      ++failed_starts_;
+      return nullptr;
+    }
+  }
+
+  std::string why_not_loaded() const {
+    const std::lock_guard lock(mutex_);
+    return why_not_loaded_;
   }
 
   void give_back(std::unique_ptr<WorkerProcess> worker) const {
     const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(worker));
+    if (worker) idle_.push_back(std::move(worker));
   }
 
   std::shared_ptr<const PluginCode> code_;
   PluginLimits limits_;
   DetectorInfo info_;
   mutable std::atomic<std::uint32_t> in_a_call_ = isolation::batch_size;
-  mutable ExceptionTexts exceptions_;
+  mutable FaultTexts texts_;
+  mutable std::atomic<int> failed_starts_ = 0;  // one after the other
   mutable std::mutex mutex_;
+  mutable std::string why_not_loaded_;  // the last time
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };
 

@@ -34,13 +34,21 @@ std::string worker_executable() {
   return std::filesystem::exists(beside, unknown) ? beside.string() : NEARMISS_WORKER;
 }
 
-/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts.
+/// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts, and
+/// with the default reaction to every signal.
 class Spawn {
  public:
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSID);
+    // Signals that our parent has blocked or ignores would change what the plug-in does, and hide how it ended.
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setflags(&attributes_,
+                             POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
   Spawn(const Spawn&) = delete;
   Spawn& operator=(const Spawn&) = delete;

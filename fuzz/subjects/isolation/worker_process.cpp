@@ -175,7 +175,7 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
       return {.query = query, .fault = Fault::time, .of_call = questions_->last - questions_->first > 1};
     case End::dead: {
       if (std::string exception = text(answers_->exception); !exception.empty())
-        return {.query = query, .fault = Fault::exception, .exception = std::move(exception)};
+        return {.query = query, .fault = Fault::exception, .text = std::move(exception)};
       const bool exited = ended_.code == CLD_EXITED;
       return {query, Fault::crash, exited ? -ended_.status : ended_.status};
     }

@@ -39,9 +39,9 @@ inline constexpr double call_limit = 10;
 struct WorkerFailure {
   std::uint32_t query;  ///< its index in the batch
   Fault fault;
-  std::int32_t code = 0;       ///< for a crash: the signal, or the negated exit code
-  std::string exception = {};  ///< for an exception: what it says
-  bool of_call = false;        ///< which query of the call is to blame is not known
+  std::int32_t code = 0;  ///< for a crash: the signal, or the negated exit code
+  std::string text = {};  ///< for an exception: what it says; for a failure to load: why
+  bool of_call = false;   ///< which query of the call is to blame is not known
 };
 
 /// A running worker. It cannot be used after a call failed.

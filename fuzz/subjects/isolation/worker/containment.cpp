@@ -50,6 +50,11 @@ void close_files() {
   closefrom(first_other);
 }
 
+void forbid_core_dumps() {
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+}
+
 void limit_processes(unsigned long more) {
   rlimit limit{};
   getrlimit(RLIMIT_NPROC, &limit);

@@ -136,6 +136,7 @@ int run(Assignment work) {
   close_files();
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
+  forbid_core_dumps();
   limit_processes(most_processes);
   const sigset_t blocked = end_of_child();
   sigprocmask(SIG_BLOCK, &blocked, nullptr);

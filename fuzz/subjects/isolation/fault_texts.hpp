@@ -1,0 +1,38 @@
+// The texts of faults.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace nearmiss {
+
+/// What exceptions said, and why a plug-in could not be loaded, by numbers that a verdict can hold. Many threads use it at
+/// once.
+class FaultTexts {
+ public:
+  /// The number of a text. Texts beyond the first thousand share the last number.
+  std::int32_t number(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    const auto known = std::find(texts_.begin(), texts_.end(), text);
+    if (known == texts_.end() && texts_.size() < most)
+      texts_.push_back(texts_.size() + 1 < most ? text : "one of more than a thousand texts");
+    const auto last = static_cast<std::ptrdiff_t>(texts_.size()) - 1;
+    return static_cast<std::int32_t>(known == texts_.end() ? last : known - texts_.begin());
+  }
+
+  [[nodiscard]] std::string text(std::int32_t number) const {
+    const std::lock_guard lock(mutex_);
+    return texts_.at(static_cast<std::size_t>(number));
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  mutable std::mutex mutex_;
+  std::vector<std::string> texts_;
+};
+
+}  // namespace nearmiss
