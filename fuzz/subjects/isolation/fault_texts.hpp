@@ -17,11 +17,11 @@ class FaultTexts {
   /// The number of a text. Texts beyond the first thousand share the last number.
   std::int32_t number(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    const auto known = std::find(texts_.begin(), texts_.end(), text);
-    if (known == texts_.end() && texts_.size() < most)
-      texts_.push_back(texts_.size() + 1 < most ? text : "one of more than a thousand texts");
-    const auto last = static_cast<std::ptrdiff_t>(texts_.size()) - 1;
-    return static_cast<std::int32_t>(known == texts_.end() ? last : known - texts_.begin());
+    const auto place =
+        static_cast<std::size_t>(std::find(texts_.begin(), texts_.end(), text) - texts_.begin());
+    if (place == texts_.size() && place < most)
+      texts_.push_back(place + 1 < most ? text : "one of more than a thousand texts");
+    return static_cast<std::int32_t>(std::min(place, texts_.size() - 1));
   }
 
   [[nodiscard]] std::string text(std::int32_t number) const {
