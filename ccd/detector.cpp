@@ -28,7 +28,7 @@ bool is_power_of_two(double x) {
 }
 
 /// What is wrong with a contract; "" if nothing is.
-std::string fault_of(const nearmiss_contract& contract) {
+std::string fault_of_contract(const nearmiss_contract& contract) {
   if (contract.grid != 0 && !is_power_of_two(contract.grid)) return "a grid that is no power of two";
   const bool are_lengths = contract.shortest >= 0 && contract.longest >= 0;
   if (!are_lengths || (contract.longest != 0 && contract.longest < contract.shortest))
@@ -90,7 +90,7 @@ std::string fault_of(const nearmiss_subject& subject) {
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
     return "'" + name + "' with an unknown sort of time";
-  const std::string of_contract = fault_of(subject.contract);
+  const std::string of_contract = fault_of_contract(subject.contract);
   return of_contract.empty() ? "" : "'" + name + "' with " + of_contract;
 }
 
@@ -120,6 +120,22 @@ Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
   }
 }
 
+namespace {
+
+/// Throws Error unless a detector is as nearmiss_subject.h says, with a name of its own.
+void expect_usable(const std::string& path, const nearmiss_subject& subject,
+                   const std::vector<std::string>& other_names) {
+  if (subject.interface_version != NEARMISS_INTERFACE)
+    throw Error(path + ": found version " + std::to_string(subject.interface_version) +
+                " of the plug-in interface, expected " + std::to_string(NEARMISS_INTERFACE));
+  std::string fault = fault_of(subject);
+  if (fault.empty() && std::find(other_names.begin(), other_names.end(), subject.name) != other_names.end())
+    fault = "two detectors with the name '" + std::string(subject.name) + "'";
+  if (!fault.empty()) throw Error(path + ": found " + fault + ", expected what ccd/nearmiss_subject.h says");
+}
+
+}  // namespace
+
 void PluginLibrary::Unload::operator()(void* handle) const { dlclose(handle); }
 
 PluginLibrary::PluginLibrary(const std::string& path)
@@ -132,18 +148,10 @@ PluginLibrary::PluginLibrary(const std::string& path)
     throw Error(path + ": no function nearmiss_get_subject, expected by ccd/nearmiss_subject.h");
   constexpr std::size_t most = 64;
   while (const nearmiss_subject* const subject = get(subjects_.size())) {
-    if (subject->interface_version != NEARMISS_INTERFACE)
-      throw Error(path + ": found version " + std::to_string(subject->interface_version) +
-                  " of the plug-in interface, expected " + std::to_string(NEARMISS_INTERFACE));
     if (subjects_.size() == most)
       throw Error(path + ": found more than " + std::to_string(most) +
                   " detectors, expected nearmiss_get_subject to return a null pointer behind the last");
-    std::string fault = fault_of(*subject);
-    const auto known = names();
-    if (fault.empty() && std::find(known.begin(), known.end(), subject->name) != known.end())
-      fault = "two detectors with the name '" + std::string(subject->name) + "'";
-    if (!fault.empty())
-      throw Error(path + ": found " + fault + ", expected what ccd/nearmiss_subject.h says");
+    expect_usable(path, *subject, names());
     subjects_.push_back(subject);
   }
   if (subjects_.empty()) throw Error(path + ": nearmiss_get_subject returned a null pointer");
