@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
+#include "ccd/plugin.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/subjects.hpp"
@@ -58,8 +61,11 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "'pipe:COMMAND' "
       "(fuzz/subjects/PROGRAMS.md).");
   command->callback([plugins] {
-    for (const std::string& name : *plugins)
+    for (const std::string& name : *plugins) {
+      if (!is_plugin(name))
+        throw Error(fmt::format("found '{}', expected a plug-in such as ./plugin.so", excerpt(name)));
       for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
+    }
     if (!plugins->empty()) return;
     for (const SubjectInfo& subject : built_in_subjects())
       fmt::print("{:<23} {}\n", subject.name, subject.about);

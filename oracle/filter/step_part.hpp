@@ -118,8 +118,8 @@ template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
   const auto at = [&](const Bound<Real>& t) {
-    const Real late(
-        t);  // NOLINT(performance-unnecessary-copy-initialization): some Real differ from Bound<Real>
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): some Real differ from Bound<Real>
+    const Real late(t);
     const Real early = Real(1) - late;
     Vec<Real> v;
     for (std::size_t k = 0; k < 3; ++k) v[k] = early * whole.start[k] + late * whole.end[k];

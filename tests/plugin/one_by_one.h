@@ -14,11 +14,11 @@
   static void decide_one_by_one(void* state, int kind, size_t n, const double* x, const double* h, \
                                 int* answers, double* times) {                                     \
     (void)state, (void)kind, (void)h;                                                              \
-    for (size_t i = 0; i < n; ++i) answers[i] = test(x + 24 * i, times + i);                       \
+    for (size_t i = 0; i < n; ++i) answers[i] = (test)(x + 24 * i, times + i);                     \
   }                                                                                                \
   NEARMISS_EXPORTED const nearmiss_subject* nearmiss_get_subject(size_t index) {                   \
     static const nearmiss_subject detector = {.interface_version = NEARMISS_INTERFACE,             \
-                                              .name = text,                                        \
+                                              .name = (text),                                      \
                                               .version = "1",                                      \
                                               .about = "",                                         \
                                               .kinds = ANY_KIND,                                   \
@@ -30,7 +30,7 @@
                                               .open = NULL,                                        \
                                               .close = NULL,                                       \
                                               .decide = decide_one_by_one,                         \
-                                              .distance_bound = bound};                            \
+                                              .distance_bound = (bound)};                          \
     return index == 0 ? &detector : NULL;                                                          \
   }
 

@@ -239,37 +239,6 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
   EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
 }
 
-TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {
-  write("o.json.part", "mine");
-  write("precious", "mine, too");
-  std::filesystem::create_symlink("precious", file("o.json.part1"));
-  EXPECT_EQ(run("fuzz --cases 100 --json o.json").code, 0);
-  EXPECT_FALSE(std::filesystem::is_symlink(file("o.json")));
-  EXPECT_EQ(read_json("o.json")["subjects"].size(), 1);
-  EXPECT_EQ(read("o.json.part"), "mine");
-  EXPECT_EQ(read("precious"), "mine, too");
-}
-
-TEST_F(CommandLine, AStoreWithItsLogInAReadOnlyFolderIsRefusedWithAdvice) {
-  {
-    Background campaign(file(""), endless_campaign);
-    ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
-    campaign.stop(SIGKILL);
-  }
-  std::filesystem::create_directory(file("archive"));
-  for (const char* name : {"a.db", "a.db-wal"})
-    std::filesystem::copy_file(file(name), file("archive") / name);
-  std::filesystem::permissions(file("archive"), std::filesystem::perms{0555});
-  // Root may write everywhere, unless this right is taken away.
-  const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
-  const Output refused = run("report archive/a.db -o report", as_reader);
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.error,
-              HasSubstr("archive/a.db: found the log a.db-wal in a folder that cannot be written"));
-  std::filesystem::permissions(file("archive"), std::filesystem::perms{0755});
-  EXPECT_EQ(run("report archive/a.db -o report", as_reader).code, 0);
-}
-
 TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
   ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
   for (const char* command : {"verdict --kind vt <>endless", "oracle --kind vt <>endless",
@@ -280,44 +249,6 @@ TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
       process.stop(signal);
       EXPECT_EQ(process.code(), 130) << command;
     }
-}
-
-TEST_F(CommandLine, AFileThatCannotBeWrittenIsRefusedAtOnce) {
-  std::filesystem::create_directory(file("folder"));
-  write("q.vt", hit);
-  for (const std::string command : {"fuzz --time 24h", "replay q.vt"})
-    expect_refused(command + " --json folder", {"folder: found a folder, expected a file"});
-  const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
-  std::filesystem::permissions(file("folder"), std::filesystem::perms{0555});
-  const Output refused = run("fuzz --time 24h --json folder/a.json", as_reader);
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_EQ(refused.error, "nearmiss: folder/a.json: cannot be written: Permission denied\n");
-}
-
-TEST_F(CommandLine, AFileBehindALinkIsReplacedAsAWhole) {
-  write("q.vt", hit);
-  write("a.json", "old");
-  std::filesystem::create_symlink("a.json", file("link.json"));
-  std::filesystem::create_hard_link(file("a.json"), file("reader.json"));
-  EXPECT_EQ(run("replay q.vt --json link.json").code, 0);
-  EXPECT_TRUE(std::filesystem::is_symlink(file("link.json")));
-  EXPECT_EQ(read_json("a.json")["subjects"]["wang"]["vt"]["queries"], 1);
-  EXPECT_EQ(read("reader.json"), "old");
-}
-
-TEST_F(CommandLine, AnOpenFileIsWrittenNotReplaced) {
-  write("q.vt", hit);
-  EXPECT_EQ(run("replay q.vt --json /dev/fd/3", "", "3>open.json").code, 0);
-  EXPECT_EQ(read_json("open.json")["subjects"]["wang"]["vt"]["queries"], 1);
-}
-
-TEST_F(CommandLine, AFileIsReplacedAsAWhole) {
-  write("q.vt", hit);
-  write("a.json", "old");
-  std::filesystem::create_hard_link(file("a.json"), file("reader.json"));
-  EXPECT_EQ(run("replay q.vt --json a.json").code, 0);
-  EXPECT_EQ(read_json("a.json")["subjects"]["wang"]["vt"]["queries"], 1);
-  EXPECT_EQ(read("reader.json"), "old");
 }
 
 TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {
@@ -345,13 +276,6 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})
     EXPECT_EQ(run(std::string("report ") + store + " -o report").code, 0) << store;
-}
-
-TEST_F(CommandLine, ADeviceIsWrittenNotReplaced) {
-  write("q.vt", hit);
-  const Output output = run("replay q.vt --json /dev/stdout | cat");
-  EXPECT_THAT(output.out, HasSubstr("\"false_negatives\": 0"));
-  EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
 }
 
 }  // namespace
