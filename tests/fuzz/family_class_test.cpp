@@ -14,7 +14,7 @@ namespace nearmiss {
 namespace {
 
 /// The largest component of a vector.
-double size(const Vector3<double>& v) { return v.cwiseAbs().maxCoeff(); }
+double largest_component(const Vector3<double>& v) { return v.cwiseAbs().maxCoeff(); }
 
 /// The length of the longest edge and of the shortest one that is not zero, at either time.
 struct Lengths {
@@ -26,7 +26,7 @@ Lengths lengths(const Query& query) {
   Lengths found;
   for (const int time : {0, 1})
     for (const auto& edge : testing::edges(query, time)) {
-      const double length = size(edge);
+      const double length = largest_component(edge);
       found.longest = std::max(found.longest, length);
       if (length > 0) found.shortest = found.shortest == 0 ? length : std::min(found.shortest, length);
     }
@@ -35,7 +35,7 @@ Lengths lengths(const Query& query) {
 
 double fastest(const Query& query) {
   double speed = 0;
-  for (int i = 0; i < 4; ++i) speed = std::max(speed, size(query.end(i) - query.start(i)));
+  for (int i = 0; i < 4; ++i) speed = std::max(speed, largest_component(query.end(i) - query.start(i)));
   return speed;
 }
 
@@ -64,7 +64,9 @@ bool is_degenerate(const Query& query) {
     const auto all = testing::edges(query, time);
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (size(all[i].cross(all[j])) <= 1e-6 * size(all[i]) * size(all[j])) return true;
+        if (largest_component(all[i].cross(all[j])) <=
+            1e-6 * largest_component(all[i]) * largest_component(all[j]))
+          return true;
   }
   return fastest(query) == 0;
 }
