@@ -89,13 +89,9 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->capture_default_str()
       ->type_name("T");
   command
-      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
-      ->transform(CLI::AsSizeValue(false))
-      ->transform(CLI::Validator(
-          [](const std::string& text) {
-            return text.starts_with('-') ? "found '" + text + "', expected 0 or more" : "";
-          },
-          ""))
+      .add_option_function<std::string>(
+          "--query-memory", [this](const std::string& text) { bytes = parse_size(text, "--query-memory"); },
+          "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
       ->default_str("1G")
       ->type_name("BYTES");
 }
