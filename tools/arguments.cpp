@@ -103,14 +103,17 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
 Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
   Subjects made;
-  std::set<std::string> seen;
   for (const std::string& name : names)
-    for (auto& subject : make_any_subjects(name, given_bound, limits)) {
-      if (!seen.insert(subject->name()).second)
-        throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
-      made.push_back(std::move(subject));
-    }
+    for (auto& subject : make_any_subjects(name, given_bound, limits)) made.push_back(std::move(subject));
+  expect_different_names(made);
   return made;
+}
+
+void expect_different_names(const Subjects& subjects) {
+  std::set<std::string> seen;
+  for (const auto& subject : subjects)
+    if (!seen.insert(subject->name()).second)
+      throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
 }
 
 namespace {
