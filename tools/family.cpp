@@ -5,8 +5,11 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/common_factors.hpp"
 #include "fuzz/families/coverage.hpp"
 #include "fuzz/families/crossed.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "oracle/oracle.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -22,6 +25,8 @@ struct Options {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
   bool factors = false, coverage = false;
+  std::string subject;
+  PluginLimitOptions limits;
 };
 
 /// Prints a line for each query of one kind among the indices first .. first + count - 1: the query or, with
@@ -50,13 +55,38 @@ void print_coverage(const Options& options) {
   print_combinations("triples", found.triples, options.count);
 }
 
+/// Asks a subject about the queries, and prints for each kind what the missed ones have in common. Queries without an
+/// answer do not count.
+void print_common_factors(const Options& options, const Family& family) {
+  const auto subject = make_any_subject(options.subject, std::nullopt, options.limits.limits());
+  std::map<Kind, crossed::FactorCounts> counts;
+  for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
+    const Query query = make_query(family, options.seed, index);
+    const Verdict verdict = subject->decide(query);
+    if (verdict.fault == Fault::none && collides(subject->rounded(query)))
+      counts[query.kind].add(crossed::levels_of(options.seed, index), !verdict.hit);
+  }
+  for (const auto& [kind, each] : counts) {
+    fmt::print("{} {}: {} of {} missed", subject->name(), short_name(kind), with_separators(each.misses()),
+               counted(each.collisions(), "collision", "collisions"));
+    if (const auto common = each.common())
+      fmt::print("; {:.0f} % of the missed ones have {}, and {:.0f} % of all", 100 * common->share,
+                 common->text, 100 * common->share_of_collisions);
+    fmt::print("\n");
+  }
+}
+
 void run(const Options& options) {
   const Family family = find_family(options.name);
-  if ((options.factors || options.coverage) && family.name != "crossed")
-    throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name,
-                            options.factors ? "--factors" : "--coverage"));
+  const char* needs_factors = options.factors ? "--factors" : options.coverage ? "--coverage" : "--missed-by";
+  const bool is_plain = !options.factors && !options.coverage && options.subject.empty();
+  if (!is_plain && family.name != "crossed")
+    throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name, needs_factors));
+  if (is_plain && options.kind.empty()) throw CLI::RequiredError("--kind");
   if (options.coverage)
     print_coverage(options);
+  else if (!options.subject.empty())
+    print_common_factors(options, family);
   else
     print_queries(options, family);
 }
@@ -71,15 +101,21 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
   command
       ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
       ->required();
-  auto* choice = command->add_option_group("choice", "Output");
-  auto* kind = choice
+  auto* kind = command
                    ->add_option("--kind", options->kind,
                                 "Print the queries of this kind: even indices are vt, odd ones ee")
                    ->check(CLI::IsMember({"vt", "ee"}));
-  choice->add_flag(
-      "--coverage", options->coverage,
-      "Print which pairs and triples of factors occur in the queries of both kinds; crossed only");
-  choice->require_option(1);
+  auto* coverage = command
+                       ->add_flag("--coverage", options->coverage,
+                                  "Print which pairs and triples of factors occur in the queries of both "
+                                  "kinds; crossed only")
+                       ->excludes(kind);
+  command
+      ->add_option("--missed-by", options->subject,
+                   "Print which factors the collisions have in common that this subject misses; crossed only")
+      ->excludes(kind)
+      ->excludes(coverage);
+  options->limits.add_to(*command);
   command
       ->add_flag("--factors", options->factors,
                  "Print each query's factors instead of the query; crossed only")

@@ -179,6 +179,22 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
   return draft;
 }
 
+/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first of the coefficients
+/// that is not zero by construction must not be zero by chance.
+bool has_planned_roots(const Draft& draft, Roots roots) {
+  const auto det = [&](const Vector& q, const Vector& r) { return draft.w.dot(q.cross(r)); };
+  switch (roots) {
+    case Roots::all:
+      return true;
+    case Roots::double_root:
+      return det(draft.q_velocity, draft.r) + det(draft.q, draft.r_velocity) != 0;
+    case Roots::triple:
+      return det(draft.q_velocity, draft.r_velocity) != 0;
+    default:
+      return det(draft.q, draft.r) != 0;
+  }
+}
+
 // --- place and time ---------------------------------------------------------------------------------
 
 /// The weights of the point of contact: multiples of 1/16, or outside by 2^-10 to 2^-52.
@@ -301,7 +317,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());
     const int bits = bits_for_time(draft, frame);
-    if (bits < fewest_bits) continue;
+    if (bits < fewest_bits || !has_planned_roots(draft, levels.roots())) continue;
     const bool is_near_end = levels.when() == When::after_0 || levels.when() == When::before_1;
     const double time = is_near_end ? time_of(random, levels.when(), bits) : near;
     Query query{.kind = kind};

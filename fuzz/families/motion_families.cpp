@@ -20,14 +20,19 @@ Vector wide_vector(Random& random, int bits) {
   return v.array().floor();
 }
 
-/// Primitives at rest that touch exactly. Coordinates are multiples of 1/16 below 2^48, so they have nearly all
-/// bits of a double.
+/// Primitives at rest that touch exactly, half of them at a vertex, where rounding errors count most: contact is then
+/// at the ends of the ranges of both weights, and no neighbouring point of the primitives makes up for an error.
+/// Coordinates are multiples of 1/16 below 2^48, so they have nearly all bits of a double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   const auto rest = [](const Vector& v) { return Path{v, v}; };
   contact.base = rest(wide_vector(random, 46));
   contact.q = rest(wide_vector(random, 45));
   contact.r = rest(wide_vector(random, 45));
+  if (random.one_in(2)) {
+    contact.alpha = random.integer(0, 1);
+    contact.beta = random.integer(0, kind == Kind::edge_edge || contact.alpha == 0 ? 1 : 0);
+  }
   return meet(kind, contact, Vector::Zero());
 }
 

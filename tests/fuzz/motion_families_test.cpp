@@ -67,7 +67,7 @@ TEST(FarEnd, TheMotionIsLongAndHasMoreBitsThanADouble) {
   EXPECT_GT(
       count_of_400("far-end", [](const Query& query) { return extent(query) > 30 * longest_edge(query, 1); }),
       100);
-  EXPECT_GT(count_of_400("far-end", motion_is_rounded), 300);
+  EXPECT_GT(count_of_400("far-end", motion_is_rounded), 150);
 }
 
 TEST(FirstMoment, MostFirstTouchBefore2ToTheMinus49ButNotAtTheStart) {

@@ -67,5 +67,26 @@ TEST_F(CommandLine, FamilyRefusesUnknownNames) {
   expect_refused("family --kind vt --count 1", {"NAME is required"});
 }
 
+TEST_F(CommandLine, FamilyRefusesFactorsOfOtherFamilies) {
+  for (const char* option : {"--coverage", "--missed-by wang", "--kind vt --factors"})
+    expect_refused(std::string("family uniform --count 1 ") + option, {"'uniform'", "expected crossed"});
+  expect_refused("family crossed --count 1 --coverage --kind vt", {"--coverage", "--kind"});
+  expect_refused("family crossed --count 1 --factors", {"--factors", "--kind"});
+}
+
+TEST_F(CommandLine, FamilyShowsTheFactorsOfCrossedQueries) {
+  EXPECT_THAT(run("family crossed --kind ee --factors --count 2").out,
+              MatchesRegex("shape=[a-z-]+ motion=[a-z]+ when=[a-z0-9-]+ .*offset=[a-z]+\n"));
+  const std::string coverage = run("family crossed --coverage --count 1").out;
+  EXPECT_THAT(coverage, ::testing::HasSubstr("impossible: motion=rest when=at-1\n"));
+  EXPECT_THAT(coverage, ::testing::HasSubstr("pairs: 21 of 604 possible ones occur in 1 query\n"));
+  EXPECT_THAT(coverage, ::testing::HasSubstr("triples: 35 of 4,885 possible ones occur in 1 query\n"));
+  const std::string missed = run("family crossed --missed-by basic --count 4000").out;
+  EXPECT_THAT(missed, ::testing::HasSubstr("basic vt: "));
+  EXPECT_THAT(missed, ::testing::HasSubstr(" % of the missed ones have "));
+  EXPECT_THAT(run("family crossed --missed-by exact --count 100").out,
+              ::testing::HasSubstr("exact vt: 0 of "));
+}
+
 }  // namespace
 }  // namespace nearmiss
