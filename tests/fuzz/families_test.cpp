@@ -89,6 +89,15 @@ TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
       {"near-overflow-planted", 0x77b1879b5edcd824},
       {"near-underflow", 0x4bbbe4335c45df41},
       {"near-underflow-planted", 0x7255a98084a399c3},
+      {"far-end", 0xf96a0d1b91ed6dbb},
+      {"far-start", 0x8cb72c5e300f5a70},
+      {"first-moment", 0x186b0b5629aba45d},
+      {"one-point", 0x429c7d6af703742d},
+      {"touch-twice", 0xd145e8e108ba29d1},
+      {"floats", 0x59180ea657a2c7ee},
+      {"decimals", 0x9cdb8cd07a10ba70},
+      {"kilometres", 0x37d61b6499585f56},
+      {"crossed", 0xcab21eb5732a81f7},
   };
   ASSERT_TRUE(recorded.contains(GetParam().name)) << std::hex << fingerprint(GetParam());
   EXPECT_EQ(fingerprint(GetParam()), recorded.at(GetParam().name)) << std::hex << fingerprint(GetParam());
