@@ -15,17 +15,17 @@ namespace nearmiss::tools {
 namespace {
 
 /// A floating-point literal of exactly this value.
-std::string literal(double value, Language language) {
+std::string literal(double value, Form language) {
   std::string text = to_exact(value);
   if (text.find("0x") != std::string::npos)
-    return language == Language::python ? fmt::format("float.fromhex('{}')", text) : text;
+    return language == Form::python ? fmt::format("float.fromhex('{}')", text) : text;
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 
 /// The four vertices at a time (0 or 1): a line for each.
-std::string vertices(const Query& query, std::size_t time, Language language) {
-  const bool python = language == Language::python;
+std::string vertices(const Query& query, std::size_t time, Form language) {
+  const bool python = language == Form::python;
   std::string text;
   for (std::size_t vertex = 0; vertex < 4; ++vertex) {
     const double* const x = query.x.data() + 12 * time + 3 * vertex;
@@ -74,19 +74,20 @@ std::string comment(const Finding& finding, std::string_view mark) {
 
 }  // namespace
 
-Language parse_language(std::string_view text, std::string_view option) {
-  if (text == "c++") return Language::cpp;
-  if (text == "python") return Language::python;
-  throw Error(fmt::format("{}: found '{}', expected c++ or python", option, printable(text)));
+Form parse_form(std::string_view text, std::string_view option) {
+  if (text == "case") return Form::case_file;
+  if (text == "c++") return Form::cpp;
+  if (text == "python") return Form::python;
+  throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
 }
 
-std::string pasted_test(const Finding& finding, Language language) {
+std::string pasted_test(const Finding& finding, Form language) {
   const Query& query = finding.shrunk;
   const bool collision = collides(query);
   const std::string name = query.kind == Kind::vertex_triangle ? "test_vertex_triangle" : "test_edge_edge";
   const std::string start = vertices(query, 0, language);
   const std::string end = vertices(query, 1, language);
-  if (language == Language::python)
+  if (language == Form::python)
     return fmt::format(
         "{}# Write a function detects(start, end) that returns whether your detector reports a collision.\n"
         "def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n    assert {}detects(start, end)\n",

@@ -9,11 +9,11 @@
 
 namespace nearmiss::tools {
 
-/// The language of a pasted test.
-enum class Language : std::uint8_t { cpp, python };
+/// What `nearmiss shrink` prints: a case, or a test in a language.
+enum class Form : std::uint8_t { case_file, cpp, python };
 
-/// Parses "c++" or "python". Throws Error that names the option.
-Language parse_language(std::string_view text, std::string_view option);
+/// Parses "case", "c++" or "python". Throws Error that names the option.
+Form parse_form(std::string_view text, std::string_view option);
 
 /// A test of one finding, as source code that needs nothing but a function `detects` of the maintainer. A comment says
 /// what the subject answered and what is true. The 24 numbers are exact. C++17:
@@ -22,7 +22,8 @@ Language parse_language(std::string_view text, std::string_view option);
 ///     bool test_vertex_triangle();  // whether `detects` gives the right answer
 ///
 /// In Python, the test is `test_vertex_triangle()`, which asserts it, and the points are lists. For a pair of edges, its
-/// name is test_edge_edge. Throws Error for a finding of the oracle, which shows no truth.
-std::string pasted_test(const Finding& finding, Language language);
+/// name is test_edge_edge. `language` is not case_file. Throws Error for a finding of the
+/// oracle, which shows no truth.
+std::string pasted_test(const Finding& finding, Form language);
 
 }  // namespace nearmiss::tools

@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
   std::filesystem::path in, out;
-  std::string subject = "wang", language;
+  std::string subject = "wang", form = "case";
   PluginLimitOptions limits;
 };
 
@@ -82,8 +82,7 @@ void write(const std::string& text, const Options& options, const std::string& b
 }
 
 void run(const Options& options) {
-  const auto language =
-      options.language.empty() ? std::nullopt : std::optional(parse_language(options.language, "--as"));
+  const Form form = parse_form(options.form, "--as");
   const Case each = read_one(options.in);
   const auto subject = made_for(each.query, options);
   Finding finding = find_failure(each, *subject);
@@ -92,7 +91,8 @@ void run(const Options& options) {
   const Complexity after = complexity(finding.shrunk);
   const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
                                          before.distinct, after.distinct, before.bits, after.bits);
-  write(language ? pasted_test(finding, *language) : to_text(shrunk_case(finding, became)), options, became);
+  const bool is_case = form == Form::case_file;
+  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, form), options, became);
 }
 
 }  // namespace
@@ -108,9 +108,10 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
   command
       ->add_option(
-          "--as", options->language,
-          "Print a test to paste into the subject's own project, in c++ or python, instead of a case")
-      ->type_name("LANGUAGE");
+          "--as", options->form,
+          "What to print: a case, or a test in c++ or python to paste into the subject's own project")
+      ->type_name("case|c++|python")
+      ->capture_default_str();
   command->footer(
       "\nTwo failures are the same if their kind is, and the features of the first contact (of a missed "
       "collision),\n"

@@ -39,10 +39,10 @@ TEST(Numbers, AreReadBackBitForBit) {
     const double any = std::bit_cast<double>(bits);
     const double few = std::ldexp(static_cast<double>(bits >> 55) - 256, i % 40 - 30);
     for (const double value : {any, few})
-      if (std::isfinite(value))
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(parse_number(to_exact(value), "here")),
-                  std::bit_cast<std::uint64_t>(value))
-            << to_hex(value);
+      if (std::isfinite(value)) {
+        const double back = parse_number(to_exact(value), "here");
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(value)) << to_hex(value);
+      }
   }
 }
 

@@ -88,8 +88,12 @@ TEST(SmallQueries, AreSortedAndDecided) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       EXPECT_EQ(list[i].query.kind, kind);
       EXPECT_EQ(list[i].complexity.awkward, 0);
-      if (i > 0) EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
-      if (i % 17 == 0) EXPECT_EQ(list[i].collision, collides_exactly(list[i].query));
+      if (i > 0) {
+        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
+      }
+      if (i % 17 == 0) {
+        EXPECT_EQ(list[i].collision, collides_exactly(list[i].query));
+      }
     }
     const auto collisions =
         std::count_if(list.begin(), list.end(), [](const SmallQuery& q) { return q.collision; });

@@ -96,7 +96,7 @@ TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
 
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
   write("q.vt", hit);
-  expect_refused("shrink q.vt --as rust --subject " + plugin("never"), {"--as", "'rust'", "c++ or python"});
+  expect_refused("shrink q.vt --as rust --subject " + plugin("never"), {"--as", "'rust'", "case, c++ or python"});
 }
 
 TEST_F(PastedTest, NamesTheDetectorsOfAPluginThatHasSeveral) {
