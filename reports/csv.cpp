@@ -11,6 +11,7 @@
 #include "corpus/query_text.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
 
@@ -25,18 +26,24 @@ std::string field(std::string text) {
   return quoted + '"';
 }
 
-/// A column of statistics.csv: its heading, and its field in the row of a subject, kind and family.
+/// A row of statistics.csv or classes.csv.
+struct CsvRow {
+  CountsKey key;  ///< `family` is a family or a class
+  CountsSum sum;
+};
+
+/// A column: its heading, and its field in a row.
 struct CsvColumn {
   std::string heading;
-  std::function<std::string(const CountsKey&, const Counts&)> field;
+  std::function<std::string(const CsvRow&)> field;
 };
 using CsvColumns = std::vector<CsvColumn>;
 
 /// Adds a column of numbers; `number` computes one from the counters.
 template <class Number>
 void add_column(CsvColumns& columns, std::string heading, const Number& number) {
-  columns.push_back({std::move(heading), [number](const CountsKey& /*key*/, const Counts& counts) {
-                       return fmt::format("{}", std::invoke(number, counts));
+  columns.push_back({std::move(heading), [number](const CsvRow& row) {
+                       return fmt::format("{}", std::invoke(number, row.sum.counts));
                      }});
 }
 
@@ -54,9 +61,9 @@ void add_quantile(CsvColumns& columns, const std::string& name, double part) {
   });
 }
 
-std::string upper_bound_of_misses(const CountsKey& key, const Counts& counts) {
-  if (!is_random(key.family)) return "";
-  return fmt::format("{}", clopper_pearson_upper(counts.false_negatives, counts.collisions));
+std::string upper_bound_of_misses(const CsvRow& row) {
+  if (!row.sum.is_sample) return "";
+  return fmt::format("{}", clopper_pearson_upper(row.sum.counts.false_negatives, row.sum.counts.collisions));
 }
 
 /// Adds the columns that are computed from this counter.
@@ -74,8 +81,8 @@ void add_computed(CsvColumns& columns, std::uint64_t Counts::*counter) {
     add_quantile(columns, "median", 0.5);
     add_quantile(columns, "q99", 0.99);
     add_column(columns, "max_fp_distance_over_bound", &Counts::max_ratio);
-    columns.push_back({"ns_per_query", [](const CountsKey& /*key*/, const Counts& counts) {
-                         const auto ns = counts.times.ns_per_query();
+    columns.push_back({"ns_per_query", [](const CsvRow& row) {
+                         const auto ns = row.sum.counts.times.ns_per_query();
                          return ns ? fmt::format("{}", *ns) : "";
                        }});
   }
@@ -94,8 +101,8 @@ void add_counter(CsvColumns& columns, const NamedCounts<Counts, size>& counter) 
 }
 
 void add_time_quantile(CsvColumns& columns, std::string heading, double part) {
-  columns.push_back({std::move(heading), [part](const CountsKey& /*key*/, const Counts& counts) {
-                       const auto time = counts.times.each.quantile(part);
+  columns.push_back({std::move(heading), [part](const CsvRow& row) {
+                       const auto time = row.sum.counts.times.each.quantile(part);
                        return time ? fmt::format("{:.0f}", *time) : "";
                      }});
 }
@@ -110,28 +117,41 @@ void add_counter(CsvColumns& columns, const Counter<Counts, SubjectTimes>& /*cou
 template <class Member>
 void add_counter(CsvColumns& /*columns*/, const Counter<Counts, Member>& /*counter*/) {}
 
-CsvColumns statistics_columns() {
-  CsvColumns columns{
-      {"subject", [](const CountsKey& key, const Counts& /*counts*/) { return field(key.subject); }},
-      {"kind",
-       [](const CountsKey& key, const Counts& /*counts*/) { return std::string(short_name(key.kind)); }},
-      {"family", [](const CountsKey& key, const Counts& /*counts*/) { return field(key.family); }}};
+/// The columns; `of` is the heading of the rows' families or classes.
+CsvColumns columns_of(const std::string& of) {
+  CsvColumns columns{{"subject", [](const CsvRow& row) { return field(row.key.subject); }},
+                     {"kind", [](const CsvRow& row) { return std::string(short_name(row.key.kind)); }},
+                     {of, [](const CsvRow& row) { return field(row.key.family); }}};
   for_each_counter<Counts>([&](const auto& counter) { add_counter(columns, counter); });
   return columns;
+}
+
+std::string as_csv(const CsvColumns& columns, const std::vector<CsvRow>& rows) {
+  std::vector<std::string> fields;
+  for (const CsvColumn& column : columns) fields.push_back(column.heading);
+  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+  for (const CsvRow& row : rows) {
+    for (std::size_t i = 0; i < columns.size(); ++i) fields[i] = columns[i].field(row);
+    text += fmt::format("{}\n", fmt::join(fields, ","));
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string statistics_csv(const Statistics& statistics) {
-  const CsvColumns columns = statistics_columns();
-  std::vector<std::string> fields;
-  for (const CsvColumn& column : columns) fields.push_back(column.heading);
-  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
-  for (const auto& [key, counts] : statistics.counts) {
-    for (std::size_t i = 0; i < columns.size(); ++i) fields[i] = columns[i].field(key, counts);
-    text += fmt::format("{}\n", fmt::join(fields, ","));
-  }
-  return text;
+  CsvColumns columns = columns_of("family");
+  columns.push_back({"class", [](const CsvRow& row) { return std::string(name(class_of(row.key.family))); }});
+  std::vector<CsvRow> rows;
+  for (const auto& [key, counts] : statistics.counts) rows.push_back({key, {counts, is_random(key.family)}});
+  return as_csv(columns, rows);
+}
+
+std::string classes_csv(const Statistics& statistics) {
+  std::vector<CsvRow> rows;
+  for (const auto& [key, sum] : by_class(statistics))
+    rows.push_back({{key.subject, key.kind, std::string(name(key.of))}, sum});
+  return as_csv(columns_of("class"), rows);
 }
 
 std::string distances_csv(const Statistics& statistics) {

@@ -7,8 +7,11 @@
 
 namespace nearmiss {
 
-/// A row for each subject, kind and family.
+/// A row for each subject, kind and family. The last column is the family's class.
 std::string statistics_csv(const Statistics& statistics);
+
+/// A row for each subject, kind and class of families, with the same counters.
+std::string classes_csv(const Statistics& statistics);
 
 /// A row for each non-empty bin of the distance histograms.
 std::string distances_csv(const Statistics& statistics);

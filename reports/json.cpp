@@ -12,6 +12,7 @@
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/sweep.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
 
@@ -84,11 +85,19 @@ ordered_json summary_json(const Campaign& campaign) {
                                   {"signature", signature.text},
                                   {"seen", times}});
   json["subjects"] = ordered_json::object();
+  const auto of_kind = [&](const std::string& subject, Kind kind) -> ordered_json& {
+    return json["subjects"][subject][std::string(short_name(kind))];
+  };
   for (const auto& [key, sum] : campaign.statistics.by_subject_and_kind())
-    json["subjects"][key.subject][std::string(short_name(key.kind))] = counts_json(sum.counts, sum.is_sample);
-  for (const auto& [key, counts] : campaign.statistics.counts)
-    json["subjects"][key.subject][std::string(short_name(key.kind))]["families"][key.family] =
-        counts_json(counts, is_random(key.family));
+    of_kind(key.subject, key.kind) = counts_json(sum.counts, sum.is_sample);
+  for (const auto& [key, sum] : by_class(campaign.statistics))
+    of_kind(key.subject, key.kind)["classes"][std::string(name(key.of))] =
+        counts_json(sum.counts, sum.is_sample);
+  for (const auto& [key, counts] : campaign.statistics.counts) {
+    ordered_json& family = of_kind(key.subject, key.kind)["families"][key.family];
+    family["class"] = name(class_of(key.family));
+    family.update(counts_json(counts, is_random(key.family)));
+  }
   if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
   if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
   return json;

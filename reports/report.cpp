@@ -23,6 +23,7 @@
 #include "reports/sections/summary.hpp"
 #include "reports/sections/trade_off.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
 
@@ -59,11 +60,17 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
 }
 
 ordered_json farthest_json(const ShownFarthest& each) {
-  return {{"subject", each.key.subject},       {"kind", short_name(each.key.kind)},
-          {"family", each.key.family},         {"shown_family", shown_family(each.key.family)},
-          {"ratio", each.far.ratio},           {"bound_of_distances", name(each.unit)},
-          {"provenance", each.far.provenance}, {"query", each.far.query.x},
-          {"time", moment(each.far.query)},    {"file", "farthest/" + each.exported.file}};
+  return {{"subject", each.key.subject},
+          {"kind", short_name(each.key.kind)},
+          {"family", each.key.family},
+          {"shown_family", shown_family(each.key.family)},
+          {"class", name(class_of(each.key.family))},
+          {"ratio", each.far.ratio},
+          {"bound_of_distances", name(each.unit)},
+          {"provenance", each.far.provenance},
+          {"query", each.far.query.x},
+          {"time", moment(each.far.query)},
+          {"file", "farthest/" + each.exported.file}};
 }
 
 /// The rates of each subject and kind in the baseline and now.
@@ -176,6 +183,7 @@ std::map<std::string, std::string> files_with_contents(const Campaign& campaign,
   std::map<std::string, std::string> files{{"index.html", report_page(json)},
                                            {"report.json", json.dump(1) + "\n"},
                                            {"statistics.csv", statistics_csv(campaign.statistics)},
+                                           {"classes.csv", classes_csv(campaign.statistics)},
                                            {"distances.csv", distances_csv(campaign.statistics)},
                                            {"findings.csv", findings_csv(campaign)}};
   for (const ShownFinding& each : shown_findings(campaign))

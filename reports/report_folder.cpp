@@ -18,8 +18,11 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr std::string_view data_file = "report.json";
-constexpr std::array fixed_files{data_file, std::string_view("index.html"),
-                                 std::string_view("statistics.csv"), std::string_view("distances.csv"),
+constexpr std::array fixed_files{data_file,
+                                 std::string_view("index.html"),
+                                 std::string_view("statistics.csv"),
+                                 std::string_view("classes.csv"),
+                                 std::string_view("distances.csv"),
                                  std::string_view("findings.csv")};
 constexpr std::array sub_folders{"cases", "farthest"};
 

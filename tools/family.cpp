@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/coverage.hpp"
+#include "fuzz/families/crossed.hpp"
+#include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
 #include "tools/values.hpp"
@@ -17,16 +21,44 @@ struct Options {
   std::uint64_t seed = 1;
   std::uint64_t first = 0;
   std::uint64_t count = 0;
+  bool factors = false, coverage = false;
 };
 
-/// Prints the queries of one kind among the indices first .. first + count - 1.
-void run(const Options& options) {
-  const Family family = find_family(options.name);
+/// Prints a line for each query of one kind among the indices first .. first + count - 1: the query or, with
+/// --factors, its factors.
+void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   for (std::uint64_t i = 0; i < options.count; ++i) {
     const std::uint64_t index = options.first + i;
-    if (kind_of(index) == kind) fmt::print("{}\n", to_line(make_query(family, options.seed, index)));
+    if (kind_of(index) != kind) continue;
+    fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
+                                       : to_line(make_query(family, options.seed, index)));
   }
+}
+
+void print_combinations(std::string_view name, const crossed::Combinations& combinations,
+                        std::uint64_t queries) {
+  fmt::print("{}: {} of {} possible ones occur in {}\n", name, with_separators(combinations.seen),
+             with_separators(combinations.possible), counted(queries, "query", "queries"));
+  for (const std::string& missing : combinations.missing) fmt::print("never: {}\n", missing);
+}
+
+void print_coverage(const Options& options) {
+  const crossed::Coverage found = crossed::coverage(options.seed, options.first, options.count);
+  for (const std::string& pair : found.impossible_pairs) fmt::print("impossible: {}\n", pair);
+  print_combinations("pairs", found.pairs, options.count);
+  print_combinations("triples", found.triples, options.count);
+}
+
+void run(const Options& options) {
+  const Family family = find_family(options.name);
+  if ((options.factors || options.coverage) && family.name != "crossed")
+    throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name,
+                            options.factors ? "--factors" : "--coverage"));
+  if (options.coverage)
+    print_coverage(options);
+  else
+    print_queries(options, family);
 }
 
 }  // namespace
@@ -39,11 +71,19 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
   command
       ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
       ->required();
+  auto* choice = command->add_option_group("choice", "Output");
+  auto* kind = choice
+                   ->add_option("--kind", options->kind,
+                                "Print the queries of this kind: even indices are vt, odd ones ee")
+                   ->check(CLI::IsMember({"vt", "ee"}));
+  choice->add_flag(
+      "--coverage", options->coverage,
+      "Print which pairs and triples of factors occur in the queries of both kinds; crossed only");
+  choice->require_option(1);
   command
-      ->add_option("--kind", options->kind,
-                   "Print the queries of this kind: even indices are vt, odd ones ee")
-      ->required()
-      ->check(CLI::IsMember({"vt", "ee"}));
+      ->add_flag("--factors", options->factors,
+                 "Print each query's factors instead of the query; crossed only")
+      ->needs(kind);
   add_seed_option(*command, options->seed);
   add_count_option(*command, "--count", options->count, 1, most_queries,
                    "Number of indices; about half are of each kind")

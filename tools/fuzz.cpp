@@ -8,6 +8,7 @@
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "fuzz/trial/sieve.hpp"
+#include "reports/statistics/family_class.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
@@ -77,11 +78,11 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
   return chosen;
 }
 
-/// A line for each family, and one for its parameter.
+/// A line for each family with its class, and one for its parameter.
 std::string list_of_families() {
   std::string lines;
   for (const Family& family : families()) {
-    lines += fmt::format("\n  {:<22} {}", family.name, family.about);
+    lines += fmt::format("\n  {:<22} {}: {}", family.name, name(class_of(family.name)), family.about);
     if (family.parameter)
       lines += fmt::format("\n  {:<22}   {}, x from {} to {}", "", family.parameter->about,
                            family.parameter->lo, family.parameter->hi);

@@ -72,7 +72,8 @@ std::vector<Family> sweep(const Family& family, int steps) {
 std::span<const Family> families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
-    for (auto& theme : {random_families(), extreme_families(), root_families(), range_families()})
+    for (auto& theme : {random_families(), extreme_families(), root_families(), range_families(),
+                        motion_families(), file_families(), crossed_families()})
       joined.insert(joined.end(), theme.begin(), theme.end());
     return joined;
   }();
@@ -93,12 +94,16 @@ Family find_family(std::string_view name, std::span<const Family> known) {
                   parse_number(name.substr(base.size() + 1), fmt::format("family '{}'", excerpt(name))));
 }
 
-Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {
+Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
   // The stream is a hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
   std::uint64_t stream = 0xcbf29ce484222325;
   for (const char c : base_name(family.name))
     stream = (stream ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  Random random(seed, stream, index);
+  return {seed, stream, index};
+}
+
+Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(family, seed, index);
   return family.make(random, kind_of(index));
 }
 

@@ -55,6 +55,9 @@ Family find_family(std::string_view name, std::span<const Family> known = famili
 /// The kind of a family's query by its index: vertex-triangle if it is even, edge-edge if it is odd.
 constexpr Kind kind_of(std::uint64_t index) { return kinds[index % kinds.size()]; }
 
+/// The random numbers from which query number `index` of a family is made.
+Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
+
 /// Query number `index` of a family.
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);
 

@@ -11,5 +11,8 @@ std::vector<Family> random_families();
 std::vector<Family> extreme_families();
 std::vector<Family> root_families();
 std::vector<Family> range_families();
+std::vector<Family> motion_families();
+std::vector<Family> file_families();
+std::vector<Family> crossed_families();
 
 }  // namespace nearmiss

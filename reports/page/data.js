@@ -17,6 +17,11 @@ function countRows(byFamily) {
   return rows;
 }
 
+/** [{subject, kind, class, ...counts}]: the sums over the families of each class. */
+const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKind]) =>
+  Object.entries(ofKind).flatMap(([kind, counts]) =>
+    Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
+
 /** Whether distances are fractions of the bound that the subject claims; else they are in units of wang's bound. */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
 /** Marks a distance that is no fraction of a claim; the notes of class "units" explain the mark. */

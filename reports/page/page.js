@@ -107,19 +107,20 @@ const noAnswer = {
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
-/** The farthest false positive of a subject and kind, in one family or in all. */
-const farthestOf = ({ subject, kind, family }) => report.farthest
-  .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family))
+/** The farthest false positive of a subject and kind, in one family, in one class or in all. */
+const farthestOf = ({ subject, kind, family, class: own }) => report.farthest
+  .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family) &&
+    (own === undefined || far.class === own))
   .reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
 
 function drawCounts() {
-  const byFamily = element("by-family").checked;
-  const rows = countRows(byFamily);
+  const [byClass, byFamily] = ["by-class", "by-family"].map((id) => element(id).checked);
+  const rows = byClass && !byFamily ? classRows() : countRows(byFamily);
   if (rows.length === 0) return;
   show("counts-section");
   const largest = { ...number("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) + unitMark(r) };
   const columns = [
-    text("subject", "subject"), text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []),
+    text("subject", "subject"), text("kind", "kind"), ...(byClass ? [text("class", "class")] : []), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
     { title: "missed below", number: (r) => r.false_negative_rate_upper_95 ?? -1,
       text: (r) => (r.false_negative_rate_upper_95 === null ? "–" : percent(r.false_negative_rate_upper_95)) },
@@ -294,7 +295,7 @@ drawHead();
 drawBaseline();
 drawUnits();
 drawCounts();
-element("by-family").addEventListener("change", drawCounts);
+for (const id of ["by-class", "by-family"]) element(id).addEventListener("change", drawCounts);
 drawScenes();
 element("by-step").addEventListener("change", drawScenes);
 drawScenePictures();

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "corpus/query_text.hpp"
+#include "reports/sections/class_table.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/text/text.hpp"
 
@@ -151,8 +152,10 @@ constexpr const char* footnotes =
 std::string summary_table(const Statistics& statistics) {
   std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
-  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + oracle_lines(statistics) +
-         extremes + footnotes + footnote_on_units(statistics);
+  std::string classes = class_table(statistics);
+  if (!classes.empty()) classes += "\n";
+  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + classes +
+         oracle_lines(statistics) + extremes + footnotes + footnote_on_units(statistics);
 }
 
 }  // namespace nearmiss

@@ -25,7 +25,8 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
 /// The failures of the oracle, in a line; "" without failures.
 std::string oracle_complaint(const Statistics& statistics);
 
-/// One line for each verdict; then a table with a row for each subject and kind, and the oracle's counters.
+/// One line for each verdict; then a table with a row for each subject and kind, a table by class of families
+/// (class_table.hpp), and the oracle's counters.
 std::string summary_table(const Statistics& statistics);
 
 }  // namespace nearmiss

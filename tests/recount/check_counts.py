@@ -3,7 +3,18 @@
 import numpy as np
 
 from asking import KINDS
-from tally import BINS, BORDERS, Tally, denominators, interval, rate, reported, stages, upper_bound
+from tally import (
+    BINS,
+    BORDERS,
+    Tally,
+    classes_of,
+    denominators,
+    interval,
+    rate,
+    reported,
+    stages,
+    upper_bound,
+)
 
 ROUNDING = 1e-12  # relative error of a quotient of two counts
 SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
@@ -31,6 +42,21 @@ def check_statistics(comparison, where, json, answers):
                 _check_farthest(
                     comparison, own, families[family]['farthest'], tally, answers, subject, kind
                 )
+            _check_classes(comparison, place, found, answers, subject, kind)
+
+
+def _check_classes(comparison, where, found, answers, subject, kind):
+    """Checks the sums over the families of each class."""
+    members = classes_of({name: own['class'] for name, own in found['families'].items()})
+    comparison.same('names', f'{where} classes', list(found['classes']), list(members))
+    for name, families in members.items():
+        if name in found['classes']:
+            own = found['classes'][name]
+            tally = Tally.of(answers, subject, [kind], families)
+            check_counts(comparison, f'{where} {name}', own, tally)
+            _check_farthest(
+                comparison, f'{where} {name}', own['farthest'], tally, answers, subject, kind
+            )
 
 
 def check_counts(comparison, where, found, tally):

@@ -1,4 +1,4 @@
-"""Checks the CSV files of a report: statistics.csv, distances.csv and findings.csv."""
+"""Checks the CSV files of a report: statistics.csv, classes.csv, distances.csv and findings.csv."""
 
 import csv
 
@@ -7,7 +7,17 @@ import numpy as np
 from asking import KINDS
 from check_counts import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
 from check_sections import check_finding
-from tally import BINS, BORDERS, Tally, denominators, interval, rate, stages, upper_bound
+from tally import (
+    BINS,
+    BORDERS,
+    Tally,
+    classes_of,
+    denominators,
+    interval,
+    rate,
+    stages,
+    upper_bound,
+)
 
 
 def read(folder, name):
@@ -46,17 +56,41 @@ def check_statistics_csv(comparison, _where, folder, answers, report):
     found = [(row['subject'], row['kind'], row['family']) for row in statistics]
     comparison.same('CSV', 'statistics.csv rows', found, keys(answers))
     for row in statistics:
-        _check_statistics(comparison, {name: number(text) for name, text in row.items()}, answers)
+        where = f'statistics.csv {row["subject"]} {row["kind"]} {row["family"]}'
+        family = report['subjects'][row['subject']][row['kind']]['families'].get(row['family'])
+        if family is not None:  # a report joins families that statistics.csv lists
+            comparison.same('CSV', f'{where} class', row['class'], family['class'])
+        tally = Tally.of(answers, row['subject'], [row['kind']], row['family'])
+        _check_statistics(comparison, where, numbers(row), tally)
 
 
-def _tally(answers, row):
-    return Tally.of(answers, row['subject'], [row['kind']], row['family'])
+def check_classes_csv(comparison, _where, folder, answers, report):
+    """Checks counters, rates and quantiles of the families of each class."""
+    rows = read(folder, 'classes.csv')
+    found = [(row['subject'], row['kind'], row['class']) for row in rows]
+    expected = [
+        (subject, kind, each)
+        for subject in answers.subjects
+        for kind in KINDS
+        for each in report['subjects'][subject][kind]['classes']
+    ]
+    comparison.same('CSV', 'classes.csv rows', found, expected)
+    for row in rows:
+        families = report['subjects'][row['subject']][row['kind']]['families']
+        members = classes_of({name: own['class'] for name, own in families.items()})
+        if row['class'] in members:  # otherwise it is among the differences of the rows
+            tally = Tally.of(answers, row['subject'], [row['kind']], members[row['class']])
+            where = f'classes.csv {row["subject"]} {row["kind"]} {row["class"]}'
+            _check_statistics(comparison, where, numbers(row), tally)
 
 
-def _check_statistics(comparison, row, answers):
+def numbers(row):
+    """The row with numbers instead of text, where it is a number."""
+    return {name: number(text) for name, text in row.items()}
+
+
+def _check_statistics(comparison, where, row, tally):
     """Checks one row, except times."""
-    where = f'statistics.csv {row["subject"]} {row["kind"]} {row["family"]}'
-    tally = _tally(answers, row)
     for name in ('queries', 'collisions', 'positives', 'false_negatives', 'false_positives'):
         comparison.same('CSV', f'{where} {name}', row[name], getattr(tally, name))
     comparison.within('CSV', f'{where} refuted_bounds', row['refuted_bounds'], *tally.refuted())

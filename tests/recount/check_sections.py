@@ -238,6 +238,7 @@ def check_findings(comparison, section, report, answers):
         check_false_positive(comparison, where, answers, found['subject'], found['kind'], found)
         comparison.same('names', where, found['shown_family'], found['family'])
         own = report['subjects'][found['subject']][found['kind']]['families'][found['family']]
+        comparison.same('names', f'{where} class', found['class'], own['class'])
         comparison.same('largest ratios', where, found['ratio'], own['max_fp_distance_over_bound'])
         comparison.same(
             'counters', f'{where} bound', found['bound_of_distances'], own['bound_of_distances']

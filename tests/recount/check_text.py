@@ -57,6 +57,9 @@ def _check_output(comparison, where, text, json_report, verdicts):
     ]
     comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
     _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
+    if len({row[2] for row in by_class(json_report)}) > 1:
+        heading = ['subject', 'kind', 'class']
+        _check_table(comparison, where, lines, heading, by_class(json_report))
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
     expected = oracle_line(json_report['oracle']['total'])
     comparison.same('text', f'{where} oracle', found and found[0], expected)
@@ -162,6 +165,17 @@ def summary(report):
     return rows
 
 
+def by_class(report):
+    """The rows of the table by class, without times."""
+    counters = ('queries', 'collisions', 'false_negatives', 'false_positives')
+    return [
+        [subject, kind, name, *(f'{each[counter]:,}' for counter in counters)]
+        for subject, own in report['subjects'].items()
+        for kind in KINDS
+        for name, each in own[kind]['classes'].items()
+    ]
+
+
 def ladder(found):
     """The rows of the ladder's table, without times."""
     return [
@@ -211,7 +225,7 @@ def oracle_line(total):
 def _check_table(comparison, where, lines, heading, rows):
     """Checks the rows below the line that begins with the heading. The last column is a time."""
     cells = [re.split(r' {2,}', line.strip()) for line in lines]
-    start = next((i for i, row in enumerate(cells) if row[:2] == heading), None)
+    start = next((i for i, row in enumerate(cells) if row[: len(heading)] == heading), None)
     if start is None:
         return comparison.fail('text', where, 'no table', ' '.join(heading))
     end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)

@@ -13,7 +13,12 @@ from pathlib import Path
 from answers import ask
 from asking import KINDS, Nearmiss
 from check_counts import check_statistics
-from check_csv import check_distances_csv, check_findings_csv, check_statistics_csv
+from check_csv import (
+    check_classes_csv,
+    check_distances_csv,
+    check_findings_csv,
+    check_statistics_csv,
+)
 from check_deciders import check_deciders
 from check_page import check_page
 from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
@@ -50,6 +55,7 @@ def check_all(comparison, report, answers, units):
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
     comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers, json_report)
+    comparison.section(check_classes_csv, 'classes.csv', report.folder, answers, json_report)
     comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
     comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
     comparison.section(check_text, 'report.json', report, json_report)

@@ -14,7 +14,13 @@ from pathlib import Path
 from asking import Nearmiss
 from changes import changed, found, leaves, pattern, put
 from check_counts import check_statistics
-from check_csv import check_distances_csv, check_findings_csv, check_statistics_csv, number
+from check_csv import (
+    check_classes_csv,
+    check_distances_csv,
+    check_findings_csv,
+    check_statistics_csv,
+    number,
+)
 from check_page import check_page
 from check_sections import front
 from check_text import check_text
@@ -119,6 +125,7 @@ class Recount(unittest.TestCase):
     def test_a_change_in_any_column_of_a_csv_file_is_found(self):
         for name, check, *more in (
             ('statistics.csv', check_statistics_csv, self.json),
+            ('classes.csv', check_classes_csv, self.json),
             ('distances.csv', check_distances_csv),
             ('findings.csv', check_findings_csv, self.json),
         ):

@@ -13,6 +13,7 @@ BINS = len(BORDERS) + 1
 FARTHEST = 5  # number of farthest false positives that are kept
 PRECISION = 1.01e-3  # relative error by which a reported largest ratio may exceed the true one
 LARGEST = np.finfo(float).max
+CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
 
 
 @dataclass
@@ -33,8 +34,8 @@ class Tally:
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
-        """The tally over the queries of these kinds, of one family or of all. It is computed
-        once."""
+        """The tally over the queries of these kinds, of one family, of a tuple of families, or of
+        all. It is computed once."""
         key = subject, tuple(kinds), family
         if key not in answers.tallies:
             answers.tallies[key] = cls._of(answers, *key)
@@ -102,11 +103,20 @@ class Tally:
 
 def _part(answers, subject, kind, family):
     asked = answers.asked[subject, kind]
-    own = slice(None) if family is None else answers.family[kind] == family
+    names = (family,) if isinstance(family, str) else family
+    own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return [
         each[own]
         for each in (asked.hit, asked.collision, asked.stage, asked.ratio_lo, asked.ratio_hi)
     ]
+
+
+def classes_of(class_of):
+    """The families of each class, in the order of reports; class_of maps families to classes."""
+    members = {
+        each: tuple(family for family, own in class_of.items() if own == each) for each in CLASSES
+    }
+    return {each: families for each, families in members.items() if families}
 
 
 def _by_name(stages):

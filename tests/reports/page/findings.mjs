@@ -39,6 +39,11 @@ async function checkTables(page, report) {
   assert.equal(await page.isVisible("#deciders-part"), false); // neither subject passes queries on
 
   assert.equal(await count(page, "#counts tbody tr"), 4);
+  await page.check("#by-class");
+  const classes = await page.locator("#counts tbody tr:has-text('wang'):has-text('vt') td:nth-child(3)").allTextContents();
+  assert.deepEqual(classes, ["ordinary", "degenerate", "extreme"]);
+  assert.equal(await count(page, "#counts tbody tr"), 4 * 3);
+  await page.uncheck("#by-class");
   await page.check("#by-family");
   const families = Object.keys(report.oracle.families.vt).length;
   assert.ok(families >= 24);

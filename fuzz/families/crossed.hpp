@@ -1,0 +1,61 @@
+// The factors of the family `crossed`, each of which a query draws independently of the others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "fuzz/families/families.hpp"
+
+namespace nearmiss::crossed {
+
+/// A factor and the names of its values.
+struct Factor {
+  std::string_view name;
+  std::span<const std::string_view> values;
+};
+
+// The values of each factor, in the order of their names. README.md says what they mean.
+enum class Shape : std::uint8_t { ordinary, sliver, needle, tiny, parallel, zero_edge, point };
+enum class Motion : std::uint8_t { translation, rotation, collapse, deforming, fast, slow, along, rest };
+enum class When : std::uint8_t { at_0, after_0, inside, before_1, at_1, outside };
+enum class Where : std::uint8_t { inside, edge, vertex, outside };
+enum class Roots : std::uint8_t { one, two, three, double_root, triple, all };
+
+inline constexpr std::size_t factor_count = 7;
+
+/// The number of the value of each factor: shape, motion, when, where, roots, scale, offset.
+struct Levels : std::array<std::uint8_t, factor_count> {
+  [[nodiscard]] Shape shape() const { return static_cast<Shape>((*this)[0]); }
+  [[nodiscard]] Motion motion() const { return static_cast<Motion>((*this)[1]); }
+  [[nodiscard]] When when() const { return static_cast<When>((*this)[2]); }
+  [[nodiscard]] Where where() const { return static_cast<Where>((*this)[3]); }
+  [[nodiscard]] Roots roots() const { return static_cast<Roots>((*this)[4]); }
+  [[nodiscard]] int scale() const { return (*this)[5]; }
+  [[nodiscard]] std::size_t offset() const { return (*this)[6]; }
+};
+
+/// All factors, in the order of Levels.
+std::span<const Factor> factors();
+
+/// Whether there are queries with these levels.
+bool is_possible(const Levels& levels);
+
+/// Whether queries with these levels touch exactly, by construction, at the time that the levels give.
+bool touches(const Levels& levels);
+
+/// Draws every level independently; draws again if they are impossible together.
+Levels draw_levels(Random& random);
+
+/// The levels of query `index` of the family; the query itself is not made.
+Levels levels_of(std::uint64_t seed, std::uint64_t index);
+
+/// "shape=sliver motion=rest ..."
+std::string to_text(const Levels& levels);
+
+/// A query with these levels.
+Query make_query(Random& random, Kind kind, const Levels& levels);
+
+}  // namespace nearmiss::crossed

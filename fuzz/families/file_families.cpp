@@ -1,0 +1,100 @@
+// Coordinates as files and simulations have them: floats, decimals, and small primitives in large scenes.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/families/contacts.hpp"
+#include "fuzz/families/tables.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+/// Primitives of a size and speed, in general position around the origin. They are aimed at each other, but contact
+/// may be outside of them or of the step.
+Query everyday(Random& random, Kind kind, double size, double speed) {
+  const auto path = [&](double length) {
+    const Vector start = random.vector(length);
+    return Path{start, start + random.vector(speed)};
+  };
+  Contact contact;
+  contact.base = path(0);
+  contact.q = path(size);
+  contact.r = path(size);
+  contact.alpha = random.uniform(-0.25, 1);
+  contact.beta = random.uniform(-0.25, kind == Kind::edge_edge ? 1.25 : 1 - contact.alpha);
+  contact.time = random.uniform(-0.25, 1.25);
+  return shuffled(random, meet(kind, contact, random.vector(speed)));
+}
+
+/// The query moved by the same vector at both times, as nearly as double allows.
+Query moved(Query query, const Vector& by) {
+  for (std::size_t i = 0; i < 24; ++i) query.x[i] += by[static_cast<int>(i % 3)];
+  return query;
+}
+
+/// A scene of size 10 whose coordinates are floats.
+Query floats(Random& random, Kind kind) {
+  const double speed = power_of_ten(random.uniform(-3, 0));
+  Query query = everyday(random, kind, 1, speed);
+  query = moved(query, random.vector(10));
+  for (double& c : query.x) c = static_cast<double>(static_cast<float>(c));
+  return query;
+}
+
+/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries the decimals touch
+/// exactly; the rounded numbers touch or are a few ulps apart.
+Query decimals(Random& random, Kind kind, double x) {
+  const int unit = static_cast<int>(std::lround(std::pow(10.0, x)));
+  Query query{.kind = kind};
+  if (random.one_in(2)) {
+    for (std::size_t i = 0; i < 12; ++i) query.x[i] = random.integer(-unit, unit);
+    for (std::size_t i = 12; i < 24; ++i) query.x[i] = query.x[i - 12] + random.integer(-unit / 2, unit / 2);
+  } else {
+    // Sides and velocities are multiples of 100 x 1 / 10^x, weights and times of 1/10: places are whole multiples.
+    const int most = std::max(unit / 100, 1);
+    const auto hundreds = [&]() -> Vector { return 100 * random.integer_vector(most); };
+    const auto path = [&]() {
+      const Vector start = hundreds();
+      return Path{start, start + hundreds()};
+    };
+    Contact contact;
+    contact.base = path();
+    contact.q = path();
+    contact.r = path();
+    const int tenths = random.integer(0, 10);
+    contact.alpha = tenths / 10.0;
+    contact.beta = random.integer(0, kind == Kind::edge_edge ? 10 : 10 - tenths) / 10.0;
+    contact.time = random.integer(0, 10) / 10.0;
+    query = meet(kind, contact, hundreds());
+    query = moved(query, random.integer_vector(10 * unit));
+  }
+  for (double& c : query.x) c = std::round(c) / unit;
+  return shuffled(random, query);
+}
+
+/// Primitives of 1 mm to 10 cm in a scene of up to 10 km; the unit is a metre.
+Query kilometres(Random& random, Kind kind) {
+  const double size = power_of_ten(random.uniform(-3, -1));
+  const double faster = power_of_ten(random.uniform(-2, 1));
+  const double speed = size * faster;
+  const Query query = everyday(random, kind, size, speed);
+  const double scene = random.one_in(4) ? 10000 : 1000;
+  return moved(query, random.vector(scene));
+}
+
+}  // namespace
+
+std::vector<Family> file_families() {
+  return {
+      {.name = "floats", .about = "coordinates are floats, as in many mesh files", .make = floats},
+      with_parameter("decimals", "coordinates are decimals, as in text files",
+                     {"digits behind the point = x", 1, 6, true, decimals}),
+      {.name = "kilometres",
+       .about = "primitives of millimetres in a scene of kilometres",
+       .make = kilometres},
+  };
+}
+
+}  // namespace nearmiss

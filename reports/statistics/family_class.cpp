@@ -1,0 +1,49 @@
+#include "reports/statistics/family_class.hpp"
+
+#include <algorithm>
+
+namespace nearmiss {
+
+namespace {
+
+// The only place that says which class a family has.
+constexpr std::array<std::string_view, 7> ordinary{"uniform", "uniform-end", "uniform-slow", "mesh",
+                                                   "floats",  "decimals",    "kilometres"};
+
+constexpr std::array<std::string_view, 20> degenerate{"planted",       "planted-ulp",  "grazing",
+                                                      "parallel",      "sliver",       "planar",
+                                                      "small-integer", "degenerate",   "near-parallel-edges",
+                                                      "needle",        "rigid",        "end-contact",
+                                                      "even-roots",    "triple-root",  "far-end",
+                                                      "far-start",     "first-moment", "one-point",
+                                                      "touch-twice",   "crossed"};
+
+constexpr std::array<std::string_view, 12> extreme{"small",          "stiff",
+                                                   "aspect",         "offset",
+                                                   "scale",          "overflow",
+                                                   "mixed-scale",    "static-pair",
+                                                   "near-overflow",  "near-overflow-planted",
+                                                   "near-underflow", "near-underflow-planted"};
+
+template <std::size_t size>
+bool contains(const std::array<std::string_view, size>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+FamilyClass class_of(std::string_view family) {
+  const std::string_view base = family.substr(0, family.find('@'));
+  if (family.starts_with("scene:") || contains(ordinary, base)) return FamilyClass::ordinary;
+  if (contains(degenerate, base)) return FamilyClass::degenerate;
+  return contains(extreme, base) ? FamilyClass::extreme : FamilyClass::unclassified;
+}
+
+std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {
+  std::map<ClassKey, CountsSum> sums;
+  for (const auto& [key, each] : statistics.counts)
+    sums[{key.subject, key.kind, class_of(key.family)}].add(key.family, each);
+  return sums;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,164 @@
+// The crossed family: its factors are what they say, its contacts are exact, and all combinations occur.
+#include "fuzz/families/crossed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "fuzz/families/contacts.hpp"
+#include "fuzz/families/coverage.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/sturm/sturm.hpp"
+#include "tests/fuzz/family_queries.hpp"
+
+namespace nearmiss::crossed {
+namespace {
+
+constexpr std::uint64_t seed = 5;
+
+/// Calls check(levels, query, index) for queries of both kinds.
+template <class Check>
+void for_each_query(std::uint64_t count, const Check& check) {
+  const Family family = find_family("crossed");
+  for (std::uint64_t i = 0; i < count; ++i)
+    check(levels_of(seed, i), nearmiss::make_query(family, seed, i), i);
+}
+
+TEST(Crossed, TheFactorsAreRecoveredFromSeedAndIndex) {
+  const Family family = find_family("crossed");
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    Random random = random_of(family, seed, i);
+    const Levels levels = draw_levels(random);
+    EXPECT_EQ(levels, levels_of(seed, i));
+    EXPECT_EQ(make_query(random, kind_of(i), levels), nearmiss::make_query(family, seed, i));
+  }
+}
+
+TEST(Crossed, TouchesWhereItsFactorsSaySo) {
+  int touching = 0;
+  for_each_query(20000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+    if (!touches(levels)) return;
+    ++touching;
+    EXPECT_TRUE(collides(query)) << index << ' ' << to_text(levels);
+  });
+  EXPECT_GT(touching, 10000);
+}
+
+/// The query from its start to a time, as nearly as double allows.
+Query at_rest(Query query, int time) {
+  const std::size_t from = time == 0 ? 0 : 12;
+  for (std::size_t i = 0; i < 12; ++i) query.x[12 - from + i] = query.x[from + i];
+  return query;
+}
+
+TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
+  for_each_query(5000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+    if (!touches(levels)) return;
+    if (levels.when() == When::at_0) {
+      EXPECT_TRUE(collides_exactly(at_rest(query, 0))) << index << to_text(levels);
+    } else if (levels.when() == When::at_1) {
+      EXPECT_TRUE(collides_exactly(at_rest(query, 1))) << index << to_text(levels);
+    } else if (levels.roots() == Roots::one && levels.motion() != Motion::rotation) {
+      const double time = earliest_time(query)->enclosure.hi;
+      const bool is_early = levels.when() == When::after_0;
+      const bool is_late = levels.when() == When::before_1;
+      EXPECT_LE(is_late ? 1 - 1.0 / 32 : is_early ? 0x1p-53 : 1.0 / 16, time) << index << to_text(levels);
+      EXPECT_GE(is_late ? 1 - 0x1p-53 : is_early ? 1.0 / 32 : 15.0 / 16, time) << index << to_text(levels);
+    }
+  });
+}
+
+/// How often F changes its sign between times hardly before 0 and hardly after 1.
+int sign_changes(const Query& query) {
+  const auto at = [&](int vertex, double t) -> Vector3<double> {
+    return query.start(vertex) + t * (query.end(vertex) - query.start(vertex));
+  };
+  int changes = 0;
+  double before = 0;
+  for (int i = -1; i <= 65; ++i) {
+    const double t = (i + 0.5) / 65;
+    const Vector3<double> p = at(0, t);
+    const double F = (at(1, t) - p).cross(at(2, t) - p).dot(at(3, t) - p);
+    if (before * F < 0) ++changes;
+    before = F;
+  }
+  return changes;
+}
+
+/// The number of roots at the contact, counted with multiplicity; 0 if F is zero.
+int roots_of(const Levels& levels) {
+  switch (levels.roots()) {
+    case Roots::all:
+      return 0;
+    case Roots::double_root:
+      return 2;
+    case Roots::triple:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+TEST(Crossed, FHasTheRootsOfItsFactor) {
+  int counted = 0;
+  for_each_query(8000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+    if (levels.when() != When::inside || levels.where() == Where::outside) return;
+    ++counted;
+    const RootCount roots = count_roots(query);
+    const std::string where = std::to_string(index) + " " + to_text(levels);
+    EXPECT_EQ(roots.planar, levels.roots() == Roots::all) << where;
+    EXPECT_GE(roots.with_multiplicity - (roots.distinct - 1), roots_of(levels)) << where;
+    if (levels.scale() != 2 || levels.offset() != 0 || levels.motion() == Motion::rotation) return;
+    if (levels.roots() == Roots::one) {
+      EXPECT_EQ(sign_changes(query), 1) << where;
+    }
+    if (levels.roots() == Roots::two) {
+      EXPECT_EQ(sign_changes(query), 2) << where;
+    }
+    if (levels.roots() == Roots::three) {
+      EXPECT_EQ(sign_changes(query), 3) << where;
+    }
+  });
+  EXPECT_GT(counted, 500);
+}
+
+TEST(Crossed, RestAndPointsAreWhatTheyAreCalled) {
+  for_each_query(20000, [&](const Levels& levels, const Query& query, std::uint64_t index) {
+    if (levels.motion() == Motion::rest) {
+      for (int i = 1; i < 4; ++i)
+        EXPECT_EQ(query.end(i) - query.start(i), query.end(0) - query.start(0)) << index;
+    }
+    const auto edges = testing::edges(query, 0);
+    if (levels.when() != When::at_0) return;
+    const auto is_zero = [](const auto& edge) { return edge.isZero(); };
+    EXPECT_TRUE(levels.shape() != Shape::zero_edge || std::any_of(edges.begin(), edges.end(), is_zero))
+        << index;
+    EXPECT_TRUE(levels.shape() != Shape::point || std::all_of(edges.begin(), edges.end(), is_zero)) << index;
+  });
+}
+
+TEST(Crossed, AllPairsOccurIn100000Queries) {
+  const Coverage found = coverage(1, 0, 100000);
+  EXPECT_EQ(found.pairs.seen, found.pairs.possible);
+  EXPECT_TRUE(found.pairs.missing.empty()) << found.pairs.missing.front();
+  EXPECT_EQ(found.triples.seen + found.triples.missing.size(), found.triples.possible);
+  EXPECT_GT(found.triples.possible, 5000);
+}
+
+TEST(Crossed, FewQueriesMissCombinations) {
+  const Coverage found = coverage(1, 0, 1);
+  EXPECT_EQ(found.pairs.seen, 21);
+  EXPECT_EQ(found.triples.seen, 35);
+  EXPECT_EQ(found.pairs.missing.size(), found.pairs.possible - 21);
+}
+
+TEST(Crossed, ImpossiblePairsAreListed) {
+  const auto impossible = coverage(1, 0, 1).impossible_pairs;
+  for (const char* pair :
+       {"motion=rest when=at-1", "shape=point where=inside", "motion=translation roots=two"})
+    EXPECT_EQ(std::count(impossible.begin(), impossible.end(), pair), 1) << pair;
+}
+
+}  // namespace
+}  // namespace nearmiss::crossed

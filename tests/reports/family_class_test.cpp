@@ -1,0 +1,93 @@
+// Results by class of families: sums, the table on the terminal, report.json and classes.csv.
+#include "reports/statistics/family_class.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/csv.hpp"
+#include "reports/json.hpp"
+#include "reports/sections/class_table.hpp"
+#include "tests/reports/campaigns.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::counts;
+
+TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
+  EXPECT_EQ(class_of("uniform"), FamilyClass::ordinary);
+  EXPECT_EQ(class_of("scene:cloth#3"), FamilyClass::ordinary);
+  EXPECT_EQ(class_of("grazing"), FamilyClass::degenerate);
+  EXPECT_EQ(class_of("scale"), FamilyClass::extreme);
+  EXPECT_EQ(class_of("scale@-1074"), FamilyClass::extreme);
+}
+
+TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
+  for (const char* name :
+       {"cases/", "search-miss-wang", "search-miss", "search-far-wang:p24", "", "uniforms"})
+    EXPECT_EQ(class_of(name), FamilyClass::unclassified) << name;
+}
+
+/// Two ordinary families, one of them a scene; one degenerate family; and cases.
+Statistics some_statistics() {
+  Statistics statistics;
+  const auto of = [&](const char* family) -> Counts& {
+    return statistics.counts[{"mine", Kind::edge_edge, family}];
+  };
+  of("uniform") = counts(100, 10, 0, 5, 20);
+  of("uniform-end") = counts(300, 20, 0, 7, 20);
+  of("grazing") = counts(50, 40, 3, 1, 30);
+  of("cases/") = counts(8, 8, 1, 0);
+  return statistics;
+}
+
+TEST(ByClass, SumsTheFamiliesOfEachClass) {
+  const auto sums = by_class(some_statistics());
+  ASSERT_EQ(sums.size(), 3);
+  const auto& ordinary = sums.at({"mine", Kind::edge_edge, FamilyClass::ordinary});
+  EXPECT_EQ(ordinary.counts.queries, 400);
+  EXPECT_EQ(ordinary.counts.false_positives, 12);
+  EXPECT_TRUE(ordinary.is_sample);
+  EXPECT_EQ(sums.at({"mine", Kind::edge_edge, FamilyClass::degenerate}).counts.false_negatives, 3);
+  EXPECT_FALSE(sums.at({"mine", Kind::edge_edge, FamilyClass::unclassified}).is_sample);
+}
+
+TEST(ByClass, TheTerminalShowsARowForEachClass) {
+  EXPECT_EQ(class_table(some_statistics()),
+            "subject  kind  class         queries  collisions  false neg.  false pos.  ns/query\n"
+            "mine     ee    ordinary          400          30           0          12        20\n"
+            "mine     ee    degenerate         50          40           3           1        30\n"
+            "mine     ee    unclassified        8           8           1           0         -\n");
+}
+
+TEST(ByClass, TheTerminalShowsNoTableOfOneClass) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::edge_edge, "uniform"}] = counts(100, 10, 0, 5);
+  statistics.counts[{"mine", Kind::edge_edge, "scene:cloth#3"}] = counts(100, 10, 0, 5);
+  EXPECT_EQ(class_table(statistics), "");
+}
+
+TEST(ByClass, ReportJsonHasTheSumsAndEachFamilysClass) {
+  const auto json = summary_json({{}, some_statistics()})["subjects"]["mine"]["ee"];
+  EXPECT_EQ(json["classes"].size(), 3);
+  EXPECT_EQ(json["classes"]["ordinary"]["false_positives"], 12);
+  EXPECT_EQ(json["classes"]["degenerate"]["false_negatives"], 3);
+  EXPECT_EQ(json["classes"]["degenerate"]["ns_per_query"], 30);
+  EXPECT_EQ(json["classes"]["unclassified"]["false_negative_rate_upper_95"], nullptr);
+  EXPECT_EQ(json["families"]["uniform-end"]["class"], "ordinary");
+  EXPECT_EQ(json["families"]["cases/"]["class"], "unclassified");
+}
+
+TEST(ByClass, CsvHasARowForEachClass) {
+  const std::string text = classes_csv(some_statistics());
+  EXPECT_THAT(text, ::testing::StartsWith("subject,kind,class,queries,collisions,"));
+  EXPECT_THAT(text, ::testing::HasSubstr("\nmine,ee,ordinary,400,30,0,0,"));
+  EXPECT_THAT(text, ::testing::HasSubstr("\nmine,ee,degenerate,50,40,0,3,"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+  EXPECT_THAT(statistics_csv(some_statistics()), ::testing::HasSubstr(",degenerate\n"));
+}
+
+}  // namespace
+}  // namespace nearmiss
