@@ -7,6 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/oracle.hpp"
@@ -49,8 +50,7 @@ Finding find_failure(const Case& each, const Subject& subject) {
 }
 
 void run(const Options& options) {
-  const Subjects subjects = make_subjects({options.subject}, options.limits.limits());
-  const auto& subject = subjects.front();
+  const auto subject = make_any_subject(options.subject, std::nullopt, options.limits.limits());
   const Case each = read_one(options.in);
   const Finding finding = find_failure(each, *subject);
   const Query shrunk = shrunk_query(finding, subject.get());
@@ -79,7 +79,8 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   auto* command =
       app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
   command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
-  command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
+  command
+      ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();
   options->limits.add_to(*command);
   command->add_option("-o,--output", options->out, "Write the case to this file instead of stdout")
