@@ -102,7 +102,8 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   auto* command =
       app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
   command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
-  command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
+  command
+      ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();
   options->limits.add_to(*command);
   command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
