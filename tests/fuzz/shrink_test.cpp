@@ -158,8 +158,10 @@ TEST(Complexity, CountsWhatThereIsToSay) {
   EXPECT_EQ(complexity(Query{}), Complexity{});
   const Complexity falling = complexity(falling_vertex(0.25, 0.375, 1, -1));
   // The vertex moves only in z, from 1 to -1, and the triangle has two ones.
-  EXPECT_EQ(falling,
-            (Complexity{.numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
+  EXPECT_EQ(
+      falling,
+      (Complexity{
+          .awkward = 3, .numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
   Query third{};
   third.x[0] = 1.0 / 3;
   third.x[12] = std::numeric_limits<double>::denorm_min();
