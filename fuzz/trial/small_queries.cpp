@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
+constexpr int most_numbers = 3;  // of the queries that are all listed
 using Integers = std::array<int, 24>;
 
 /// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.
@@ -59,12 +60,19 @@ std::vector<Symmetry> symmetries(Kind kind) {
 /// The place of an integer in the order by which the first of all symmetric copies is chosen: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
+/// Whether a copy has values of the list only.
+bool is_listed(const Integers& x, const Symmetry& symmetry) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
+  return true;
+}
+
 /// Whether no symmetric copy comes before the query.
 bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
   return std::none_of(symmetries.begin(), symmetries.end(), [&](const Symmetry& symmetry) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const int difference = rank(symmetry.sign[i] * x[symmetry.from[i]]) - rank(x[i]);
-      if (difference != 0) return difference < 0;
+      if (difference != 0) return difference < 0 && is_listed(x, symmetry);
     }
     return false;
   });
@@ -76,7 +84,6 @@ class Maker {
   explicit Maker(Kind kind) : kind_(kind), symmetries_(symmetries(kind)) {}
 
   std::vector<SmallQuery> run() {
-    constexpr int most_numbers = 3;
     extend(0, most_numbers);
     draw();
     std::sort(list_.begin(), list_.end(), [](const SmallQuery& a, const SmallQuery& b) {
@@ -124,6 +131,7 @@ class Maker {
         x_[paths + path] = random.one_in(2) ? x_[path] : value();
       }
       add();
+      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // it is listed
     }
   }
 

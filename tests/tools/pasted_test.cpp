@@ -35,7 +35,7 @@ class PastedTest : public testing::CommandLine {
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
                                    const std::string& answer) const {
     write("test.cpp", test +
-                          "#include <cstdio>\n"
+                          "#include <cstdio>\n#include <initializer_list>\n"
                           "bool detects(const double (&start)[4][3], const double (&end)[4][3]) {\n"
                           "  for (const auto* points : {&start, &end})\n"
                           "    for (const auto& point : *points)\n"
@@ -54,7 +54,7 @@ class PastedTest : public testing::CommandLine {
                                       const std::string& answer) const {
     write("test.py", test +
                          "def detects(start, end):\n"
-                         "    print(*(float(x).hex() for point in start + end for x in point))\n"
+                         "    print(*(float(x).hex() for point in start + end for x in point), end=' ')\n"
                          "    return " +
                          answer + "\n" + name + "()\n");
     return succeeds("python3 test.py 2>error.txt");
@@ -96,14 +96,16 @@ TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
 
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
   write("q.vt", hit);
-  expect_refused("shrink q.vt --as rust --subject " + plugin("never"), {"--as", "'rust'", "case, c++ or python"});
+  expect_refused("shrink q.vt --as rust --subject " + plugin("never"),
+                 {"--as", "'rust'", "case, c++ or python"});
 }
 
 TEST_F(PastedTest, NamesTheDetectorsOfAPluginThatHasSeveral) {
   write("q.vt", hit);
   expect_refused("shrink q.vt --subject " + plugin("several"), {"several detectors", "expected one of"});
-  expect_refused("power --time 1ms --way families --subject " + plugin("several"),
-                 {"several detectors", "expected one of"});
+  const Output power = run("power --time 1ms --way families --subject " + plugin("several"));
+  EXPECT_EQ(power.code, 2);
+  EXPECT_THAT(power.error, HasSubstr("several detectors, expected one of told"));
 }
 
 }  // namespace
