@@ -69,13 +69,15 @@ enum class Fault : std::uint8_t {
   not_asked,  ///< it does not decide this kind, or was set aside, because it exceeded its time limit too often
   invalid,    ///< it gave an answer that is none, or a collision without the time that it promises
   load,       ///< it could not be loaded again after it had failed
+  contract,   ///< it was not asked, because the query breaks its contract
 };
 
-inline constexpr std::size_t fault_count = 10;
+inline constexpr std::size_t fault_count = 11;
 
 /// Names of the faults, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, fault_count> fault_names{
-    "none", "error", "crash", "time", "memory", "exception", "protocol", "not-asked", "invalid", "load"};
+    "none",     "error",     "crash",   "time", "memory",  "exception",
+    "protocol", "not-asked", "invalid", "load", "contract"};
 
 /// What a subject says about the time of a collision.
 enum class TimeSort : std::uint8_t {

@@ -89,13 +89,9 @@ void PluginLimitOptions::add_to(CLI::App& command) {
       ->capture_default_str()
       ->type_name("T");
   command
-      .add_option("--query-memory", bytes, "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
-      ->transform(CLI::AsSizeValue(false))
-      ->transform(CLI::Validator(
-          [](const std::string& text) {
-            return text.starts_with('-') ? "found '" + text + "', expected 0 or more" : "";
-          },
-          ""))
+      .add_option_function<std::string>(
+          "--query-memory", [this](const std::string& text) { bytes = parse_size(text, "--query-memory"); },
+          "Memory limit for a plug-in, such as 512M or 1G; 0 means no limit")
       ->default_str("1G")
       ->type_name("BYTES");
 }
@@ -107,14 +103,17 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
 Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
   Subjects made;
-  std::set<std::string> seen;
   for (const std::string& name : names)
-    for (auto& subject : make_any_subjects(name, given_bound, limits)) {
-      if (!seen.insert(subject->name()).second)
-        throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
-      made.push_back(std::move(subject));
-    }
+    for (auto& subject : make_any_subjects(name, given_bound, limits)) made.push_back(std::move(subject));
+  expect_different_names(made);
   return made;
+}
+
+void expect_different_names(const Subjects& subjects) {
+  std::set<std::string> seen;
+  for (const auto& subject : subjects)
+    if (!seen.insert(subject->name()).second)
+      throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
 }
 
 namespace {

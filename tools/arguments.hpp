@@ -55,6 +55,9 @@ struct QueryInput {
 Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 
+/// Throws Error if two subjects have the same name, under which their results would be added up.
+void expect_different_names(const Subjects& subjects);
+
 /// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known);
 

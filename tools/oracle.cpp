@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 #include <string>
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
@@ -106,7 +107,15 @@ void add_oracle(CLI::App& app, int& exit_code) {
   command
       ->add_option("--width", options->width,
                    "Largest width of this enclosure; 0: as narrow as doubles allow")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            double width = -1;
+            std::from_chars(text.data(), text.data() + text.size(), width);
+            return width >= 0 && width <= 1
+                       ? ""
+                       : fmt::format("found '{}', expected a number from 0 to 1", excerpt(text));
+          },
+          ""))
       ->capture_default_str()
       ->type_name("W");
   command->add_flag("--rational", options->rational,
@@ -118,7 +127,6 @@ void add_oracle(CLI::App& app, int& exit_code) {
       "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
       "nearmiss oracle --kind vt --toi");
   command->callback([options, &exit_code] {
-    if (std::isnan(options->width)) throw Error("--width: found a NaN, expected 0 or more");
     try {
       options->input.read([&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
     } catch (const Disagreement& disagreement) {

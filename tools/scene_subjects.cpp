@@ -47,8 +47,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
   const auto add = [&](const std::string& name) {
     if (!names.insert(name).second) return;
     const auto bound = name.ends_with(of_scene) ? all.bound : std::nullopt;
-    for (auto& subject : make_subjects({name}, trial.plugin_limits(stop), bound))
-      all.subjects.push_back(std::move(subject));
+    for (auto& subject : trial.make_subjects({name}, stop, bound)) all.subjects.push_back(std::move(subject));
   };
   for (const std::string& bound : bounds) {
     if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);

@@ -7,9 +7,11 @@
 
 #include "ccd/error.hpp"
 #include "corpus/readers.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
+#include "oracle/contract.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -49,9 +51,17 @@ Finding find_failure(const Case& each, const Subject& subject) {
       each.name, subject.name()));
 }
 
+/// The subject, which is asked only queries that keep its contract, or only others, as this query does.
+std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
+  auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
+  const Subject& subject = *sides.front();
+  const bool keeps = keeps_contract(subject.rounded(query), subject.contract());
+  return std::move(keeps ? sides.front() : sides.back());
+}
+
 void run(const Options& options) {
-  const auto subject = make_any_subject(options.subject, std::nullopt, options.limits.limits());
   const Case each = read_one(options.in);
+  const auto subject = made_for(each.query, options);
   const Finding finding = find_failure(each, *subject);
   const Query shrunk = shrunk_query(finding, subject.get());
   const Complexity before = complexity(each.query);

@@ -9,6 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/subjects/peers.hpp"
@@ -19,19 +20,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// What a contract takes for granted, in words.
-std::string text(const Contract& contract) {
-  std::vector<std::string> parts;
-  if (contract.apart_at_start) parts.emplace_back("primitives apart at t = 0");
-  if (contract.one_root) parts.emplace_back("vertices coplanar at one time at most");
-  if (contract.grid != 0) parts.push_back(fmt::format("coordinates that are multiples of {}", contract.grid));
-  if (contract.shortest != 0) parts.push_back(fmt::format("edges of length {} or more", contract.shortest));
-  if (contract.longest != 0)
-    parts.push_back(fmt::format("edges and paths of length {} or less", contract.longest));
-  return parts.empty() ? "" : "; for queries with " + fmt::format("{}", fmt::join(parts, ", "));
-}
-
-/// Prints two lines about a detector.
+/// Prints some lines about a detector.
 void print(const DetectorInfo& info) {
   constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
                                              "a lower bound of the time"};
@@ -39,11 +28,13 @@ void print(const DetectorInfo& info) {
   for (const Kind kind : kinds)
     if (decides(info, kind)) kinds_decided.emplace_back(short_name(kind));
   fmt::print("{:<23} {}\n", info.name, info.about);
-  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}{}\n", "",
+  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
              info.version.empty() ? "?" : info.version, fmt::join(kinds_decided, " and "),
              info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
              info.claims_bound ? "claims a bound; " : "", info.takes_separation ? "takes a separation; " : "",
-             info.batch, text(info.contract));
+             info.batch);
+  if (const std::string contract = in_words(info.contract); !contract.empty())
+    fmt::print("{:<23} presumes: {}\n", "", contract);
 }
 
 void describe(const std::string& name) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "ccd/plugin.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/trial/patience.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/record.hpp"
@@ -15,6 +16,8 @@ namespace nearmiss::tools {
 
 void TrialOptions::add_to(CLI::App& command) {
   add_subject_option(command, subjects);
+  command.add_flag("--beyond-contract", beyond_contract,
+                   "Also ask subjects queries beyond their contracts, and count these apart");
   limits.add_to(command);
   add_comparison_options(command, comparison);
   add_jobs_option(command, jobs);
@@ -28,7 +31,16 @@ isolation::PluginLimits TrialOptions::plugin_limits(const Stop& stop) const {
 }
 
 Subjects TrialOptions::make_subjects(const Stop& stop, std::optional<double> given_bound) const {
-  return tools::make_subjects(subjects, plugin_limits(stop), given_bound);
+  return make_subjects(subjects, stop, given_bound);
+}
+
+Subjects TrialOptions::make_subjects(const std::vector<std::string>& names, const Stop& stop,
+                                     std::optional<double> given_bound) const {
+  Subjects made;
+  for (auto& subject : tools::make_subjects(names, plugin_limits(stop), given_bound))
+    for (auto& each : keep_contract(std::move(subject), beyond_contract)) made.push_back(std::move(each));
+  expect_different_names(made);
+  return made;
 }
 
 namespace {
@@ -46,6 +58,10 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
   std::string& again = info["again"];
   again = fmt::format("nearmiss {} --subject {} --compare {}", what, shell_quoted(names), comparison.one_in);
   if (comparison.near_bounds) again += " --compare-near-bounds";
+  if (beyond_contract) {
+    info["beyond contract"] = "asked, and counted apart";
+    again += " --beyond-contract";
+  }
   if (std::any_of(subjects.begin(), subjects.end(), is_plugin)) {
     info["query-time"] = limits.time;
     info["query-memory"] = fmt::format("{}", limits.bytes);
@@ -55,6 +71,8 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
     if (const auto plugin = plugin_identity(*subject)) {
       info[plugin_fact(subject->name()) + " sha256"] = plugin->sha256;
       info[plugin_fact(subject->name()) + " version"] = plugin->version;
+      if (const std::string contract = in_words(subject->contract()); !contract.empty())
+        info[plugin_fact(subject->name()) + " contract"] = contract;
     }
   return info;
 }

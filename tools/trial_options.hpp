@@ -11,9 +11,10 @@
 
 namespace nearmiss::tools {
 
-/// --subject, --query-time, --query-memory, --compare, --compare-near-bounds, --jobs
+/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
+  bool beyond_contract = false;
   PluginLimitOptions limits = {};
   Comparison comparison = {};
   int jobs = 1;
@@ -23,8 +24,11 @@ struct TrialOptions {
   /// The limits of plug-ins in trials, which end when `stop` is due.
   [[nodiscard]] isolation::PluginLimits plugin_limits(const Stop& stop) const;
 
-  /// Throws Error for an unknown name.
+  /// The subjects, which are asked what their contracts allow (contracted.hpp). Throws Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
+  /// The same for these names.
+  Subjects make_subjects(const std::vector<std::string>& names, const Stop& stop,
+                         std::optional<double> given_bound) const;
 
   /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is the
   /// subcommand with its own arguments. The entry `again` is the command that repeats the run.

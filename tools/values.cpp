@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <system_error>
@@ -54,6 +55,23 @@ std::chrono::duration<double> parse_duration(std::string_view text, std::string_
     throw Error(
         fmt::format("{}: found '{}', expected a time such as 500ms, 30s, 2m or 8h", option, excerpt(text)));
   return std::chrono::duration<double>(number * seconds);
+}
+
+std::uint64_t parse_size(std::string_view text, std::string_view option) {
+  constexpr std::string_view units = "KMGTP";
+  constexpr int bits_of_unit = 10;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+  const auto number = digits(text.substr(0, end));
+  const std::string_view unit = text.substr(end);
+  const std::size_t power = unit.empty() ? 0 : units.find(unit.front()) + 1;  // 0 also if it is no unit
+  const std::string_view rest = unit.substr(std::min<std::size_t>(unit.size(), power == 0 ? 0 : 1));
+  const bool is_unit = rest.empty() || rest == "B" || (power != 0 && rest == "iB");
+  const std::size_t shift = bits_of_unit * power;
+  if (!number || !is_unit || *number << shift >> shift != *number)
+    throw Error(
+        fmt::format("{}: found '{}', expected a number of bytes such as 512M or 1G, or 0 for no limit",
+                    option, excerpt(text)));
+  return *number << shift;
 }
 
 }  // namespace nearmiss::tools

@@ -19,6 +19,9 @@ std::uint64_t parse_count(std::string_view text, std::string_view option, std::u
 /// Parses "500ms", "30s", "2m", "8h". Throws Error that names the option.
 std::chrono::duration<double> parse_duration(std::string_view text, std::string_view option);
 
+/// Parses a number of bytes: "0", "512M", "1G", "1GiB"; units are powers of 1024. Throws Error that names the option.
+std::uint64_t parse_size(std::string_view text, std::string_view option);
+
 /// Adds an option whose value is a whole number from `least` to `most`; help shows its present value. `value` must live
 /// as long as the command.
 template <class Integer>

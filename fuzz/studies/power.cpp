@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "fuzz/trial/case_order.hpp"
+
 namespace nearmiss {
 
 namespace {

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "fuzz/families/families.hpp"
@@ -13,7 +12,7 @@
 
 namespace nearmiss {
 
-/// The plan of a campaign. Its cases have an order: round by round, family by family. What counts is always a beginning
+/// The plan of a campaign. Its cases have an order (case_order.hpp). What counts is always a beginning
 /// of that order, so the result depends neither on `jobs` nor on how often the campaign was stopped and resumed. The
 /// shards together give the result of the whole campaign, except for subjects that are set aside (patience.hpp).
 struct CampaignPlan {
@@ -43,11 +42,7 @@ struct CampaignProgress {
 /// false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// The number of cases up to and including case `index` of a family in a campaign without shards.
-std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
-
-/// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress. Round k of a campaign is the
-/// k-th block of every family; shard i of n runs the rounds k with k mod n = i.
+/// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress.
 CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                               const Stop& stop);
 

@@ -50,7 +50,8 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
   const Kind kind = truth.query().kind;
-  if (outcome.verdict.fault == Fault::not_asked) return std::nullopt;
+  if (outcome.verdict.fault == Fault::not_asked || outcome.verdict.fault == Fault::contract)
+    return std::nullopt;
   if (outcome.verdict.fault != Fault::none)
     return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict, outcome.fault_text)};
   if (outcome.collision && !outcome.verdict.hit)

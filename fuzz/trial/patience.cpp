@@ -39,7 +39,7 @@ bool Patience::settle(Trial& trial, std::uint64_t number) {
     for (Verdict& answer : trial.answers(s)) {
       if (late < most_late) {
         late += answer.fault == Fault::time ? 1 : 0;
-      } else if (answer.fault != Fault::not_asked) {
+      } else if (answer.fault != Fault::not_asked && answer.fault != Fault::contract) {
         answer = {.fault = Fault::not_asked};
         has_changed = true;
       }

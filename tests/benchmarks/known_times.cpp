@@ -1,9 +1,11 @@
-// Measures subjects whose run time is known: ns per query of the same arithmetic in a plain loop, in a
-// built-in subject, and in a plug-in, which runs in its own process.
+// Measures subjects whose run time is known: ns per query of the same arithmetic in a plain loop, in a built-in subject,
+// and in a plug-in, which runs in its own process. Also measures what isolation costs: ns of the wall clock per query of a
+// plug-in that does nothing, for batches of some sizes. A campaign has batches of 50 queries at first, and soon of 800.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,19 @@ void time_plain_loop(benchmark::State& state, int steps) {
   }
 }
 
+/// The wall clock runs while nearmiss and the plug-in's process wait for each other.
+void time_isolation(benchmark::State& state, const Subject& plugin, std::size_t batch) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Verdict> verdicts(batch);
+  for ([[maybe_unused]] const auto each : state) {
+    const auto start = Clock::now();
+    for (std::size_t first = 0; first + batch <= queries().size(); first += batch)
+      plugin.decide_timed(std::span(queries()).subspan(first, batch), verdicts);
+    const auto asked = static_cast<double>(queries().size() / batch * batch);
+    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count() / asked);
+  }
+}
+
 void add(const std::string& name, const std::function<void(benchmark::State&)>& measure) {
   constexpr int batches = 20;
   constexpr int repetitions = 15;
@@ -85,6 +100,10 @@ int main(int argc, char** argv) {
           [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
     }
   }
+  const auto idle = make_isolated_plugin(NEARMISS_PLUGINS "/known_0.so");
+  for (const std::size_t batch : {1, 50, 800, 2000})
+    add("isolation/" + std::to_string(batch),
+        [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

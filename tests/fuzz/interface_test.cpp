@@ -36,14 +36,14 @@ std::vector<std::unique_ptr<Subject>> both(const std::string& subject) {
 TEST(Interface, ASharedObjectMayHaveSeveralDetectors) {
   std::vector<std::string> names;
   for (const auto& each : make_any_subjects(several(""))) names.push_back(each->name());
-  EXPECT_THAT(names, ElementsAre("told", "edges", "floats", "batches"));
+  EXPECT_THAT(names, ElementsAre("told", "edges", "floats", "batches", "narrow-apart"));
   EXPECT_EQ(make_any_subjects(several(":floats")).size(), 1);
   EXPECT_THAT([] { make_any_subject(several("")); },
-              ThrowsMessage<Error>(
-                  HasSubstr("found several detectors, expected one of told, edges, floats, batches")));
+              ThrowsMessage<Error>(HasSubstr(
+                  "found several detectors, expected one of told, edges, floats, batches, narrow-apart")));
   EXPECT_THAT([] { make_any_subject(several(":none")); },
-              ThrowsMessage<Error>(
-                  HasSubstr("found no detector 'none', expected one of told, edges, floats, batches")));
+              ThrowsMessage<Error>(HasSubstr(
+                  "found no detector 'none', expected one of told, edges, floats, batches, narrow-apart")));
 }
 
 TEST(Interface, OptionsArePassedOnAndPartOfTheName) {

@@ -46,24 +46,6 @@ TEST(FirstFailure, IsCountedUpToTheCaseItself) {
   }
 }
 
-TEST(FirstFailure, CasesAreCountedRoundByRound) {
-  CampaignPlan plan;
-  plan.families = {find_family("uniform"), find_family("planted"), find_family("sliver")};
-  for (std::size_t f = 0; f < 3; ++f) plan.families[f].block_cases = 10 * (f + 1);
-  const auto up_to = [&](std::size_t f, std::uint64_t index) {
-    return cases_up_to(plan, plan.families[f].name, index);
-  };
-  EXPECT_EQ(up_to(0, 0), 1);
-  EXPECT_EQ(up_to(0, 9), 10);
-  EXPECT_EQ(up_to(1, 0), 11);
-  EXPECT_EQ(up_to(2, 29), 60);
-  EXPECT_EQ(up_to(0, 10), 61);
-  EXPECT_EQ(up_to(1, 25), 60 + 10 + 6);
-  plan.cases = 66;  // 11, 22 and 33 cases, so that a second round has 1, 2 and 3
-  EXPECT_EQ(up_to(0, 10), 61);
-  EXPECT_EQ(up_to(2, 32), 66);
-}
-
 TEST(FirstFailure, IsNothingWhereThereIsNone) { EXPECT_FALSE(first_failure("wang", "planted")); }
 
 }  // namespace

@@ -58,6 +58,12 @@ static void decide_batch(void* state, int kind, size_t n, const double* x, const
   }
 }
 
+static void find_nothing(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
+                         double* toi) {
+  (void)state, (void)kind, (void)x, (void)h, (void)toi;
+  for (size_t i = 0; i < n; ++i) answer[i] = NEARMISS_NO_COLLISION;
+}
+
 static const nearmiss_subject detectors[] = {
     {.interface_version = NEARMISS_INTERFACE,
      .name = "told",
@@ -83,6 +89,12 @@ static const nearmiss_subject detectors[] = {
      .batch = 64,
      .contract = {.apart_at_start = 1, .grid = 0x1p-10, .longest = 2},
      .decide = decide_batch},
+    {.interface_version = NEARMISS_INTERFACE,
+     .name = "narrow-apart",
+     .kinds = ANY_KIND,
+     .bits = 24,
+     .contract = {.apart_at_start = 1},
+     .decide = find_nothing},
 };
 
 const nearmiss_subject* nearmiss_get_subject(size_t index) {

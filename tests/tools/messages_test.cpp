@@ -72,7 +72,9 @@ TEST_F(Messages, ANanIsCalledOne) {
       expect_refused(std::string("replay q.vt --subject ") + name + "@" + bound,
                      {std::string("'") + name + "@" + bound + "': found the bound '" + bound +
                       "', expected a positive finite number"});
-  expect_refused("oracle --kind vt --width nan q.vt", {"--width: found a NaN, expected 0 or more"});
+  for (const std::string width : {"nan", "-1", "1e999", "x"})
+    expect_refused("oracle --kind vt --width " + width + " q.vt",
+                   {"--width: found '" + width + "', expected a number from 0 to 1"});
   write("miss.vt", miss);
   const auto bound_of = [&](const std::string& name, const std::string& words) {
     expect_refused("verdict --kind vt --distance-bound miss.vt --subject " + plugin(name), {words});

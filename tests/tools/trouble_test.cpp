@@ -59,7 +59,9 @@ TEST_F(CommandLine, ArgumentsWithoutAValue) {
   expect_refused("fuzz --time ''", {"found an empty argument after '--time', expected a value"});
   expect_refused("fuzz --cases 10 --db=", {"found '--db=', expected a value"});
   expect_refused("fuzz --cases 10 --json ''", {"after '--json'"});
-  expect_refused("verdict --kind vt --query-memory -1", {"--query-memory", "'-1'", "expected 0 or more"});
+  for (const std::string size : {"-1", "99999999999999999999G", "18014398509481984K", "1X", "1Gi", "iB", ""})
+    expect_refused("verdict --kind vt --query-memory '" + size + "'",
+                   {size.empty() ? "--query-memory" : "--query-memory: found '" + size + "'"});
   expect_refused("power --time nan --json new.json", {"--time: found 'nan'"});
   EXPECT_EQ(run("fuzz --cases 100 --db a.db").code, 0);
   expect_refused("report a.db -o ''", {"after '-o'"});

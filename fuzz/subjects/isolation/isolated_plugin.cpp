@@ -9,6 +9,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 
 namespace nearmiss {
@@ -274,12 +275,12 @@ std::unique_ptr<Subject> make_isolated_plugin(const std::string& name, const Plu
 }
 
 std::optional<PluginIdentity> plugin_identity(const Subject& subject) {
-  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&subject);
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&without_contract(subject));
   return plugin == nullptr ? std::nullopt : std::optional(plugin->identity());
 }
 
 const DetectorInfo* plugin_info(const Subject& subject) {
-  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&subject);
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&without_contract(subject));
   return plugin == nullptr ? nullptr : &plugin->info();
 }
 

@@ -1,0 +1,131 @@
+#include "fuzz/subjects/contracted.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+#include <span>
+
+#include "fuzz/subjects/batch_subject.hpp"
+#include "oracle/contract.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr Verdict not_asked{.fault = Fault::contract};
+
+/// A subject that is asked only queries that keep its contract, or only those that do not.
+class Contracted final : public BatchSubject {
+ public:
+  Contracted(std::shared_ptr<const Subject> subject, bool keeps)
+      : BatchSubject(subject->name() + std::string(keeps ? "" : beyond_contract)),
+        subject_(std::move(subject)),
+        keeps_(keeps) {}
+
+  [[nodiscard]] const Subject& subject() const { return *subject_; }
+
+  using BatchSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    const Part part = asked(queries);
+    std::vector<Verdict> answers(part.queries.size());
+    subject_->decide(part.queries, answers);
+    part.spread(answers, verdicts, not_asked);
+  }
+  BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    const Part part = asked(queries);
+    std::vector<Verdict> answers(part.queries.size());
+    const BatchTime time = part.queries.empty() ? BatchTime{} : subject_->decide_timed(part.queries, answers);
+    part.spread(answers, verdicts, not_asked);
+    return time;
+  }
+  void time_each(std::span<const Query> queries,
+                 std::span<std::optional<std::uint64_t>> nanoseconds) const override {
+    const Part part = asked(queries);
+    std::vector<std::optional<std::uint64_t>> times(part.queries.size());
+    subject_->time_each(part.queries, times);
+    part.spread(times, nanoseconds, std::optional<std::uint64_t>());
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    return subject_->distance_bound(query);
+  }
+  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
+    return subject_->ask_bound(query);
+  }
+  [[nodiscard]] bool claims_bound() const override { return subject_->claims_bound(); }
+  [[nodiscard]] bool decides(Kind kind) const override { return subject_->decides(kind); }
+  [[nodiscard]] Contract contract() const override { return subject_->contract(); }
+  [[nodiscard]] bool rounds() const override { return subject_->rounds(); }
+  [[nodiscard]] Query rounded(const Query& query) const override { return subject_->rounded(query); }
+  [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
+    return subject_->fault_text(verdict);
+  }
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    return asks(query) ? subject_->needed_tolerance(query) : subject_->Subject::needed_tolerance(query);
+  }
+
+ private:
+  /// The queries of a batch that the subject is asked.
+  struct Part {
+    std::vector<std::size_t> places;  ///< in the batch
+    std::vector<Query> queries;
+
+    /// Puts what belongs to these queries in their places, and `other` in all other places.
+    template <class Each>
+    void spread(const std::vector<Each>& own, std::span<Each> all, const Each& other) const {
+      std::fill(all.begin(), all.end(), other);
+      for (std::size_t i = 0; i < own.size(); ++i) all[places[i]] = own[i];
+    }
+  };
+
+  /// The contract is about the query as the subject rounds it.
+  [[nodiscard]] bool asks(const Query& query) const {
+    return keeps_contract(subject_->rounded(query), subject_->contract()) == keeps_;
+  }
+
+  [[nodiscard]] Part asked(std::span<const Query> queries) const {
+    Part part;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (!asks(queries[i])) continue;
+      part.places.push_back(i);
+      part.queries.push_back(queries[i]);
+    }
+    return part;
+  }
+
+  std::shared_ptr<const Subject> subject_;
+  bool keeps_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> subject, bool asks_beyond) {
+  std::vector<std::unique_ptr<Subject>> made;
+  if (subject->contract() == Contract{}) {
+    made.push_back(std::move(subject));
+    return made;
+  }
+  const std::shared_ptr<const Subject> shared = std::move(subject);
+  made.push_back(std::make_unique<Contracted>(shared, true));
+  if (asks_beyond) made.push_back(std::make_unique<Contracted>(shared, false));
+  return made;
+}
+
+const Subject& without_contract(const Subject& subject) {
+  const auto* const contracted = dynamic_cast<const Contracted*>(&subject);
+  return contracted == nullptr ? subject : contracted->subject();
+}
+
+std::string in_words(const Contract& contract) {
+  std::vector<std::string> terms;
+  if (contract.apart_at_start) terms.emplace_back("the primitives are apart at t = 0");
+  if (contract.one_root) terms.emplace_back("the vertices are coplanar at one time at most");
+  if (contract.grid != 0) terms.push_back(fmt::format("coordinates are multiples of {}", contract.grid));
+  if (contract.shortest != 0) terms.push_back(fmt::format("edges are at least {} long", contract.shortest));
+  if (contract.longest != 0)
+    terms.push_back(fmt::format("edges and paths are at most {} long", contract.longest));
+  return fmt::format("{}", fmt::join(terms, "; "));
+}
+
+}  // namespace nearmiss

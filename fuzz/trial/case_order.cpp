@@ -1,0 +1,150 @@
+#include "fuzz/trial/case_order.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace nearmiss {
+
+namespace {
+
+/// The sum of the families' `block_cases`.
+std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
+  std::uint64_t sum = 0;
+  for (const Family& family : plan.families) sum += family.block_cases;
+  return sum;
+}
+
+/// Which multiples of `block_cases` the rounds have: 1, 2, 4 and so on up to `largest()`, which later rounds have, too.
+class Rounds {
+ public:
+  explicit Rounds(const CampaignPlan& plan) {
+    const std::uint64_t first = cases_of_first_round(plan);
+    if (plan.cases == 0 || first == 0) return;
+    constexpr std::uint64_t fewest_rounds = 64;
+    const std::uint64_t fitting = plan.cases / fewest_rounds / first;
+    doublings_ = std::min<std::uint64_t>(doublings_, std::bit_width(std::max<std::uint64_t>(fitting, 1)) - 1);
+  }
+
+  /// The multiple with which a round begins.
+  [[nodiscard]] std::uint64_t start(std::uint64_t round) const {
+    if (round < doublings_) return (std::uint64_t{1} << round) - 1;
+    return largest() * (round - doublings_ + 1) - 1;
+  }
+
+  /// The round that contains a multiple.
+  [[nodiscard]] std::uint64_t containing(std::uint64_t multiple) const {
+    if (multiple + 1 < largest()) return std::bit_width(multiple + 1) - 1;
+    return (multiple + 1) / largest() + doublings_ - 1;
+  }
+
+  /// The number of rounds before those with the largest multiple.
+  [[nodiscard]] std::uint64_t doublings() const { return doublings_; }
+  [[nodiscard]] std::uint64_t largest() const { return std::uint64_t{1} << doublings_; }
+
+ private:
+  std::uint64_t doublings_ = 4;
+};
+
+/// The number of the plan's cases for family f, in proportion to the size of its blocks.
+std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < f; ++i) before += plan.families[i].block_cases;
+  const std::uint64_t all = cases_of_first_round(plan);
+  if (all == 0) return 0;
+  // cases * part / all, without overflow
+  const auto dealt = [&](std::uint64_t part) {
+    return plan.cases / all * part + plan.cases % all * part / all;
+  };
+  return dealt(before + plan.families[f].block_cases) - dealt(before);
+}
+
+/// The block of family f in a round; empty after the family's last case.
+CaseBlock block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f) {
+  const Rounds rounds(plan);
+  const std::uint64_t block_cases = plan.families[f].block_cases;
+  std::uint64_t first = block_cases * rounds.start(round);
+  std::uint64_t last = block_cases * rounds.start(round + 1);
+  if (plan.cases != 0) {
+    const std::uint64_t share = share_of(plan, f);
+    first = std::min(first, share);
+    last = std::min(last, share);
+  }
+  return {&plan.families[f], first, last};
+}
+
+/// The number of a shard's cases of family f, if the campaign has an end.
+std::uint64_t cases_of_shard(const CampaignPlan& plan, std::size_t f) {
+  const Rounds rounds(plan);
+  std::uint64_t sum = 0;
+  for (std::uint64_t round = plan.shard; round < rounds.doublings(); round += plan.shards)
+    sum += block_of(plan, round, f).cases();
+  const std::uint64_t block_cases = plan.families[f].block_cases;
+  const std::uint64_t share = share_of(plan, f);
+  const std::uint64_t before = std::min(share, block_cases * rounds.start(rounds.doublings()));
+  const std::uint64_t whole = (share - before) / (block_cases * rounds.largest());  // rounds, before the rest
+  const auto own_rounds = [&](std::uint64_t count) {
+    return count / plan.shards + (plan.shard < count % plan.shards ? 1 : 0);
+  };
+  const std::uint64_t after = rounds.doublings() + whole;
+  sum += (own_rounds(after) - own_rounds(rounds.doublings())) * block_cases * rounds.largest();
+  return sum + (after % plan.shards == plan.shard ? block_of(plan, after, f).cases() : 0);
+}
+
+}  // namespace
+
+std::uint64_t cases_of_shard(const CampaignPlan& plan) {
+  if (plan.cases == 0) return plan.first;
+  std::uint64_t sum = 0;
+  for (std::size_t f = 0; f < plan.families.size(); ++f) sum += cases_of_shard(plan, f);
+  return sum;
+}
+
+std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index) {
+  const auto own = std::find_if(plan.families.begin(), plan.families.end(),
+                                [&](const Family& each) { return each.name == family; });
+  const std::uint64_t round = Rounds(plan).containing(index / own->block_cases);
+  std::uint64_t cases = 0;
+  for (std::size_t f = 0; f < plan.families.size(); ++f) {
+    const CaseBlock block = block_of(plan, round, f);
+    const auto each = plan.families.begin() + static_cast<std::ptrdiff_t>(f);
+    cases += each == own ? index + 1 : each < own ? block.last : block.first;
+  }
+  return cases;
+}
+
+CasesOfShard::CasesOfShard(const CampaignPlan& plan, std::uint64_t done) : plan_(plan), round_(plan.shard) {
+  if (plan.first != 0) left_ = plan.first - std::min(plan.first, done);
+  while (const auto block = next_block()) {
+    if (done < block->cases()) {
+      rest_ = {block->family, block->first + done, block->last};
+      return;
+    }
+    done -= block->cases();
+  }
+}
+
+std::optional<CaseBlock> CasesOfShard::next(const Pace& pace) {
+  if (!rest_ || rest_->cases() == 0) rest_ = next_block();
+  if (!rest_ || left_ == 0) return std::nullopt;
+  CaseBlock slice = *rest_;
+  slice.last = slice.first + std::min({slice.cases(), std::uint64_t{pace.cases(slice.family->name)}, left_});
+  rest_->first = slice.last;
+  left_ -= slice.cases();
+  return slice;
+}
+
+std::optional<CaseBlock> CasesOfShard::next_block() {
+  if (plan_.families.empty()) return std::nullopt;
+  // The campaign is over if a whole round is empty.
+  for (std::size_t empty = 0; empty <= plan_.families.size(); ++empty) {
+    if (family_ == plan_.families.size()) {
+      family_ = 0;
+      round_ += plan_.shards;
+    }
+    const CaseBlock block = block_of(plan_, round_, family_++);
+    if (block.cases() != 0) return block;
+  }
+  return std::nullopt;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,13 @@
+// Whether a query is one for which a subject's contract holds.
+#pragma once
+
+#include "ccd/query.hpp"
+#include "ccd/subject.hpp"
+
+namespace nearmiss {
+
+/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are coplanar at
+/// all times, they are coplanar at more than one.
+bool keeps_contract(const Query& query, const Contract& contract);
+
+}  // namespace nearmiss

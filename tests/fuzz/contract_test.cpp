@@ -1,0 +1,125 @@
+// What subjects are asked that have a contract.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "oracle/contract.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+/// Misses everything, notes what it is asked, and takes a contract for granted.
+class Noting final : public Subject {
+ public:
+  Noting(const Contract& contract, std::vector<Query>& asked) : contract_(contract), asked_(asked) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    asked_.push_back(query);
+    return {};
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+  [[nodiscard]] Contract contract() const override { return contract_; }
+
+ private:
+  std::string name_ = "noting";
+  Contract contract_;
+  std::vector<Query>& asked_;
+};
+
+constexpr Contract apart{.apart_at_start = true};
+
+/// Hits, of which every third touches at t = 0.
+Batch batch() {
+  Batch batch{.kind = Kind::vertex_triangle, .family = "falling"};
+  for (int i = 0; i < 30; ++i) batch.queries.push_back(falling_vertex(0.25, 0.25, i % 3, -1));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  return batch;
+}
+
+TEST(ContractedSubject, IsNotAskedQueriesBeyondItsContract) {
+  std::vector<Query> asked;
+  const Subjects subjects = keep_contract(std::make_unique<Noting>(apart, asked), false);
+  ASSERT_EQ(subjects.size(), 1U);
+  const TrialResult result = hold_trial(subjects, batch());
+  for (const Query& query : asked) EXPECT_TRUE(keeps_contract(query, apart));
+  const Counts& counts = result.statistics.counts.at({"noting", Kind::vertex_triangle, "falling"});
+  EXPECT_EQ(counts.queries, 30);
+  EXPECT_EQ(counts.faults[static_cast<std::size_t>(Fault::contract)], 10);
+  EXPECT_EQ(counts.collisions, 20);
+  EXPECT_EQ(counts.false_negatives, 20);
+  EXPECT_EQ(result.findings.size(), 20U);
+}
+
+TEST(ContractedSubject, QueriesBeyondTheContractAreCountedApart) {
+  std::vector<Query> asked;
+  const Subjects subjects = keep_contract(std::make_unique<Noting>(apart, asked), true);
+  ASSERT_EQ(subjects.size(), 2U);
+  const TrialResult result = hold_trial(subjects, batch());
+  const auto counts = [&](const std::string& subject) {
+    return result.statistics.counts.at({subject, Kind::vertex_triangle, "falling"});
+  };
+  EXPECT_EQ(counts("noting").false_negatives, 20);
+  EXPECT_EQ(counts("noting (beyond contract)").false_negatives, 10);
+  EXPECT_EQ(counts("noting (beyond contract)").collisions, 10);
+}
+
+TEST(ContractedSubject, ShrinkingStaysOnTheSameSideOfTheContract) {
+  std::vector<Query> asked;
+  const Subjects sides = keep_contract(std::make_unique<Noting>(apart, asked), true);
+  for (const bool keeps : {true, false}) {
+    const Subject& subject = *sides[keeps ? 0 : 1];
+    const Query query = falling_vertex(0.3, 0.21, keeps ? 0.7 : 0, -0.4);
+    const TrialResult result = hold_trial(
+        sides, {.kind = query.kind, .family = "one", .queries = {query}, .provenance = [](std::size_t) {
+                  return "one";
+                }});
+    ASSERT_EQ(result.findings.size(), 1U);
+    const Query shrunk = shrunk_query(result.findings.front(), &subject, Stop::never());
+    EXPECT_NE(shrunk, query);
+    EXPECT_EQ(keeps_contract(shrunk, apart), keeps);
+  }
+}
+
+TEST(ContractedSubject, IsTheSubjectItselfIfThereIsNoContract) {
+  std::vector<Query> asked;
+  auto noting = std::make_unique<Noting>(Contract{}, asked);
+  const Subject* const subject = noting.get();
+  const Subjects subjects = keep_contract(std::move(noting), true);
+  ASSERT_EQ(subjects.size(), 1U);
+  EXPECT_EQ(subjects.front().get(), subject);
+}
+
+TEST(ContractedSubject, ItsContractIsAboutTheRoundedQuery) {
+  const Subjects sides = keep_contract(make_any_subject(NEARMISS_PLUGINS "/several.so:narrow-apart"), true);
+  ASSERT_EQ(sides.size(), 2U);
+  const Query query = falling_vertex(0.25, 0.25, 1e-60, -1);  // 0 as a float
+  EXPECT_EQ(sides[0]->decide(query).fault, Fault::contract);
+  EXPECT_EQ(sides[1]->decide(query).fault, Fault::none);
+}
+
+TEST(ContractedSubject, IsStillAPlugin) {
+  const Subjects sides = keep_contract(make_any_subject(NEARMISS_PLUGINS "/several.so:narrow-apart"), true);
+  for (const auto& side : sides) {
+    EXPECT_TRUE(plugin_identity(*side));
+    ASSERT_NE(plugin_info(*side), nullptr);
+    EXPECT_EQ(plugin_info(*side)->name, "narrow-apart");
+  }
+}
+
+TEST(ContractedSubject, ContractsInWords) {
+  EXPECT_EQ(in_words({}), "");
+  EXPECT_EQ(in_words({.apart_at_start = true, .grid = 0.25}),
+            "the primitives are apart at t = 0; coordinates are multiples of 0.25");
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,48 @@
+// Contracts of plug-ins, on the command line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::CommandLine;
+using ::testing::HasSubstr;
+
+/// A number of a subject's counters for a kind.
+std::uint64_t count(const nlohmann::json& counts, const std::string& name) { return counts.value(name, 0U); }
+
+TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
+  const std::string fuzz =
+      "fuzz --family small-integer --cases 2000 --subject " + plugin("several") + ":narrow-apart --json ";
+  EXPECT_EQ(run(fuzz + "a.json").code, 1);
+  const auto alone = read_json("a.json");
+  EXPECT_EQ(alone["subjects"].size(), 1U);
+  const Output both = run(fuzz + "b.json --beyond-contract");
+  EXPECT_EQ(both.code, 1);
+  EXPECT_THAT(both.out, HasSubstr("narrow-apart (beyond contract)"));
+  const auto apart = read_json("b.json");
+  for (const char* kind : {"vt", "ee"}) {
+    const auto& keeping = alone["subjects"]["narrow-apart"][kind];
+    EXPECT_EQ(count(keeping, "collisions"), count(apart["subjects"]["narrow-apart"][kind], "collisions"));
+    const auto& beyond = apart["subjects"]["narrow-apart (beyond contract)"][kind];
+    EXPECT_GT(count(keeping["faults"], "contract"), 0U);
+    EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
+              count(keeping, "queries"));
+    // Whatever touches at the start is a collision, and this plug-in misses all.
+    EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
+  }
+}
+
+TEST_F(CommandLine, AResumeAsksTheSameSideOfAContract) {
+  const std::string fuzz =
+      "fuzz --family small-integer --subject " + plugin("several") + ":narrow-apart --db a.db";
+  EXPECT_EQ(run(fuzz + " --cases 200").code, 1);
+  expect_refused(fuzz + " --cases 200 --resume --beyond-contract", {"beyond contract"});
+}
+
+}  // namespace
+}  // namespace nearmiss
