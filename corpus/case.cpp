@@ -44,7 +44,7 @@ std::string to_text(const Case& each) {
   if (!each.provenance.empty()) text += fmt::format("provenance {}\n", each.provenance);
   for (std::size_t i = 0; i < 8; ++i) {
     const double* x = each.query.x.data() + 3 * i;
-    text += fmt::format("{} {} {} {}\n", point_labels[i], to_hex(x[0]), to_hex(x[1]), to_hex(x[2]));
+    text += fmt::format("{} {} {} {}\n", point_labels[i], to_exact(x[0]), to_exact(x[1]), to_exact(x[2]));
   }
   return text;
 }

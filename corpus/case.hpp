@@ -19,14 +19,14 @@ struct Case {
   std::string provenance;     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
-/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three hex floats;
-/// all labels except `truth` and `provenance` are required:
+/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three numbers,
+/// decimal if that is exact, else hex floats; all labels except `truth` and `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee
 ///     truth 1
 ///     provenance by hand
-///     x0 0x0p+0 0x1p+0 0x0p+0   (x0 .. x3 at t = 0, then y0 .. y3 at t = 1)
+///     x0 0 1 0   (x0 .. x3 at t = 0, then y0 .. y3 at t = 1)
 std::string to_text(const Case& each);
 
 /// Parses the format of to_text. Throws Error with file and line.

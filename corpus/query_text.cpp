@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <type_traits>
 
 #include "ccd/error.hpp"
@@ -58,6 +61,26 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   return negative ? -value : value;
 }
 
+/// The number of digits from the first to the last that is not 0, of a number in scientific notation.
+std::size_t significant_digits(std::string_view scientific) {
+  const std::string_view significand = scientific.substr(0, scientific.find('e'));
+  const std::string_view kept = significand.substr(0, significand.find_last_not_of(".0") + 1);
+  return static_cast<std::size_t>(
+      std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+/// Whether the shortest decimal that is read as this value is the value itself. If it has all digits of the value, it
+/// is, because it is the nearest decimal with this number of digits.
+bool has_exact_decimal(double value) {
+  constexpr int most_digits = 767;  // of any double
+  std::array<char, most_digits + 10> text;
+  const auto shortest = std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific);
+  const std::size_t digits = significant_digits({text.data(), shortest.ptr});
+  const auto full =
+      std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific, most_digits - 1);
+  return significant_digits({text.data(), full.ptr}) == digits;
+}
+
 }  // namespace
 
 std::string_view without_byte_order_mark(std::string_view text) {
@@ -87,6 +110,10 @@ std::string to_hex(double value) {
   return fmt::format("{:a}", value);
 }
 
+std::string to_exact(double value) {
+  return has_exact_decimal(value) ? fmt::format("{}", value) : to_hex(value);
+}
+
 std::string to_line(const Query& query) {
   std::string line;
   for (const double c : query.x) {
@@ -94,6 +121,19 @@ std::string to_line(const Query& query) {
     line += to_hex(c);
   }
   return line;
+}
+
+std::string to_readable(const Query& query) {
+  std::string text;
+  for (std::size_t i = 0; i < query.x.size(); ++i)
+    fmt::format_to(std::back_inserter(text), "{}{}",
+                   i == 0       ? ""
+                   : i == 12    ? "   "
+                   : i % 3 == 0 ? "  "
+                                : " ",
+                   query.x[i]);
+  const bool exact = std::all_of(query.x.begin(), query.x.end(), has_exact_decimal);
+  return exact ? text : fmt::format("{}\n{}", text, to_line(query));
 }
 
 Query parse_line(Kind kind, std::string_view line, std::string_view where) {

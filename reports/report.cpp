@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/query_text.hpp"
+#include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
@@ -50,6 +51,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
           {"provenance", finding.provenance},
           {"ratio", finding.ratio},
           {"shrunk", finding.shrunk.x},
+          {"explanation", to_text(explain(finding.shrunk))},
           {"time", moment(finding.shrunk)},
           {"original", finding.query.x},
           {"again", replay_command(campaign, each)},

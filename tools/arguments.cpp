@@ -24,8 +24,8 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
   command
       .add_option(
           "--subject", names,
-          "CCDs to put on trial, separated by commas: built-in names (see nearmiss subjects) or paths of "
-          "plug-ins (./plugin.so)")
+          "CCDs to put on trial, separated by commas: names (see nearmiss subjects) or paths of plug-ins "
+          "(./plugin.so)")
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("A,B,...");

@@ -12,6 +12,7 @@
 #include "fuzz/families/search.hpp"
 #include "fuzz/studies/power.hpp"
 #include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "reports/sections/power_table.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
@@ -40,7 +41,8 @@ constexpr std::string_view libfuzzer = "libfuzzer";
 
 Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
   Stop stop(interrupted());
-  const Subjects subjects = make_subjects({subject});
+  Subjects subjects;
+  subjects.push_back(make_any_subject(subject));
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
   if (way == all_families) plan.families.assign(families().begin(), families().end());

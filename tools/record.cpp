@@ -8,9 +8,12 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
 #include "fuzz/trial/patience.hpp"
+#include "oracle/explanation.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
@@ -37,6 +40,15 @@ std::string cpu_model() {
 /// The compiler and processor behind a run's times.
 RunInfo environment() {
   return {{"compiler", NEARMISS_COMPILER}, {"flags", NEARMISS_FLAGS}, {"cpu", cpu_model()}};
+}
+
+/// Prints what failed, the simplest query that fails in the same way, and what explains it.
+void print(std::FILE* text, const Finding& finding) {
+  fmt::print(text, "  {} {} {} ({})\n", name(finding.what), finding.subject, finding.provenance,
+             finding.signature);
+  std::istringstream lines(to_readable(finding.shrunk));
+  for (std::string line; std::getline(lines, line);) fmt::print(text, "    {}\n", line);
+  fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));
 }
 
 }  // namespace
@@ -152,9 +164,7 @@ int Record::finish(bool interrupted, bool complete) {
              funnel_tables(statistics_));
   const auto findings = campaign.findings();
   if (!findings.empty()) fmt::print(text, "\nthe first findings:\n");
-  for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i)
-    fmt::print(text, "  {} {} {} ({})\n", name(findings[i].what), findings[i].subject, findings[i].provenance,
-               findings[i].signature);
+  for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i) print(text, findings[i]);
   std::fflush(text);  // so that it is there if the file cannot be written
   options_.json.write(summary_json(campaign));
   if (interrupted) return exit_interrupted;

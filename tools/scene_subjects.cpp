@@ -7,7 +7,6 @@
 #include <set>
 
 #include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/subjects/subjects.hpp"
@@ -56,7 +55,7 @@ SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::s
                                : bound == "scene" ? std::string(of_scene)
                                                   : fmt::format("@{}", *parse_bound(bound));
     for (const std::string& name : trial.subjects)
-      add(is_plugin(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
+      add(plugin_named(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
   }
   return all;
 }

@@ -6,15 +6,18 @@
 #include <filesystem>
 
 #include "ccd/error.hpp"
+#include "corpus/file.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/contract.hpp"
+#include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
+#include "tools/pasted_test.hpp"
 
 namespace nearmiss::tools {
 
@@ -22,7 +25,7 @@ namespace {
 
 struct Options {
   std::filesystem::path in, out;
-  std::string subject = "wang";
+  std::string subject = "wang", form = "case";
   PluginLimitOptions limits;
 };
 
@@ -59,27 +62,37 @@ std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   return std::move(keeps ? sides.front() : sides.back());
 }
 
-void run(const Options& options) {
-  const Case each = read_one(options.in);
-  const auto subject = made_for(each.query, options);
-  const Finding finding = find_failure(each, *subject);
-  const Query shrunk = shrunk_query(finding, subject.get());
-  const Complexity before = complexity(each.query);
-  const Complexity after = complexity(shrunk);
-  const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
-                                         before.distinct, after.distinct, before.bits, after.bits);
-  const Case result{
-      .name = {},
-      .query = shrunk,
-      .truth = collides(shrunk),
-      .why = fmt::format("{} of {}: {}\n{}", name(finding.what), finding.subject, finding.signature, became),
-      .provenance = "shrunk from " + finding.provenance};
+Case shrunk_case(const Finding& finding, const std::string& became) {
+  return {.name = {},
+          .query = finding.shrunk,
+          .truth = collides(finding.shrunk),
+          .why = fmt::format("{} of {}: {}\n{}\n{}", name(finding.what), finding.subject, finding.signature,
+                             became, to_text(explain(finding.shrunk))),
+          .provenance = "shrunk from " + finding.provenance};
+}
+
+/// Writes a text to a file, whole or not at all, or to stdout.
+void write(const std::string& text, const Options& options, const std::string& became) {
   if (options.out.empty()) {
-    fmt::print("{}", to_text(result));
+    fmt::print("{}", text);
   } else {
-    write_case(result, options.out);
+    replace_file(options.out, text);
     fmt::print("{}\n", became);
   }
+}
+
+void run(const Options& options) {
+  const Form form = parse_form(options.form, "--as");
+  const Case each = read_one(options.in);
+  const auto subject = made_for(each.query, options);
+  Finding finding = find_failure(each, *subject);
+  finding.shrunk = shrunk_query(finding, subject.get());
+  const Complexity before = complexity(finding.query);
+  const Complexity after = complexity(finding.shrunk);
+  const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
+                                         before.distinct, after.distinct, before.bits, after.bits);
+  const bool is_case = form == Form::case_file;
+  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, form), options, became);
 }
 
 }  // namespace
@@ -89,11 +102,17 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
   auto* command =
       app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
   command->add_option("CASE", options->in, "A *.case file, or a *.vt or *.ee file of one query")->required();
-  command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
+  command
+      ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();
   options->limits.add_to(*command);
-  command->add_option("-o,--output", options->out, "Write the case to this file instead of stdout")
-      ->type_name("FILE");
+  command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
+  command
+      ->add_option(
+          "--as", options->form,
+          "What to print: a case, or a test in c++ or python to paste into the subject's own project")
+      ->type_name("case|c++|python")
+      ->capture_default_str();
   command->footer(
       "\nTwo failures are the same if their kind is, and the features of the first contact (of a missed "
       "collision),\n"

@@ -9,10 +9,10 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
-#include "ccd/plugin.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/subjects/peers.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "tools/commands.hpp"
 
@@ -37,36 +37,65 @@ void print(const DetectorInfo& info) {
     fmt::print("{:<23} presumes: {}\n", "", contract);
 }
 
+void describe(const std::string& name) {
+  if (!plugin_named(name))
+    throw Error(
+        fmt::format("found '{}', expected a plug-in such as ./plugin.so, or a published CCD (nearmiss "
+                    "subjects lists them)",
+                    excerpt(name)));
+  for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
+}
+
+/// What a published CCD is, or why it cannot be put on trial.
+std::string about(const Peer& peer) {
+  if (!is_built(peer)) return fmt::format("not built: {}", how_to_build(peer));
+  try {
+    return plugin_info(*make_any_subject(peer.name))->about;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void list_all() {
+  for (const SubjectInfo& subject : built_in_subjects())
+    fmt::print("{:<23} {}\n", subject.name, subject.about);
+  fmt::print("\nPublished CCDs (fuzz/subjects/peers/README.md):\n");
+  for (const Peer& peer : peers()) fmt::print("{:<23} {}\n", peer.name, about(peer));
+  fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
+  for (const ladder::Scalar& scalar : named_scalars())
+    fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);
+  fmt::print("{:<23} 2^(1 - N), N bits, from {} to {}\n", "NAME:pN", ladder::fewest_bits, ladder::most_bits);
+  fmt::print("\nCCDs with one known defect each, to measure whether a hunt finds it:\n");
+  for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
+}
+
 }  // namespace
 
 void add_subjects(CLI::App& app, int& /*exit_code*/) {
-  auto* command =
-      app.add_subcommand("subjects", "List the built-in subjects, or describe the detectors of plug-ins");
-  auto plugins = std::make_shared<std::vector<std::string>>();
-  command->add_option("PLUGIN", *plugins,
-                      "Plug-ins whose detectors to describe instead, such as ./plugin.so");
+  auto* command = app.add_subcommand(
+      "subjects",
+      "List the subjects that have names, or describe the detectors of plug-ins and published CCDs");
+  struct Options {
+    std::vector<std::string> plugins;
+    bool peers = false;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("PLUGIN", options->plugins,
+                      "Plug-ins and published CCDs whose detectors to describe instead, such as ./plugin.so");
+  command->add_flag("--peers", options->peers,
+                    "Print only the names of the published CCDs that are built, one a line");
   command->footer(
       "\nA plug-in is a shared object, named by its path, which must contain a slash: ./plugin.so, or one of "
       "its "
       "detectors with options: ./plugin.so:NAME:KEY=VALUE (ccd/nearmiss_subject.h); or a program: "
       "'pipe:COMMAND' "
       "(fuzz/subjects/PROGRAMS.md).");
-  command->callback([plugins] {
-    for (const std::string& name : *plugins) {
-      if (!is_plugin(name))
-        throw Error(fmt::format("found '{}', expected a plug-in such as ./plugin.so", excerpt(name)));
-      for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
-    }
-    if (!plugins->empty()) return;
-    for (const SubjectInfo& subject : built_in_subjects())
-      fmt::print("{:<23} {}\n", subject.name, subject.about);
-    fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
-    for (const ladder::Scalar& scalar : named_scalars())
-      fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);
-    fmt::print("{:<23} 2^(1 - N), N bits, from {} to {}\n", "NAME:pN", ladder::fewest_bits,
-               ladder::most_bits);
-    fmt::print("\nCCDs with one known defect each, to measure whether a hunt finds it:\n");
-    for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
+  command->callback([options] {
+    for (const std::string& name : options->plugins) describe(name);
+    if (options->peers)
+      for (const Peer& peer : peers())
+        if (is_built(peer)) fmt::print("{}\n", peer.name);
+    if (options->plugins.empty() && !options->peers) list_all();
   });
 }
 

@@ -65,7 +65,8 @@ void add_verdict(CLI::App& app, int& /*exit_code*/) {
       "verdict",
       "Let one subject decide queries: one line each, 0, or 1 with the accepting stage and the time");
   options->input.add_to(*command);
-  command->add_option("--subject", options->subject, "A built-in name, or the path of a plug-in")
+  command
+      ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();
   add_bound_option(*command, options->bound);
   options->limits.add_to(*command);

@@ -15,12 +15,16 @@ std::vector<SubjectInfo> built_in_subjects() {
   return infos;
 }
 
-std::unique_ptr<Subject> make_built_in(std::string_view name, std::optional<double> given_bound) {
+std::unique_ptr<Subject> try_make_built_in(std::string_view name, std::optional<double> given_bound) {
   if (auto defect = try_make_defect(name)) return defect;
   if (auto exact = try_make_exact(name)) return exact;
   if (auto adaptive = try_make_adaptive(name)) return adaptive;
   if (auto scaled = try_make_scaled(name, given_bound)) return scaled;
-  auto subject = try_make_subject(name, given_bound);
+  return try_make_subject(name, given_bound);
+}
+
+std::unique_ptr<Subject> make_built_in(std::string_view name, std::optional<double> given_bound) {
+  auto subject = try_make_built_in(name, given_bound);
   if (!subject) refuse_subject(name, built_in_subjects());
   return subject;
 }

@@ -1,8 +1,9 @@
-// All subjects: the built-in ones by name, plug-ins by path or command.
+// All subjects: the built-in ones and published CCDs by name, plug-ins by path or command.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +13,12 @@
 
 namespace nearmiss {
 
-/// Makes a built-in subject (as make_built_in), or a plug-in, which runs in processes of its own (isolation/) under
-/// `limits`. Throws Error for an unknown name.
+/// The plug-in that a name stands for: a path or a command stands for itself, the name of a published CCD for the plug-in
+/// that was built of it (peers.hpp). Nothing for other names. Throws Error if the CCD is not built.
+std::optional<std::string> plugin_named(std::string_view name);
+
+/// Makes a built-in subject (as make_built_in), or a plug-in (plugin_named), which runs in processes of its own (isolation/)
+/// under `limits`. Throws Error for an unknown name.
 std::unique_ptr<Subject> make_any_subject(std::string_view name,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});

@@ -44,6 +44,12 @@ int significant_bits(double magnitude) {
   return 53 - std::countr_zero(static_cast<std::uint64_t>(significand));
 }
 
+/// What a magnitude adds to Complexity::awkward.
+int awkwardness(double magnitude) {
+  if (magnitude < 10 && magnitude == std::floor(magnitude)) return 0;
+  return magnitude < 100 && 4 * magnitude == std::floor(4 * magnitude) ? 1 : 2;
+}
+
 /// The length, in words, of the integers in exact arithmetic with a query's coordinates.
 int words(const Coordinates& x) {
   const auto all = magnitudes(x);
@@ -63,6 +69,7 @@ class Shrinker {
     Query before;
     do {
       before = best_;
+      round_all();
       change_numbers();
       move_axes();
       shear_axes();
@@ -94,6 +101,43 @@ class Shrinker {
     return true;
   }
 
+  /// Scales the query by powers of two, and rounds all coordinates to integers that are small, or a little larger.
+  /// Before that, a vertex moves to the origin: at t = 0, or at all times.
+  void round_all() {
+    for (const int exponent : {0, 1, 2, 3, 4, 6})
+      for (const bool each_axis : {false, true}) {
+        take([&](Coordinates& x) { round(x, exponent, each_axis); });
+        for (std::size_t vertex = 0; vertex < 4; ++vertex)
+          for (const std::size_t end : times)
+            take([&](Coordinates& x) {
+              for (std::size_t k = 0; k < 3; ++k)
+                subtract(x, k, best_.x[path(vertex, k)], best_.x[end + path(vertex, k)]);
+              round(x, exponent, each_axis);
+            });
+      }
+  }
+
+  /// Scales all axes together, or each one, so that the largest magnitude is in [2^exponent, 2^(exponent + 1)), and
+  /// rounds.
+  static void round(Coordinates& x, int exponent, bool each_axis) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto all = magnitudes(x, each_axis ? axis_set(k) : everything);
+      if (all.empty()) continue;
+      const int up = exponent - std::ilogb(all.back());
+      replace(x, each_axis ? axis_set(k) : everything,
+              [&](double c) { return std::nearbyint(std::ldexp(c, up)); });
+      if (!each_axis) return;
+    }
+  }
+
+  /// Subtracts numbers from the coordinates of all vertices along axis k, at t = 0 and t = 1.
+  static void subtract(Coordinates& x, std::size_t k, double of_start, double of_end) {
+    for (std::size_t v = 0; v < 4; ++v) {
+      x[path(v, k)] -= of_start;
+      x[paths + path(v, k)] -= of_end;
+    }
+  }
+
   /// Sets all coordinates of an axis to 0, or subtracts the coordinates of one point at t = 0, at t = 1 or
   /// both, or those of a moving point. If the subtraction is exact, no contact is lost.
   void move_axes() {
@@ -102,13 +146,7 @@ class Shrinker {
       for (std::size_t vertex = 0; vertex < 4; ++vertex) {
         const std::array shifts{0.0, best_.x[path(vertex, k)], best_.x[paths + path(vertex, k)]};
         for (const double of_start : shifts)
-          for (const double of_end : shifts)
-            take([&](Coordinates& x) {
-              for (std::size_t v = 0; v < 4; ++v) {
-                x[path(v, k)] -= of_start;
-                x[paths + path(v, k)] -= of_end;
-              }
-            });
+          for (const double of_end : shifts) take([&](Coordinates& x) { subtract(x, k, of_start, of_end); });
       }
     }
   }
@@ -214,7 +252,7 @@ class Shrinker {
     };
     if (become(0)) return;
     std::vector<double> others = magnitudes(best_.x);
-    others.insert(others.begin(), {1, 2, 3, 4});
+    others.insert(others.begin(), {1, 2, 3, 4, 5, 6, 7, 8, 9, 0.5, 0.25, 0.75, 1.5, 10});
     others.insert(others.end(), {0x1p-53, 0x1p53});
     for (const double other : others)
       if (become(other) || become(-other)) return;
@@ -284,6 +322,7 @@ Complexity complexity(const Query& query) {
   }
   for (const double m : magnitudes(query.x)) {
     ++sum.distinct;
+    sum.awkward += awkwardness(m);
     sum.bits += significant_bits(m);
     sum.exponents += std::abs(std::ilogb(m));
   }

@@ -5,6 +5,7 @@
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrink.hpp"
 #include "fuzz/trial/signatures.hpp"
+#include "fuzz/trial/small_queries.hpp"
 
 namespace nearmiss {
 
@@ -17,7 +18,7 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, 
   constexpr int most_late = 8;  // each query over its time limit takes the full limit
   int late = 0;
   const Judge judge(subject);
-  const Query shrunk_query = shrunk(finding.query, [&](const Query& query) {
+  const auto fails = [&](const Query& query) {
     stop.check(grace);
     try {
       if (late == most_late) return false;
@@ -29,8 +30,11 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, 
     } catch (const Error&) {
       return false;
     }
-  });
-  return subject.rounded(shrunk_query);
+  };
+  const bool every_query_is_slow = is_of_time_limit(finding.signature);
+  const auto small =
+      every_query_is_slow ? std::nullopt : simplest_small_failure(finding, subject, fails, stop, grace);
+  return subject.rounded(shrunk(small.value_or(finding.query), fails));
 }
 
 }  // namespace

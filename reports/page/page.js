@@ -235,7 +235,7 @@ function drawFailure(finding) {
   return made("div", [
     ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
     made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
-    made("div", `from ${finding.provenance}`),
+    made("div", `from ${finding.provenance}`), made("div", `the simplest query: ${finding.explanation}`),
   ]);
 }
 

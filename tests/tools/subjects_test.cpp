@@ -6,6 +6,7 @@ namespace {
 
 using testing::CommandLine;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST_F(CommandLine, SubjectsAreListed) {
   const Output output = run("subjects");
@@ -14,8 +15,39 @@ TEST_F(CommandLine, SubjectsAreListed) {
     EXPECT_THAT(output.out, HasSubstr(name));
 }
 
-TEST_F(CommandLine, OnlyPluginsAreDescribed) {
-  expect_refused("subjects wang", {"found 'wang', expected a plug-in"});
+TEST_F(CommandLine, OnlyPluginsAndPublishedCcdsAreDescribed) {
+  expect_refused("subjects wang", {"found 'wang', expected a plug-in", "or a published CCD"});
+  EXPECT_THAT(run("subjects fcl-newton").out, HasSubstr("vt and ee; 53 bits; an estimate of the time"));
+}
+
+TEST_F(CommandLine, PublishedCcdsAreListedWithWhatTheyAre) {
+  const Output output = run("subjects");
+  EXPECT_THAT(
+      output.out,
+      HasSubstr("fcl                     FCL's CCD of deformable meshes, with its solver for cubics\n"));
+  EXPECT_THAT(output.out,
+              HasSubstr("bullet                  the CCD of Bullet's soft bodies, in single precision"));
+  EXPECT_THAT(run("subjects --peers").out, StartsWith("fcl\nfcl-newton\nbullet\nbullet-double\n"));
+}
+
+TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
+  std::filesystem::copy_file(NEARMISS_EXECUTABLE, file("copied"));
+  std::filesystem::create_directory(file("peers"));
+  const auto run_copy = [&](const std::string& arguments) { return run("; ./copied " + arguments, "true"); };
+  EXPECT_EQ(run_copy("subjects --peers").out, "");
+  const Output listed = run_copy("subjects");
+  EXPECT_THAT(listed.out, HasSubstr("safeccd                 not built: run tools/peers DIR safeccd"));
+  EXPECT_THAT(listed.out, HasSubstr("fcl-newton              not built: install libfcl-dev"));
+  const Output refused = run_copy("verdict --kind vt --subject additive:iterations=3");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/peers DIR additive"));
+}
+
+TEST_F(CommandLine, ASubcommandForOneSubjectRefusesSeveral) {
+  const std::string miss_of_always = write("a.vt", miss).string();
+  for (const std::string& command :
+       {"shrink " + miss_of_always + " --subject ", std::string("power --time 1s --subject ")})
+    expect_refused(command + plugin("several"), {"found several detectors, expected one of told, edges"});
 }
 
 TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {

@@ -13,10 +13,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "fuzz/subjects/beside.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 
 namespace nearmiss::isolation {
@@ -25,14 +25,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-/// The path of nearmiss-worker: beside this program, or else where it was built.
-std::string worker_executable() {
-  std::error_code unknown;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const auto beside = self.parent_path() / "nearmiss-worker";
-  return std::filesystem::exists(beside, unknown) ? beside.string() : NEARMISS_WORKER;
-}
 
 /// Starts a program with some descriptors under given numbers, in a session of its own, which no terminal interrupts, and
 /// with the default reaction to every signal.
@@ -111,7 +103,7 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
   spawn.pass(files.questions, questions_memory);
   spawn.pass(files.answers, answers_memory);
   status_ = std::move(status.ours);
-  const std::string program = worker_executable();
+  const std::string program = path_beside("nearmiss-worker", NEARMISS_WORKER);
   arguments.insert(arguments.begin(), "nearmiss-worker");
   worker_ = spawn.run(program, std::move(arguments));
   status.theirs.close();

@@ -1,0 +1,60 @@
+#include "fuzz/subjects/peers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+#include "ccd/error.hpp"
+#include "fuzz/subjects/beside.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::array<Peer, 11> all{{
+    {.name = "fcl", .object = "fcl", .package = "libfcl-dev"},
+    {.name = "fcl-newton", .object = "fcl", .package = "libfcl-dev"},
+    {.name = "bullet", .object = "bullet", .package = "libbullet-dev"},
+    {.name = "bullet-double", .object = "bullet-double", .package = "libbullet-dev"},
+    {.name = "safeccd", .object = "safeccd", .package = ""},
+    {.name = "root-parity", .object = "root-parity", .package = ""},
+    {.name = "bsc", .object = "bsc", .package = ""},
+    {.name = "tight-bound", .object = "tight-bound", .package = ""},
+    {.name = "tight-inclusion", .object = "tight-inclusion", .package = ""},
+    {.name = "msrf", .object = "msrf", .package = ""},
+    {.name = "additive", .object = "additive", .package = ""},
+}};
+
+}  // namespace
+
+std::span<const Peer> peers() { return all; }
+
+std::string path_of(const Peer& peer) {
+  return fmt::format("{}/{}.so", path_beside("peers", NEARMISS_PEERS), peer.object);
+}
+
+bool is_built(const Peer& peer) {
+  std::error_code unknown;
+  return std::filesystem::exists(path_of(peer), unknown);
+}
+
+std::string how_to_build(const Peer& peer) {
+  return peer.package.empty()
+             ? fmt::format("run tools/peers DIR {}, with the folder of the authors' source trees",
+                           peer.object)
+             : fmt::format("install {}, remove the build folder, and run tools/setup", peer.package);
+}
+
+std::optional<std::string> plugin_of_peer(std::string_view name) {
+  const std::string_view without_options = name.substr(0, name.find(':'));
+  const auto* const peer =
+      std::find_if(all.begin(), all.end(), [&](const Peer& each) { return each.name == without_options; });
+  if (peer == all.end()) return std::nullopt;
+  if (!is_built(*peer)) throw Error(fmt::format("'{}' is not built: {}", peer->name, how_to_build(*peer)));
+  return fmt::format("{}:{}", path_of(*peer), name);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,32 @@
+// Published CCDs as subjects, by name (peers/README.md).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nearmiss {
+
+/// A published CCD that has an adapter.
+struct Peer {
+  std::string_view name;     ///< of the subject
+  std::string_view object;   ///< its plug-in: the shared object peers/OBJECT.so beside the program
+  std::string_view package;  ///< the Debian package that it is built with; "" if tools/peers builds it
+};
+
+/// All of them, whether built or not.
+std::span<const Peer> peers();
+
+/// The path of its plug-in.
+std::string path_of(const Peer& peer);
+bool is_built(const Peer& peer);
+/// How to build it, as an instruction: "run tools/peers DIR ...".
+std::string how_to_build(const Peer& peer);
+
+/// The plug-in that a name stands for: "tight-inclusion:tolerance=1e-3" is
+/// ".../peers/tight-inclusion.so:tight-inclusion:tolerance=1e-3". Nothing if the name is not that of a peer. Throws Error if
+/// the peer is not built.
+std::optional<std::string> plugin_of_peer(std::string_view name);
+
+}  // namespace nearmiss

@@ -1,0 +1,107 @@
+// What the adapters of published CCDs share: one query at a time, and options that are numbers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "ccd/nearmiss_subject.h"
+
+namespace nearmiss::peers {
+
+/// One query: four vertices at t = 0 and t = 1, and the separation.
+struct Question {
+  const double* x;  ///< 24 coordinates (nearmiss_subject.h)
+  double separation;
+
+  [[nodiscard]] const double* start(int vertex) const { return x + 3 * vertex; }
+  [[nodiscard]] const double* end(int vertex) const { return x + 12 + 3 * vertex; }
+};
+
+/// What a detector says about one query.
+struct Answer {
+  int value = NEARMISS_NO_COLLISION;
+  double time = std::numeric_limits<double>::quiet_NaN();
+
+  /// The answer of a function that returns whether there is a collision.
+  static Answer of(bool collides) { return {collides ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION}; }
+  static Answer of(bool collides, double time) { return {of(collides).value, time}; }
+};
+
+/// The interface's function decide() from a function that decides one query.
+template <Answer (*decide_one)(const void* state, int kind, const Question& question)>
+void decide_each(void* state, int kind, std::size_t n, const double* x, const double* h, int* answer,
+                 double* toi) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const Answer said = decide_one(state, kind, {x + 24 * i, h[i]});
+    answer[i] = said.value;
+    toi[i] = said.time;
+  }
+}
+
+/// A number that the user may set, KEY=VALUE.
+template <class State>
+struct Option {
+  const char* key;
+  double State::*value;
+  double least, most;  ///< the values that are allowed
+};
+
+/// Sets the option KEY=VALUE. False if there is no such option, or the value is not allowed.
+template <class State, std::size_t n>
+bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos) return false;
+  const char* const number = text.c_str() + sign + 1;
+  char* rest = nullptr;
+  const double value = std::strtod(number, &rest);
+  if (rest == number || *rest != '\0') return false;
+  for (const Option<State>& option : options) {
+    if (text.compare(0, sign, option.key) != 0) continue;
+    state.*option.value = value;
+    return value >= option.least && value <= option.most;
+  }
+  return false;
+}
+
+/// Sets options such as "tolerance=1e-6:iterations=1000". Returns "", or what is wrong with them.
+template <class State, std::size_t n>
+std::string set_options(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    const std::string part = text.substr(at, end - at);
+    at = end + 1;
+    if (set_option(options, part, state)) continue;
+    std::array<char, 128> line{};
+    std::string expected;
+    for (const Option<State>& option : options) {
+      std::snprintf(line.data(), line.size(), "%s%s=NUMBER from %g to %g", expected.empty() ? "" : " or ",
+                    option.key, option.least, option.most);
+      expected.append(line.data());
+    }
+    return "found '" + part + "', expected " + expected;
+  }
+  return "";
+}
+
+/// The interface's function open() for a state with options.
+template <class State, const auto& options>
+void* open_with(const char* text, char* message, std::size_t size) {
+  auto state = std::make_unique<State>();
+  const std::string fault = set_options(options, text, *state);
+  if (fault.empty()) return state.release();
+  std::snprintf(message, size, "%s", fault.c_str());
+  return nullptr;
+}
+
+template <class State>
+void close_with(void* state) {
+  delete static_cast<State*>(state);
+}
+
+}  // namespace nearmiss::peers

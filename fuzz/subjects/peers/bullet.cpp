@@ -1,0 +1,68 @@
+// Bullet: the continuous collision detection of its soft bodies, which tests vertices against triangles alone. Compiled
+// twice: with Bullet's single and with its double precision (BT_USE_DOUBLE_PRECISION).
+#include <BulletSoftBody/btSoftBodyInternals.h>
+
+#include "fuzz/subjects/peers/adapter.hpp"
+
+namespace nearmiss::peers {
+namespace {
+
+constexpr btScalar dt = 1;  // our unit of time is the time step
+
+btVector3 vector(const double* x) {
+  return {static_cast<btScalar>(x[0]), static_cast<btScalar>(x[1]), static_cast<btScalar>(x[2])};
+}
+
+/// The normal of a triangle, not normalised.
+btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
+
+/// Bullet's world fills a vertex and a face in this way before it calls bernsteinCCD: it knows velocities, from which it
+/// predicts the end of the time step. Our end therefore reaches it with the rounding of a subtraction.
+Answer decide(const void* /*state*/, int /*kind*/, const Question& q) {
+  std::array<btSoftBody::Node, 4> nodes;
+  for (int i = 0; i < 4; ++i) {
+    btSoftBody::Node& node = nodes[static_cast<std::size_t>(i)];
+    node.m_x = vector(q.start(i));
+    node.m_v = (vector(q.end(i)) - node.m_x) / dt;
+    node.m_q = node.m_x + dt * node.m_v;
+  }
+  btSoftBody::Node &a = nodes[1], &b = nodes[2], &c = nodes[3];
+  btSoftBody::Face face;
+  face.m_n[0] = &a;
+  face.m_n[1] = &b;
+  face.m_n[2] = &c;
+  face.m_n0 = normal(a.m_x, b.m_x, c.m_x);
+  face.m_n1 = normal(a.m_q, b.m_q, c.m_q);
+  face.m_vn = normal(a.m_v, b.m_v, c.m_v) * dt * dt;
+  btVector3 weights;
+  return Answer::of(bernsteinCCD(&face, nodes.data(), dt, SAFE_EPSILON, weights));
+}
+
+nearmiss_subject subject() {
+  nearmiss_subject subject{};
+  subject.interface_version = NEARMISS_INTERFACE;
+#ifdef BT_USE_DOUBLE_PRECISION
+  subject.name = "bullet-double";
+  subject.about = "the CCD of Bullet's soft bodies, in double precision; vertex-triangle only";
+  subject.bits = 53;
+#else
+  subject.name = "bullet";
+  subject.about = "the CCD of Bullet's soft bodies, in single precision; vertex-triangle only";
+  subject.bits = 24;
+#endif
+  static const std::string version =
+      std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
+  subject.version = version.c_str();
+  subject.kinds = NEARMISS_VERTEX_TRIANGLE;
+  subject.time_sort = NEARMISS_NO_TIME;
+  subject.decide = decide_each<decide>;
+  return subject;
+}
+
+}  // namespace
+}  // namespace nearmiss::peers
+
+const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
+  static const nearmiss_subject subject = nearmiss::peers::subject();
+  return index == 0 ? &subject : nullptr;
+}

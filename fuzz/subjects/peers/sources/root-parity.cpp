@@ -1,0 +1,46 @@
+// Root parity (Brochu, Edwards and Bridson, "Efficient geometrically exact continuous collision detection", 2012).
+#include <exactCCDWrapper.h>
+
+#include <cstdlib>
+
+#include "fuzz/subjects/peers/adapter.hpp"
+
+namespace nearmiss::peers {
+namespace {
+
+/// An answer must depend on the query alone, but the rays that replace an unlucky one come from rand(). Therefore every query
+/// starts from the same seed. The smallest state that the C library offers makes that cheap.
+void restart_random_numbers() {
+  static std::array<char, 8> smallest;
+  static const bool is_set = initstate(1, smallest.data(), smallest.size()) != nullptr;
+  if (is_set) std::srand(1);
+}
+
+Answer decide(const void* /*state*/, int kind, const Question& q) {
+  restart_random_numbers();
+  const auto test =
+      kind == NEARMISS_VERTEX_TRIANGLE ? ExactCCDWrapper::VertexTriangleCCD : ExactCCDWrapper::EdgeEdgeCCD;
+  return Answer::of(
+      test(q.start(0), q.end(0), q.start(1), q.end(1), q.start(2), q.end(2), q.start(3), q.end(3)));
+}
+
+nearmiss_subject subject() {
+  nearmiss_subject subject{};
+  subject.interface_version = NEARMISS_INTERFACE;
+  subject.name = "root-parity";
+  subject.version = "2012";
+  subject.about = "root parity, with intervals and expansions: whether the number of contacts is odd";
+  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  // It answers whether the number of contacts is odd. That is our question if there is one contact at most.
+  subject.contract.one_root = 1;
+  subject.decide = decide_each<decide>;
+  return subject;
+}
+
+}  // namespace
+}  // namespace nearmiss::peers
+
+const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
+  static const nearmiss_subject subject = nearmiss::peers::subject();
+  return index == 0 ? &subject : nullptr;
+}

@@ -1,0 +1,220 @@
+#include "fuzz/trial/small_queries.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "ccd/error.hpp"
+#include "fuzz/random.hpp"
+#include "fuzz/subjects/isolation/plugin_file.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
+constexpr std::array values{0, 1, -1, 2};
+constexpr int most_numbers = 3;  // of the queries that are all listed
+using Integers = std::array<int, 24>;
+
+/// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.
+struct Symmetry {
+  std::array<std::size_t, 24> from;
+  Integers sign;
+};
+
+/// The orders of the vertices that leave the primitives what they are.
+std::vector<std::array<std::size_t, 4>> vertex_orders(Kind kind) {
+  std::vector<std::array<std::size_t, 4>> orders;
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  const bool edges = kind == Kind::edge_edge;
+  do {
+    const bool same_pairs = order[0] / 2 == order[1] / 2;
+    if (edges ? same_pairs : order[0] == 0) orders.push_back(order);
+  } while (std::next_permutation(order.begin(), order.end()));
+  return orders;
+}
+
+std::vector<Symmetry> symmetries(Kind kind) {
+  std::vector<Symmetry> all;
+  for (const auto& vertices : vertex_orders(kind)) {
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    do {
+      for (unsigned mirrored = 0; mirrored < 8; ++mirrored)
+        for (const std::size_t reversed : {0, 1}) {
+          Symmetry& made = all.emplace_back();
+          for (std::size_t i = 0; i < 24; ++i) {
+            const std::size_t k = axes[i % 3];
+            made.from[i] = paths * (i / paths ^ reversed) + 3 * vertices[i % paths / 3] + k;
+            made.sign[i] = (mirrored >> k & 1U) != 0 ? -1 : 1;
+          }
+        }
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+  return all;
+}
+
+/// The place of an integer in the order by which the first of all symmetric copies is chosen: 0, 1, -1, 2, -2.
+constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
+
+/// Whether a copy has values of the list only.
+bool is_listed(const Integers& x, const Symmetry& symmetry) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;
+  return true;
+}
+
+/// Whether no symmetric copy comes before the query.
+bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
+  return std::none_of(symmetries.begin(), symmetries.end(), [&](const Symmetry& symmetry) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const int difference = rank(symmetry.sign[i] * x[symmetry.from[i]]) - rank(x[i]);
+      if (difference != 0) return difference < 0 && is_listed(x, symmetry);
+    }
+    return false;
+  });
+}
+
+/// Makes the list of a kind.
+class Maker {
+ public:
+  explicit Maker(Kind kind) : kind_(kind), symmetries_(symmetries(kind)) {}
+
+  std::vector<SmallQuery> run() {
+    extend(0, most_numbers);
+    draw();
+    std::sort(list_.begin(), list_.end(), [](const SmallQuery& a, const SmallQuery& b) {
+      return std::tie(a.complexity, a.query.x) < std::tie(b.complexity, b.query.x);
+    });
+    decide_all();
+    return std::move(list_);
+  }
+
+ private:
+  void add() {
+    Query query{.kind = kind_};
+    std::copy(x_.begin(), x_.end(), query.x.begin());
+    list_.push_back({query, complexity(query)});
+  }
+
+  /// Adds all queries that continue the coordinates of the paths before this one with at most `numbers` numbers.
+  void extend(std::size_t path, int numbers) {
+    if (path == paths) {
+      if (is_first_copy(x_, symmetries_)) add();
+      return;
+    }
+    for (const int start : values)
+      for (const int end : values) {
+        const int own = (start == 0 ? 0 : 1) + (end == 0 || end == start ? 0 : 1);
+        if (own > numbers) continue;
+        x_[path] = start;
+        x_[paths + path] = end;
+        extend(path + 1, numbers - own);
+      }
+    x_[path] = x_[paths + path] = 0;
+  }
+
+  /// Adds random queries: half of the coordinates are 0, and half of the paths are at rest.
+  void draw() {
+    constexpr std::uint64_t drawn = 4096;
+    constexpr std::uint64_t stream = 0x5a11;  // of no family
+    for (std::uint64_t i = 0; i < drawn; ++i) {
+      Random random(1, stream + static_cast<std::uint64_t>(kind_), i);
+      const auto value = [&] {
+        return random.one_in(2) ? 0 : values[static_cast<std::size_t>(random.integer(1, 3))];
+      };
+      for (std::size_t path = 0; path < paths; ++path) {
+        x_[path] = value();
+        x_[paths + path] = random.one_in(2) ? x_[path] : value();
+      }
+      add();
+      if (list_.back().complexity.numbers <= most_numbers) list_.pop_back();  // it is listed
+    }
+  }
+
+  void decide_all() {
+    std::vector<Query> queries(list_.size());
+    std::transform(list_.begin(), list_.end(), queries.begin(),
+                   [](const SmallQuery& each) { return each.query; });
+    std::vector<Decision> decisions(list_.size());
+    decide(queries, decisions);
+    for (std::size_t i = 0; i < list_.size(); ++i) list_[i].collision = decisions[i].collision;
+  }
+
+  Kind kind_;
+  std::vector<Symmetry> symmetries_;
+  Integers x_{};
+  std::vector<SmallQuery> list_;
+};
+
+/// Whether an answer can be a failure of this kind. A bound that is no distance is a fault of a false positive.
+bool can_fail(Finding::What what, const Verdict& verdict, bool collision) {
+  const bool is_fault = verdict.fault != Fault::none;
+  const bool is_false_positive = !is_fault && verdict.hit && !collision;
+  switch (what) {
+    case Finding::What::false_negative:
+      return !is_fault && !verdict.hit && collision;
+    case Finding::What::refuted_bound:
+      return is_false_positive;
+    case Finding::What::fault:
+      return is_fault || is_false_positive;
+    default:
+      return false;
+  }
+}
+
+/// Asks the subject; false if it refuses the queries.
+bool ask(const Subject& subject, std::span<const SmallQuery> asked, std::vector<Verdict>& verdicts) {
+  std::vector<Query> queries;
+  for (const SmallQuery& each : asked) queries.push_back(each.query);
+  verdicts.assign(asked.size(), {});
+  try {
+    subject.decide(queries, verdicts);
+    return true;
+  } catch (const isolation::PluginChanged&) {
+    throw;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+const std::vector<SmallQuery>& small_queries(Kind kind) {
+  if (kind == Kind::vertex_triangle) {
+    static const auto list = Maker(Kind::vertex_triangle).run();
+    return list;
+  }
+  static const auto list = Maker(Kind::edge_edge).run();
+  return list;
+}
+
+std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
+                                            const std::function<bool(const Query&)>& fails, const Stop& stop,
+                                            std::chrono::milliseconds grace) {
+  constexpr std::size_t batch = 64;
+  constexpr std::ptrdiff_t most_faults = 64;  // a process that ends must be started again
+  const std::span list(small_queries(finding.query.kind));
+  const Complexity known = complexity(finding.query);
+  std::ptrdiff_t faults = 0;
+  std::vector<Verdict> verdicts;
+  for (std::size_t first = 0; first < list.size() && faults < most_faults; first += batch) {
+    stop.check(grace);
+    const auto asked = list.subspan(first, std::min(batch, list.size() - first));
+    if (!ask(subject, asked, verdicts)) continue;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (!(asked[i].complexity < known)) return std::nullopt;
+      if (can_fail(finding.what, verdicts[i], asked[i].collision) && fails(asked[i].query))
+        return asked[i].query;
+    }
+    faults += std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) {
+      return v.fault != Fault::none && v.fault != Fault::contract;
+    });
+  }
+  return std::nullopt;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,61 @@
+#include "oracle/explanation.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "ccd/arithmetic.hpp"
+#include "oracle/exact/first_contact.hpp"
+#include "oracle/parity/parity.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Contact = Explanation::Contact;
+
+Contact contact_of(exact::Root& t) {
+  exact::Root early{exact::Number(0x1p-40)};
+  if (t.is(0)) return Contact::start;
+  if (t.is(1)) return Contact::end;
+  return early.is_below(t) ? Contact::inside : Contact::early;
+}
+
+}  // namespace
+
+Explanation explain(const Query& query) {
+  const PlainArithmetic guard;
+  exact::Predicates predicates(query);
+  const bool planar = predicates.F().is_zero();
+  Explanation result{.roots = planar ? -1 : static_cast<int>(exact::roots_in_step(predicates.F()).size())};
+  if (auto first = exact::first_contact(predicates)) {
+    result.contact = contact_of(first->time);
+    result.unseen_by_parity = !root_parity(query).collision();
+  }
+  return result;
+}
+
+std::string to_text(const Explanation& explanation) {
+  static constexpr std::array<std::string_view, 5> contacts{"no contact", "contact at t = 0",
+                                                            "contact within 2^-40 after t = 0",
+                                                            "contact inside the step", "contact at t = 1"};
+  std::string text(contacts[static_cast<std::size_t>(explanation.contact)]);
+  text += "; the vertices are ";
+  switch (explanation.roots) {
+    case -1:
+      text += "always coplanar";
+      break;
+    case 0:
+      text += "never coplanar";
+      break;
+    case 1:
+      text += "coplanar once";
+      break;
+    default:
+      text.append("coplanar ").append(std::to_string(explanation.roots)).append(" times");
+  }
+  if (explanation.unseen_by_parity)
+    text += "; root parity counts an even number of roots and cannot see the contact";
+  return text;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,36 @@
+// What may explain a failure: facts about a query's coplanarity and first contact.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// Facts about a query on which CCDs often depend, determined by exact arithmetic.
+struct Explanation {
+  enum class Contact : std::uint8_t {
+    none,    ///< the primitives do not touch
+    start,   ///< at t = 0
+    early,   ///< at 0 < t <= 2^-40
+    inside,  ///< at 2^-40 < t < 1
+    end,     ///< at t = 1
+  };
+
+  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are.
+  int roots = 0;
+  Contact contact{};  ///< the first contact
+  /// There is a contact, but the number of roots that root parity counts is even.
+  bool unseen_by_parity = false;
+
+  bool operator==(const Explanation&) const = default;
+};
+
+/// Explains a query.
+Explanation explain(const Query& query);
+
+/// A text such as "contact inside the step; the vertices are coplanar once".
+std::string to_text(const Explanation& explanation);
+
+}  // namespace nearmiss

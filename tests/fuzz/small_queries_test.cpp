@@ -1,0 +1,188 @@
+// Small queries: the list, and the search in it.
+#include "fuzz/trial/small_queries.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <iostream>
+#include <set>
+
+#include "fuzz/families/families.hpp"
+#include "fuzz/random.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+using Coordinates = std::array<double, 24>;
+constexpr std::chrono::milliseconds no_grace{0};
+
+/// A copy with other vertices (v), axes (k) and signs (a bit for each axis), which may go back in time.
+Coordinates copied(const Query& query, const std::array<std::size_t, 4>& v,
+                   const std::array<std::size_t, 3>& k, std::size_t signs, bool back) {
+  Coordinates x;
+  for (std::size_t time = 0; time < 2; ++time)
+    for (std::size_t vertex = 0; vertex < 4; ++vertex)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double c = query.x[12 * (back ? 1 - time : time) + 3 * v[vertex] + k[axis]];
+        x[12 * time + 3 * vertex + axis] = (signs >> axis & 1U) != 0 ? 0 - c : c;
+      }
+  return x;
+}
+
+/// All copies of a query that have the same primitives.
+std::set<Coordinates> copies(const Query& query) {
+  std::set<Coordinates> all;
+  std::array<std::size_t, 4> v{0, 1, 2, 3};
+  do {
+    const bool same = query.kind == Kind::edge_edge ? v[0] + v[1] == 1 || v[0] + v[1] == 5 : v[0] == 0;
+    if (!same) continue;
+    std::array<std::size_t, 3> k{0, 1, 2};
+    do
+      for (std::size_t signs = 0; signs < 8; ++signs)
+        for (const bool back : {false, true}) all.insert(copied(query, v, k, signs, back));
+    while (std::next_permutation(k.begin(), k.end()));
+  } while (std::next_permutation(v.begin(), v.end()));
+  return all;
+}
+
+/// A random query with at most three nonzero numbers.
+Query random_small(Kind kind, std::uint64_t index) {
+  constexpr std::array values{1, -1, 2};
+  Random random(7, static_cast<std::uint64_t>(kind), index);
+  Query query{.kind = kind};
+  for (int i = 0; i < 3; ++i) {
+    const auto path = static_cast<std::size_t>(random.integer(0, 11));
+    const bool rests = random.one_in(2);
+    const double value = values[static_cast<std::size_t>(random.integer(0, 2))];
+    query.x[path + (random.one_in(2) ? 12 : 0)] = value;
+    if (rests) query.x[path] = query.x[path + 12] = value;
+  }
+  return query;
+}
+
+TEST(SmallQueries, HaveOneOfAllSymmetricCopies) {
+  for (const Kind kind : kinds) {
+    std::multiset<Coordinates> listed;
+    for (const SmallQuery& each : small_queries(kind))
+      if (each.complexity.numbers <= 3) listed.insert(each.query.x);
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const Query query = random_small(kind, i);
+      if (complexity(query).numbers > 3) continue;
+      std::size_t found = 0;
+      for (const Coordinates& copy : copies(query)) found += listed.count(copy);
+      EXPECT_EQ(found, 1) << short_name(kind) << " " << i;
+    }
+  }
+}
+
+TEST(SmallQueries, AreSortedAndDecided) {
+  for (const Kind kind : kinds) {
+    const auto& list = small_queries(kind);
+    std::cout << short_name(kind) << ": " << list.size() << " queries\n";
+    EXPECT_EQ(list.front().query, Query{.kind = kind});
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      EXPECT_EQ(list[i].query.kind, kind);
+      EXPECT_EQ(list[i].complexity.awkward, 0);
+      if (i > 0) {
+        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
+      }
+      if (i % 17 == 0) {
+        EXPECT_EQ(list[i].collision, collides_exactly(list[i].query));
+      }
+    }
+    const auto collisions =
+        std::count_if(list.begin(), list.end(), [](const SmallQuery& q) { return q.collision; });
+    EXPECT_GT(collisions, 1000);
+    EXPECT_LT(collisions, static_cast<std::ptrdiff_t>(list.size()) - 1000);
+  }
+}
+
+/// Reports nothing, and counts the queries about which it is asked. It may be late.
+class Blind final : public Subject {
+ public:
+  explicit Blind(Fault fault = Fault::none) : fault_(fault) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
+    ++asked;
+    return {.fault = fault_};
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+  mutable std::atomic<std::size_t> asked = 0;
+
+ private:
+  std::string name_ = "blind";
+  Fault fault_;
+};
+
+Finding missed(Kind kind) {
+  Finding finding{
+      .what = Finding::What::false_negative, .subject = "blind", .family = {}, .query = {}, .provenance = {}};
+  finding.query.kind = kind;
+  for (std::size_t i = 0; i < 24; ++i) finding.query.x[i] = 1 / (3.0 + static_cast<double>(i));
+  return finding;
+}
+
+TEST(SmallQueries, GiveTheSimplestFailure) {
+  const Blind blind;
+  for (const Kind kind : kinds) {
+    const auto moves_in_space = [](const Query& query) {
+      return complexity(query).moving >= 3 && collides(query);
+    };
+    const auto found = simplest_small_failure(missed(kind), blind, moves_in_space, Stop::never(), no_grace);
+    const auto& list = small_queries(kind);
+    const auto first =
+        std::find_if(list.begin(), list.end(), [&](const SmallQuery& q) { return moves_in_space(q.query); });
+    ASSERT_NE(first, list.end());
+    EXPECT_EQ(found, first->query);
+  }
+}
+
+TEST(SmallQueries, AreNotSearchedBeyondTheFindingItself) {
+  const Blind blind;
+  Finding finding = missed(Kind::vertex_triangle);
+  finding.query.x = {};
+  finding.query.x[0] = 1;
+  const auto never = [](const Query&) { return false; };
+  EXPECT_EQ(simplest_small_failure(finding, blind, never, Stop::never(), no_grace), std::nullopt);
+  EXPECT_LE(blind.asked, 64);
+}
+
+TEST(SmallQueries, AreLeftAfterManyFaultsAndAfterARequest) {
+  const Blind late(Fault::crash);
+  const auto never = [](const Query&) { return false; };
+  EXPECT_EQ(simplest_small_failure(missed(Kind::edge_edge), late, never, Stop::never(), no_grace),
+            std::nullopt);
+  EXPECT_EQ(late.asked, 64);
+  const std::atomic<bool> requested{true};
+  const Blind blind;
+  EXPECT_THROW(static_cast<void>(
+                   simplest_small_failure(missed(Kind::edge_edge), blind, never, Stop(requested), no_grace)),
+               Stopped);
+}
+
+TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
+  const Blind blind;
+  const Judge judge(blind);
+  for (const Kind kind : kinds)
+    for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 100; i += 2) {
+      const Query query = make_query(find_family("planted"), 1, i);
+      const auto failure = judge.failure(query);
+      if (!failure || failure->what != Finding::What::false_negative) continue;
+      Finding finding = missed(kind);
+      finding.query = query;
+      finding.signature = failure->signature;
+      const Query shrunk = shrunk_query(finding, &blind);
+      EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
+      EXPECT_EQ(judge.failure(shrunk), failure);
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss

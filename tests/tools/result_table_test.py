@@ -1,0 +1,94 @@
+"""Compares what tools/result_table prints with the report that it reads.
+Usage: result_table_test.py NEARMISS
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TABLE = pathlib.Path(__file__).parents[2] / "tools" / "result_table"
+NEARMISS = sys.argv.pop()
+
+
+def run(*command, cwd=None):
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+
+
+def cells(line):
+    return [cell.strip(" `") for cell in line.strip("|").split("|")]
+
+
+class ResultTable(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        families = "uniform,planted,scale"
+        run(
+            NEARMISS,
+            "fuzz",
+            "--subject",
+            "basic,wang",
+            "--family",
+            families,
+            "--cases",
+            "6000",
+            "--db",
+            "a.db",
+            cwd=cls.folder.name,
+        )
+        run(NEARMISS, "report", "a.db", "-o", "report", cwd=cls.folder.name)
+        report = pathlib.Path(cls.folder.name) / "report"
+        cls.report = json.loads((report / "report.json").read_text())
+        cls.said = run(TABLE, report)
+        cls.rows = {
+            tuple(cells(line)[:2]): cells(line) for line in cls.said.stdout.splitlines() if line
+        }
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_shares_are_those_of_the_report(self):
+        self.assertEqual(self.said.returncode, 0, self.said.stderr)
+        head, row = self.rows["subject", "kinds"], self.rows["basic", "vt ee"]
+        for of in ("ordinary", "degenerate", "extreme"):
+            counts = [
+                self.report["subjects"]["basic"][kind]["classes"][of] for kind in ("vt", "ee")
+            ]
+            missed = sum(each["false_negatives"] for each in counts)
+            share = 100 * missed / sum(each["collisions"] for each in counts)
+            shown = row[head.index(f"missed, {of}")]
+            self.assertAlmostEqual(
+                float(shown.rstrip(" %")), share, delta=max(0.005, 0.06 * share)
+            )
+            self.assertEqual(shown == "0", missed == 0)
+
+    def test_nobody_who_misses_nothing_has_a_query(self):
+        self.assertIn(("basic", "vt"), self.rows)
+        self.assertNotIn(("wang", "vt"), self.rows)
+
+    def test_the_shortest_query_is_one_that_was_found(self):
+        shown = [
+            float.fromhex(x) if "x" in x else float(x) for x in self.rows["basic", "vt"][2].split()
+        ]
+        self.assertIn(
+            shown,
+            [
+                f["shrunk"]
+                for f in self.report["findings"]
+                if f["subject"] == "basic" and f["kind"] == "vt"
+            ],
+        )
+
+    def test_a_folder_without_a_report_is_refused(self):
+        said = run(TABLE, self.folder.name)
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("expected the report.json of a report", said.stderr)
+        self.assertEqual(len(said.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
