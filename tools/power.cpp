@@ -127,6 +127,7 @@ int run(const Options& options) {
   std::vector<std::string> subjects = options.subjects;
   if (subjects.empty())
     for (const Defect& defect : defects()) subjects.push_back(defect.name);
+  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // likewise
   std::vector<std::string> ways = options.ways;
   if (ways.empty()) {
     ways = {std::string(uniform), std::string(all_families), std::string(search)};
