@@ -162,6 +162,25 @@ TEST(Throwing, IsAFaultWithItsText) {
             "vt exception no root in [#, #] ?[#m");
 }
 
+TEST(Throwing, ManyExceptionsAreAFaultEach) {
+  const auto subject = make_isolated_plugin(plugin("throwing"));
+  auto asked = queries();
+  for (std::size_t i = 0; i < asked.size(); i += 2) asked[i].x[0] = 0.95;
+  std::vector<Verdict> verdicts(asked.size());
+  subject->decide_timed(asked, verdicts);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    EXPECT_EQ(verdicts[i].fault, asked[i].x[0] > 0.9 ? Fault::exception : Fault::none) << i;
+}
+
+TEST(Throwing, ACrashAfterAnExceptionIsACrash) {
+  const auto subject = make_isolated_plugin(plugin("throwing"));
+  Query query = queries().front();
+  query.x[0] = 0.95;
+  EXPECT_EQ(subject->decide(query).fault, Fault::exception);
+  query.x[0] = -2;
+  EXPECT_EQ(subject->decide(query).fault, Fault::crash);
+}
+
 TEST(Throwing, WhileItIsLoadedIsSaid) {
   EXPECT_THAT(
       [] { make_isolated_plugin(plugin("throwing_while_loaded")); },

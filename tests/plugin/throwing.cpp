@@ -1,4 +1,5 @@
-// A subject that throws an exception for a query with x > 0.9, or while it is loaded.
+// A subject that throws an exception for a query with x > 0.9, crashes for one with x = -2, or throws while it is loaded.
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -8,6 +9,7 @@ namespace {
 
 int answer(const double* x, double* /*toi*/) {
   if (x[0] > 0.9) throw std::runtime_error("no root in [" + std::to_string(x[0]) + ", 1]\n\x1b[31m");
+  if (x[0] == -2) std::raise(SIGSEGV);
   return 0;
 }
 

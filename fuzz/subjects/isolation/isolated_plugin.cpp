@@ -149,7 +149,7 @@ class IsolatedPlugin final : public BatchSubject {
     give_back(std::move(worker));
   }
 
-  /// The same for one batch. A worker that fails is replaced, and goes on behind the query at which it failed. A call
+  /// The same for one batch. A worker that cannot be used any more is replaced, and goes on behind the query at which it failed. A call
   /// that takes too long as a whole is repeated with fewer queries, at last with one. `late` counts the queries over the
   /// time limit.
   template <class Take>
@@ -182,6 +182,7 @@ class IsolatedPlugin final : public BatchSubject {
       }
       if (!failure) continue;
       late += failure->fault == Fault::time && !failure->of_call ? 1 : 0;
+      if (failure->goes_on) continue;
       worker = start_worker();
       if (worker) worker->give(batch);
     }

@@ -13,7 +13,7 @@
 namespace nearmiss {
 
 /// The plug-in of a name (ccd/plugin.hpp), with one worker process for each thread that asks at the same time. A failure
-/// becomes the verdict's fault, and the next query gets a new process. The plug-in's output is discarded. Throws Error if
+/// becomes the verdict's fault, and the next query gets a new process, except after an exception. The plug-in's output is discarded. Throws Error if
 /// the plug-in cannot be loaded, or has several detectors and the name does not say which.
 ///
 /// All answers come from the same bytes. If a file is changed, calls throw isolation::PluginChanged, and the answers of

@@ -75,8 +75,9 @@ struct SharedAnswers {
   std::atomic<std::uint64_t> program_time{
       0};  ///< computing time in ns of the program that the plug-in is, if it is one
   std::array<PluginAnswer, batch_size> of{};
-  std::uint64_t nanoseconds = 0;      ///< measured by decide_timed
-  std::array<char, 256> exception{};  ///< what() of an exception that the plug-in did not catch
+  std::uint64_t nanoseconds = 0;        ///< measured by decide_timed
+  std::array<char, 256> exception{};    ///< what() of an exception that the plug-in did not catch
+  std::atomic<std::uint64_t> threw{0};  ///< the last call that an exception ended, at the query `current`
   // Written after loading, before any request:
   PluginDescription about;
   std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can

@@ -143,12 +143,14 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   questions_->first = first;
   questions_->last = last;
   answers_->current = first;
+  answers_->exception[0] = '\0';
   const Call call{++call_, request};
   ask(call);
   const Duration of_queries = limits_.time * calls_per_query(request);
   const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
   End end = wait(call.number, info_.batch == 1 ? limits_.time : of_call, of_call);
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
+  if (end == End::done && answers_->threw == call.number) end = End::threw;
   for (std::uint32_t i = first; i < last && end == End::done; ++i)
     if (!answers(i)) end = End::broken;
   if (end == End::done) return std::nullopt;
@@ -173,6 +175,8 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
       return {query, Fault::time};
     case End::call_late:
       return {.query = query, .fault = Fault::time, .of_call = questions_->last - questions_->first > 1};
+    case End::threw:
+      return {.query = query, .fault = Fault::exception, .text = text(answers_->exception), .goes_on = true};
     case End::dead: {
       if (std::string exception = text(answers_->exception); !exception.empty())
         return {.query = query, .fault = Fault::exception, .text = std::move(exception)};

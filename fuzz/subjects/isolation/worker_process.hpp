@@ -42,9 +42,10 @@ struct WorkerFailure {
   std::int32_t code = 0;  ///< for a crash: the signal, or the negated exit code
   std::string text = {};  ///< for an exception: what it says; for a failure to load: why
   bool of_call = false;   ///< which query of the call is to blame is not known
+  bool goes_on = false;   ///< the worker can be used for other queries
 };
 
-/// A running worker. It cannot be used after a call failed.
+/// A running worker. It cannot be used after a call failed, unless the failure says so.
 class WorkerProcess {
  public:
   /// Throws Error if the plug-in cannot be used, PluginChanged, and Stopped.
@@ -77,9 +78,9 @@ class WorkerProcess {
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
  private:
-  /// How a call ended: it is done; the process died; a query or the whole call took too long; or the worker closed its
-  /// socket, or wrote to it what is no reply.
-  enum class End : std::uint8_t { done, dead, query_late, call_late, broken };
+  /// How a call ended: it is done; the plug-in threw an exception; the process died; a query or the whole call took too
+  /// long; or the worker closed its socket, or wrote to it what is no reply.
+  enum class End : std::uint8_t { done, threw, dead, query_late, call_late, broken };
 
   /// The worker's computing time, and the time that passed.
   struct Elapsed {

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/arithmetic.hpp"
 #include "ccd/detector.hpp"
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
@@ -84,8 +85,8 @@ void copy(std::string_view text, std::array<char, n>& to) {
   to[text.copy(to.data(), n - 1)] = '\0';
 }
 
-/// Notes what an exception says that nobody caught, and ends the process.
-[[noreturn]] void note_exception() {
+/// Notes what the exception says that is being handled.
+void note_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::exception& exception) {
@@ -93,6 +94,11 @@ void copy(std::string_view text, std::array<char, n>& to) {
   } catch (...) {
     copy("of a type that is not derived from std::exception", answers->exception);
   }
+}
+
+/// The same for an exception that cannot be caught, such as one from another thread; ends the process.
+[[noreturn]] void note_exception_and_end() {
+  note_exception();
   std::abort();
 }
 
@@ -100,7 +106,7 @@ void copy(std::string_view text, std::array<char, n>& to) {
 void prepare_for_faults() {
   // A crash must look like a crash, even if a sanitizer would turn it into an exit.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL);
-  std::set_terminate(note_exception);
+  std::set_terminate(note_exception_and_end);
 }
 
 /// Limits the memory that a process may use in addition to what it has.
@@ -268,7 +274,14 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   limit_memory(loaded.process, bytes);
   reply(call.number);
   while (loaded.detector && receive(call)) {
-    answer(*loaded.detector, call);
+    try {
+      answer(*loaded.detector, call);
+    } catch (...) {
+      note_exception();
+      if (loaded.process != getpid()) std::abort();  // the program has ended
+      make_arithmetic_plain();
+      answers->threw = call.number;
+    }
     reply(call.number);
   }
   return 0;
