@@ -46,19 +46,25 @@ bool found_anything(const Statistics& statistics) {
 
 namespace {
 
+/// The queries that a subject was not asked because they break its contract. They say nothing against it.
+std::uint64_t beyond_contract(const Counts& counts) {
+  return counts.faults[static_cast<std::size_t>(Fault::contract)];
+}
+
 /// "NO ANSWER to 3 queries (2 crash, 1 time)"
 std::string fault_text(const Counts& counts) {
   std::vector<std::string> faults;
   for (std::size_t i = 1; i < fault_count; ++i)
-    if (counts.faults[i] != 0)
+    if (counts.faults[i] != 0 && i != static_cast<std::size_t>(Fault::contract))
       faults.push_back(fmt::format("{} {}", with_separators(counts.faults[i]), fault_names[i]));
-  return fmt::format("NO ANSWER to {} ({})", counted(counts.faults_total(), "query", "queries"),
+  return fmt::format("NO ANSWER to {} ({})",
+                     counted(counts.faults_total() - beyond_contract(counts), "query", "queries"),
                      fmt::join(faults, ", "));
 }
 
 SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   const bool missed = counts.false_negatives > 0;
-  const bool faulty = counts.faults_total() > 0;
+  const bool faulty = counts.faults_total() > beyond_contract(counts);
   const bool refuted = counts.refuted_bounds > 0;
   std::string text =
       missed ? fmt::format("MISSED {} of ", with_separators(counts.false_negatives)) : "no miss in ";
@@ -71,6 +77,9 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
     text += fmt::format(", {}, the farthest {}",
                         counted(counts.false_positives, "false positive", "false positives"),
                         times_the_bound(counts.max_ratio(), counts.distance_unit()));
+  if (beyond_contract(counts) > 0)
+    text += fmt::format("; {} not asked, beyond its contract",
+                        counted(beyond_contract(counts), "query", "queries"));
   return {subject, !missed && !refuted && !faulty, std::move(text)};
 }
 

@@ -108,6 +108,18 @@ TEST(Summary, AFaultAloneFailsItsSubjectAndIsNoFinding) {
               HasSubstr("FAIL mute: no miss in 0 collisions, NO ANSWER to 1 query"));
 }
 
+TEST(Summary, AQueryBeyondAContractIsNoFault) {
+  Statistics statistics;
+  Counts& counts = statistics.counts[{"careful", Kind::edge_edge, "f"}];
+  counts.add({.verdict = {.fault = Fault::contract}}, query, [] { return ""; });
+  EXPECT_THAT(summary_table(statistics),
+              HasSubstr(" ok  careful: no miss in 0 collisions, no false positive; 1 query not asked, beyond "
+                        "its contract"));
+  counts.add({.verdict = {.fault = Fault::crash}}, query, [] { return ""; });
+  EXPECT_THAT(summary_table(statistics),
+              HasSubstr("FAIL careful: no miss in 0 collisions, NO ANSWER to 1 query"));
+}
+
 /// A campaign of a subject that has one false positive at 2.5 times its unit, and may or may not claim a bound.
 Statistics one_far_report(bool measured_by_wang) {
   Statistics statistics;
