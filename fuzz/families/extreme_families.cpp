@@ -204,7 +204,7 @@ std::vector<Family> extreme_families() {
       {.name = "overflow",
        .about = "differences of coordinates overflow, along some axes",
        .make = overflow,
-       .block_cases = 10},  // exact arithmetic is slow
+       .block_cases = 3},  // exact arithmetic is slow
       with_parameter("mixed-scale", "every vertex and every axis has an exponent of its own",
                      {"the exponents, to base 2, are within x of each other", 0, 2000, true, mixed_scale}),
       with_parameter("near-parallel-edges",

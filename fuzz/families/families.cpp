@@ -72,8 +72,8 @@ std::vector<Family> sweep(const Family& family, int steps) {
 std::span<const Family> families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
-    for (auto& theme : {random_families(), extreme_families(), root_families(), range_families(),
-                        motion_families(), file_families(), crossed_families()})
+    for (auto& theme : {random_families(), file_families(), motion_families(), crossed_families(),
+                        root_families(), extreme_families(), range_families()})
       joined.insert(joined.end(), theme.begin(), theme.end());
     return joined;
   }();

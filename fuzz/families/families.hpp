@@ -29,7 +29,7 @@ struct Family {
   bool planted = false;  ///< whether every query is a collision by construction
   std::function<Query(Random&, Kind)> make;
   std::optional<Parameter> parameter{};  ///< each query draws its own value, uniformly
-  std::uint64_t block_cases = 100;       ///< queries per round of a campaign; fewer if they are slow
+  std::uint64_t block_cases = 25;        ///< queries per round of a campaign; fewer if they are slow
   bool timed = true;                     ///< whether the subjects' times count
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
 };
@@ -45,7 +45,7 @@ Family at_value(const Family& family, double value);
 /// fewer whole numbers than steps, each occurs once. Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// All families, in the order in which they are listed.
+/// All families, in the order in which they are listed and asked: the extreme ones come last.
 std::span<const Family> families();
 
 /// A family by its name, NAME or NAME@VALUE. For an unknown name, throws an Error that lists the known

@@ -318,7 +318,7 @@ Family search(std::string name, std::string about, std::function<Query(Random&, 
   return {.name = std::move(name),
           .about = std::move(about),
           .make = std::move(make),
-          .block_cases = 4,
+          .block_cases = 1,
           .timed = false};
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "fuzz/subjects/batch_subject.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 #include "oracle/contract.hpp"
 
 namespace nearmiss {
@@ -16,16 +16,16 @@ namespace {
 constexpr Verdict not_asked{.fault = Fault::contract};
 
 /// A subject that is asked only queries that keep its contract, or only those that do not.
-class Contracted final : public BatchSubject {
+class Contracted final : public ForwardingSubject {
  public:
   Contracted(std::shared_ptr<const Subject> subject, bool keeps)
-      : BatchSubject(subject->name() + std::string(keeps ? "" : beyond_contract)),
+      : ForwardingSubject(subject->name() + std::string(keeps ? "" : beyond_contract), *subject),
         subject_(std::move(subject)),
         keeps_(keeps) {}
 
   [[nodiscard]] const Subject& subject() const { return *subject_; }
 
-  using BatchSubject::decide;
+  using ForwardingSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     const Part part = asked(queries);
     std::vector<Verdict> answers(part.queries.size());
@@ -47,22 +47,8 @@ class Contracted final : public BatchSubject {
     part.spread(times, nanoseconds, std::optional<std::uint64_t>());
   }
 
-  [[nodiscard]] double distance_bound(const Query& query) const override {
-    return subject_->distance_bound(query);
-  }
-  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
-    return subject_->ask_bound(query);
-  }
-  [[nodiscard]] bool claims_bound() const override { return subject_->claims_bound(); }
-  [[nodiscard]] bool decides(Kind kind) const override { return subject_->decides(kind); }
-  [[nodiscard]] Contract contract() const override { return subject_->contract(); }
-  [[nodiscard]] bool rounds() const override { return subject_->rounds(); }
-  [[nodiscard]] Query rounded(const Query& query) const override { return subject_->rounded(query); }
-  [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
-    return subject_->fault_text(verdict);
-  }
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
-    return asks(query) ? subject_->needed_tolerance(query) : subject_->Subject::needed_tolerance(query);
+    return asks(query) ? subject_->needed_tolerance(query) : Subject::needed_tolerance(query);
   }
 
  private:

@@ -27,10 +27,11 @@ void Sieve::shrink(std::vector<Finding>& findings) const {
   in_parallel(jobs_, findings.size(), [&](std::size_t i) {
     Finding& finding = findings[i];
     if (finding.is_shrunk) return;
+    constexpr std::chrono::seconds longest(1);  // so that a slow subject spends its time on cases
     try {
       // Every step would take as long as the time limit. `nearmiss shrink` does it.
       const bool is_late = finding.what == Finding::What::fault && is_of_time_limit(finding.signature);
-      if (!is_late) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_);
+      if (!is_late) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_, longest);
       finding.is_shrunk = true;
     } catch (const Stopped&) {  // the finding stays as it is
     }

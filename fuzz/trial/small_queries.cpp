@@ -195,15 +195,18 @@ const std::vector<SmallQuery>& small_queries(Kind kind) {
 std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
                                             const std::function<bool(const Query&)>& fails, const Stop& stop,
                                             std::chrono::milliseconds grace) {
-  constexpr std::size_t batch = 64;
+  constexpr std::size_t largest_batch = 64;   // the first ones are smaller: the search may end soon
   constexpr std::ptrdiff_t most_faults = 64;  // a process that ends must be started again
   const std::span list(small_queries(finding.query.kind));
   const Complexity known = complexity(finding.query);
   std::ptrdiff_t faults = 0;
   std::vector<Verdict> verdicts;
-  for (std::size_t first = 0; first < list.size() && faults < most_faults; first += batch) {
+  std::size_t first = 0;
+  for (std::size_t batch = 1; first < list.size() && faults < most_faults;
+       batch = std::min(2 * batch, largest_batch)) {
     stop.check(grace);
     const auto asked = list.subspan(first, std::min(batch, list.size() - first));
+    first += asked.size();
     if (!ask(subject, asked, verdicts)) continue;
     for (std::size_t i = 0; i < asked.size(); ++i) {
       if (!(asked[i].complexity < known)) return std::nullopt;

@@ -146,6 +146,29 @@ void ask(const Detector& detector, std::uint64_t call, std::uint32_t first, std:
   }
 }
 
+/// The same, and measures the time of all threads, since a plug-in may have threads of its own. Some queries are decided
+/// before that, so that the code is in the caches; but not if the first takes so long that this makes no difference.
+std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::uint32_t first,
+                           std::uint32_t last, std::uint32_t step) {
+  constexpr std::uint64_t long_query = 1'000'000;
+  const auto ask_some = [&](const Detector& asked, std::uint32_t from, std::uint32_t to) {
+    ask(asked, call, from, to, step);
+  };
+  const auto timed = [&](std::uint32_t from, std::uint32_t to) {
+    return time_beyond(
+        CLOCK_PROCESS_CPUTIME_ID, [&] { ask_some(detector, from, to); },
+        [&] { ask_some(Detector::empty(), from, to); });
+  };
+  const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
+  ask_some(Detector::empty(), first, few);
+  if (step == 1 && first < last) {
+    const std::uint64_t of_first = timed(first, first + 1);
+    if (of_first >= long_query) return of_first + timed(first + 1, last);
+  }
+  ask_some(detector, first, few);
+  return timed(first, last);
+}
+
 void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first; i < last; ++i) {
     begin(i);
@@ -155,33 +178,23 @@ void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t fir
 }
 
 void answer(const Detector& detector, const Call& call) {
-  const Detector& empty = Detector::empty();
   const std::uint32_t first = questions->first;
   const std::uint32_t last = std::min<std::uint32_t>(questions->last, batch_size);
   const auto step = static_cast<std::uint32_t>(std::min(detector.info().batch, batch_size));
-  const auto ask_all = [&](const Detector& asked, std::uint32_t end) {
-    ask(asked, call.number, first, end, step);
-  };
   switch (call.request) {
     case Request::load:
       break;  // it is loaded
     case Request::decide:
-      ask_all(detector, last);
+      ask(detector, call.number, first, last, step);
       break;
-    case Request::decide_timed: {
-      const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
-      ask_all(empty, few);
-      ask_all(detector, few);
-      // The time of all threads, since a plug-in may have threads of its own.
-      answers->nanoseconds = time_beyond(
-          CLOCK_PROCESS_CPUTIME_ID, [&] { ask_all(detector, last); }, [&] { ask_all(empty, last); });
+    case Request::decide_timed:
+      answers->nanoseconds = time_of_warm(detector, call.number, first, last, step);
       break;
-    }
     case Request::time_each:
       for (std::uint32_t i = first; i < last; ++i)
         answers->of[i].nanoseconds = best_time_beyond(
             CLOCK_PROCESS_CPUTIME_ID, [&] { ask(detector, call.number, i, i + 1, 1); },
-            [&] { ask(empty, call.number, i, i + 1, 1); });
+            [&] { ask(Detector::empty(), call.number, i, i + 1, 1); });
       break;
     case Request::bounds:
       give_bounds(detector, call.number, first, last);

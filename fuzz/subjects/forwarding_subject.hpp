@@ -1,0 +1,51 @@
+// A subject that passes everything on to another one.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "fuzz/subjects/batch_subject.hpp"
+
+namespace nearmiss {
+
+/// Passes everything on to another subject, which must outlive it. A derived class changes how it is asked: in decide()
+/// for batches, which decides single queries, too; decide_timed() and time_each() do not call decide().
+class ForwardingSubject : public BatchSubject {
+ public:
+  ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}
+
+  using BatchSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    to_.decide(queries, verdicts);
+  }
+  BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    return to_.decide_timed(queries, verdicts);
+  }
+  void time_each(std::span<const Query> queries,
+                 std::span<std::optional<std::uint64_t>> nanoseconds) const override {
+    to_.time_each(queries, nanoseconds);
+  }
+  [[nodiscard]] double distance_bound(const Query& query) const override { return to_.distance_bound(query); }
+  [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override { return to_.ask_bound(query); }
+  [[nodiscard]] bool claims_bound() const override { return to_.claims_bound(); }
+  [[nodiscard]] bool decides(Kind kind) const override { return to_.decides(kind); }
+  [[nodiscard]] Contract contract() const override { return to_.contract(); }
+  [[nodiscard]] bool rounds() const override { return to_.rounds(); }
+  [[nodiscard]] Query rounded(const Query& query) const override { return to_.rounded(query); }
+  [[nodiscard]] std::string fault_text(const Verdict& verdict) const override {
+    return to_.fault_text(verdict);
+  }
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    return to_.needed_tolerance(query);
+  }
+
+ protected:
+  [[nodiscard]] const Subject& to() const { return to_; }
+
+ private:
+  const Subject& to_;
+};
+
+}  // namespace nearmiss
