@@ -42,7 +42,7 @@ class Rounds {
   [[nodiscard]] std::uint64_t largest() const { return std::uint64_t{1} << doublings_; }
 
  private:
-  std::uint64_t doublings_ = 6;
+  std::uint64_t doublings_ = 7;
 };
 
 /// The number of the plan's cases for family f, in proportion to the size of its blocks.

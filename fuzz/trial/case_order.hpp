@@ -1,7 +1,7 @@
 // The order of a campaign's cases: round by round, family by family.
 //
 // A round has a block of cases of every family. The first round has `block_cases` of a family, and every later round twice
-// as many as the one before, until a block is 64 times as large: what is decided at any time is spread over all families,
+// as many as the one before, until a block is 128 times as large: what is decided at any time is spread over all families,
 // and subjects soon get large batches. A campaign with a given number of cases is divided into 64 rounds or more where that
 // is possible, so that its shards, which have every n-th round, are of about the same size.
 #pragma once

@@ -36,7 +36,7 @@ TEST(CaseOrder, HasRoundsThatDouble) {
   const CampaignPlan plan = plan_of(0);
   Blocks cases(plan);
   std::uint64_t first = 0;
-  for (const std::uint64_t multiple : {1, 2, 4, 8, 16, 32, 64, 64, 64}) {
+  for (const std::uint64_t multiple : {1, 2, 4, 8, 16, 32, 64, 128, 128, 128}) {
     for (const Family& family : plan.families) {
       const auto block = cases.next();
       EXPECT_EQ(block->family, &family);
