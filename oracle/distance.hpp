@@ -2,15 +2,10 @@
 #pragma once
 
 #include "ccd/query.hpp"
+#include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/distance/needed_distance.hpp"
 
 namespace nearmiss {
-
-/// lo <= the exact value <= hi.
-struct Enclosure {
-  double lo = 0;
-  double hi = 0;
-};
 
 /// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
 /// or lo and hi are as near to each other as doubles can be.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "ccd/query.hpp"
-#include "oracle/distance.hpp"
+#include "oracle/contact_time.hpp"
 #include "oracle/filter/filter.hpp"
 
 namespace nearmiss {
@@ -39,14 +39,7 @@ bool collides(const Query& query);
 /// The same by exact arithmetic only, without the filters.
 bool collides_exactly(const Query& query);
 
-/// The time at which two primitives first share a point.
-struct ContactTime {
-  Enclosure enclosure;   ///< one number if the time is a double and `width` is 0
-  std::string rational;  ///< the time itself, "p/q" or "p" in lowest terms, if it is rational; else empty
-};
-
-/// The earliest time at which the primitives share a point; nothing if they never do. Its enclosure is at
-/// most `width` wide, or as narrow as doubles allow.
-std::optional<ContactTime> earliest_time(const Query& query, double width = 0);
+/// The earliest time at which the primitives share a point; nothing if they never do.
+std::optional<ContactTime> earliest_time(const Query& query);
 
 }  // namespace nearmiss

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/query_text.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/csv.hpp"
@@ -35,8 +36,8 @@ using nlohmann::ordered_json;
 /// The time at which the page shows a query: at the first contact, or without contact when the primitives are
 /// closest.
 double moment(const Query& query) {
-  const auto contact = earliest_time(query, 1e-6);
-  return contact ? contact->enclosure.lo : closest_time(query);
+  auto contact = earliest_time(query);
+  return contact ? contact->enclosure(1e-6).lo : closest_time(query);
 }
 
 ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bool is_new) {

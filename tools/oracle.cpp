@@ -10,6 +10,7 @@
 #include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/agreement.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -83,10 +84,10 @@ std::string help_on_methods() {
 std::string answer(const Query& query, const Options& options) {
   std::string line = collides_by(options.method, query) ? "1" : "0";
   if (options.toi || options.rational) {
-    const auto time = earliest_time(query, options.width);
-    line += time ? show(time->enclosure) : " inf inf";
+    auto time = earliest_time(query);
+    line += time ? show(time->enclosure(options.width)) : " inf inf";
     if (options.rational)
-      line += !time ? " -" : time->rational.empty() ? " irrational" : " " + time->rational;
+      line += !time ? " -" : time->rational().empty() ? " irrational" : " " + time->rational();
   }
   if (options.distance) line += show(minimum_distance(query));
   return line;

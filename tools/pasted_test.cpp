@@ -36,9 +36,9 @@ std::string vertices(const Query& query, std::size_t time, Form language) {
 }
 
 std::string what_is_true(const Query& query) {
-  const auto contact = earliest_time(query);
+  auto contact = earliest_time(query);
   if (!contact) return "The primitives do not touch at any t in [0, 1].";
-  const auto [lo, hi] = contact->enclosure;
+  const auto [lo, hi] = contact->enclosure();
   if (lo == hi) return fmt::format("The primitives touch, first at t = {}.", to_exact(lo));
   return fmt::format("The primitives touch, first between t = {} and t = {}.", to_hex(lo), to_hex(hi));
 }

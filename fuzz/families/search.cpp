@@ -13,6 +13,7 @@
 
 #include "ccd/elementary.hpp"
 #include "fuzz/families/contacts.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"
 

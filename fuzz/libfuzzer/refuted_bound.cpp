@@ -3,6 +3,7 @@
 
 #include "fuzz/libfuzzer/query_target.hpp"
 #include "fuzz/libfuzzer/untraced.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
 void nearmiss::libfuzzer::examine(const Query& query) {

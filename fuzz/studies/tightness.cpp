@@ -13,6 +13,7 @@
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

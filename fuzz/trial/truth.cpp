@@ -5,6 +5,7 @@
 #include <span>
 
 #include "fuzz/trial/signatures.hpp"
+#include "oracle/distance.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {

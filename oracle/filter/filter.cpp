@@ -40,6 +40,15 @@ FilterStage search_in_double_words(const Query& query) {
   return stage == FilterStage::undecided ? search_in_double_words(query) : stage;
 }
 
+/// If there is a contact, the first one is in this interval.
+template <class Real>
+std::optional<Enclosure> search_for_time(const Query& query, const Bernstein<Real, 4>& F,
+                                         const StepPart<Real>& whole) {
+  ContactSearch<Real> search(query.kind, whole, whole, F, 0, Asked::when);
+  search.run();
+  return search.first();
+}
+
 FilterBatch* filter_with(Instructions instructions) {
   switch (instructions) {
     case Instructions::avx512:
@@ -80,6 +89,22 @@ FilterStage filter(const Query& query) {
   whole.x21 = difference<double>(x, 2, 1);
   whole.x31 = difference<double>(x, 3, 1);
   return look_closer(query, whole, F);
+}
+
+std::optional<Enclosure> time_of_contact(const Query& query) {
+  using namespace certified;
+  const PlainArithmetic guard;
+  if (!is_finite(query)) return Enclosure{0, 1};
+  const auto whole = whole_step<double>(coordinates(query));
+  const auto F = coplanarity(whole.a, whole.b, whole.c);
+  if (common_sign(F.b, F.error) != 0) return std::nullopt;
+  if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return Enclosure{0, 0};
+  constexpr double narrow = 0x1p-30;
+  const auto time = search_for_time(query, F, whole);
+  if (!time || time->hi - time->lo <= narrow) return time;
+  const auto whole_in_words = whole_step<DoubleWord>(coordinates(query));
+  return search_for_time(query, coplanarity(whole_in_words.a, whole_in_words.b, whole_in_words.c),
+                         whole_in_words);
 }
 
 bool has(Instructions instructions) {

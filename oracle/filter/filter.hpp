@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "ccd/query.hpp"
+#include "oracle/arithmetic/enclosure.hpp"
 
 namespace nearmiss {
 
@@ -35,6 +37,10 @@ constexpr bool is_collision(FilterStage stage) {
 /// Decides a query in double arithmetic with certified bounds, or leaves it undecided; it does not include
 /// the box test. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
+
+/// An interval that contains the time of the first contact, if there is one, found in the same arithmetic; nothing if there
+/// certainly is none. Most are narrower than 2^-30. It does not include the box test.
+std::optional<Enclosure> time_of_contact(const Query& query);
 
 /// The x86-64 instruction sets that can decide many queries at once.
 enum class Instructions : std::uint8_t { sse2, avx2, avx512 };

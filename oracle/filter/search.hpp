@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
+#include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/arithmetic/guess.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/filter/step_part.hpp"
@@ -15,37 +17,43 @@ namespace nearmiss::certified {
 /// A subinterval that becomes a part of its own is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-struct TimeInterval {
-  double lo, hi;
-};
+/// What is asked: whether there is a contact, or also when the first one is.
+enum class Asked : std::uint8_t { whether, when };
 
-/// Searches a part of the step. It drops an interval if F has one sign or two weights have opposite signs on
-/// it, and splits an interval if that helps. It ends when all intervals are dropped, one contains a
+/// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two weights have
+/// opposite signs on it, and splits an interval if that helps. It ends when all intervals are dropped, one contains a
 /// collision, or one is unclear. An unclear interval is searched again as a part of its own, in which the
 /// vectors and hence their errors are smaller.
 template <class Real>
 class ContactSearch {
  public:
   ContactSearch(Kind kind, const StepPart<Real>& whole, const StepPart<Real>& part,
-                const Bernstein<Real, 4>& F, int depth)
-      : kind_(kind), whole_(whole), part_(part), F_(F), depth_(depth) {}
+                const Bernstein<Real, 4>& F, int depth, Asked asked = Asked::whether)
+      : kind_(kind), whole_(whole), part_(part), F_(F), depth_(depth), asked_(asked) {}
 
   /// Returns `weights` (no collision in this part), `sign_change` (a collision), or `undecided`.
   FilterStage run() {
-    if (!(F_.error < HUGE_VAL)) return FilterStage::undecided;  // overflow
+    int budget = F_.error < HUGE_VAL ? 64 : 0;  // nothing can be said after overflow
     push({0, 1});
-    for (int budget = 64; count_ > 0; --budget) {
-      if (budget == 0) return FilterStage::undecided;
-      const FilterStage stage = look(intervals_[--count_]);
+    while (count_ > 0) {
+      const Enclosure interval = intervals_[--count_];
+      const FilterStage stage = budget-- > 0 ? look(interval) : unclear(interval);
       if (stage != FilterStage::weights) return stage;
     }
-    return FilterStage::weights;
+    return found_ ? FilterStage::sign_change : unclear_ ? FilterStage::undecided : FilterStage::weights;
+  }
+
+  /// An interval of the step that contains the time of the first contact in this part, if there is one; for run() that was
+  /// asked when.
+  [[nodiscard]] std::optional<Enclosure> first() const {
+    if (!found_ || !unclear_) return found_ ? found_ : unclear_;
+    return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
   }
 
  private:
   // Each of these returns `weights` if the search can go on.
 
-  FilterStage look(TimeInterval interval) {  // by value, since other intervals take its place
+  FilterStage look(const Enclosure& interval) {
     const auto [lo, hi] = interval;
     const auto exact_f = F_.on(lo, hi);
     if (common_sign(exact_f, F_.error) != 0) return FilterStage::weights;
@@ -60,8 +68,8 @@ class ContactSearch {
     const int agreement = weights.agreement_on(lo, hi);
     if (agreement < 0) return FilterStage::weights;
     if (changes) {
-      if (agreement > 0) return FilterStage::sign_change;
-      return look_around(interval, f, weights);
+      if (agreement > 0 && asked_ == Asked::whether) return FilterStage::sign_change;
+      return look_around(interval, f, weights, agreement > 0);
     }
 
     double split = guess;
@@ -74,7 +82,7 @@ class ContactSearch {
       if (right_known) split = lo + (hi - lo) * beyond_error(f);
       if (left_known) split = hi - (hi - lo) * beyond_error(backwards(f));
     }
-    if (!(lo < split && split < hi)) return FilterStage::undecided;
+    if (!(lo < split && split < hi)) return unclear(interval);
     return go_on_beside(interval, {split, split});
   }
 
@@ -93,7 +101,7 @@ class ContactSearch {
   /// About the time at which F, given by its Bernstein coefficients, has an extremum in an interval; the
   /// middle if it has none. If the extremum is at an end to double precision, the result is a time near that
   /// end.
-  [[nodiscard]] static double turn(const TimeInterval& interval, const std::array<double, 4>& f) {
+  [[nodiscard]] static double turn(const Enclosure& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
     if (!(part > 0 && part < 1)) return lo + 0.5 * (hi - lo);
@@ -102,9 +110,9 @@ class ContactSearch {
     return at <= lo ? lo + near * (hi - lo) : at >= hi ? hi - near * (hi - lo) : at;
   }
 
-  /// Examines an interval in which F certainly changes its sign.
-  FilterStage look_around(const TimeInterval& interval, const std::array<double, 4>& f,
-                          const Weights<Real>& weights) {
+  /// Examines an interval in which F certainly changes its sign; `agree`: and in which all weights have one sign.
+  FilterStage look_around(const Enclosure& interval, const std::array<double, 4>& f,
+                          const Weights<Real>& weights, bool agree) {
     // The root is computed from the end at which |F| is smaller, so it is as precise as F is there.
     const double f_lo = f[0];
     const bool from_lo = std::abs(f[0]) <= std::abs(f[3]);
@@ -116,26 +124,42 @@ class ContactSearch {
                                    interval.lo, interval.hi);
     double h = 4 * F_.error / std::abs(F.slope(part)) * length + 0x1p-52 * root;
     for (int widening = 0; widening < 4; ++widening, h *= 8) {
-      const TimeInterval near{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
+      const Enclosure near{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
       const double left = f_lo < 0 ? -F_.at(near.lo) : F_.at(near.lo);
       const double right = f_lo < 0 ? F_.at(near.hi) : -F_.at(near.hi);
       if (!(left > F_.error && right > F_.error)) continue;
-      const int agreement = weights.agreement_near(root, h);
-      if (agreement > 0) return FilterStage::sign_change;
+      const int agreement = agree ? 1 : weights.agreement_near(root, h);
+      if (agreement > 0) return found(near, interval);
       if (agreement < 0) return go_on_beside(interval, widest_opposed(interval, root, near, weights));
       const FilterStage closer = zoom(near);
+      if (closer == FilterStage::sign_change) return look_before(near, interval);
       return closer == FilterStage::weights ? go_on_beside(interval, near) : closer;
     }
-    return zoom(interval);
+    return agree ? found(interval, interval) : zoom(interval);
+  }
+
+  /// There is a contact in `near`, a part of an interval.
+  FilterStage found(const Enclosure& near, const Enclosure& interval) {
+    found_ = in_step(near, is_whole() ? 0 : zoom_rounding);
+    return look_before(near, interval);
+  }
+
+  /// The same if `found_` is known. What comes later does not matter.
+  FilterStage look_before(const Enclosure& near, const Enclosure& interval) {
+    if (asked_ == Asked::whether || interval.lo == near.lo || F_.sign_on(interval.lo, near.lo) != 0)
+      return FilterStage::sign_change;
+    count_ = 0;
+    push({interval.lo, near.lo});
+    return FilterStage::weights;
   }
 
   /// The widest of some intervals around a root in which two weights certainly have opposite signs, as in
   /// `near`.
-  TimeInterval widest_opposed(const TimeInterval& interval, double root, const TimeInterval& near,
-                              const Weights<Real>& weights) const {
+  Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
+                           const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
       const double h = part * (interval.hi - interval.lo);
-      const TimeInterval wide{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
+      const Enclosure wide{std::max(interval.lo, root - h), std::min(interval.hi, root + h)};
       if (wide.lo <= near.lo && near.hi <= wide.hi && weights.agreement_on(wide.lo, wide.hi) < 0) return wide;
     }
     return near;
@@ -149,30 +173,53 @@ class ContactSearch {
     return *weights_;
   }
 
-  /// Continues with the two parts of an interval on both sides of its middle.
-  FilterStage go_on_beside(const TimeInterval& interval, const TimeInterval& middle) {
-    if (interval.lo < middle.lo && !push({interval.lo, middle.lo})) return FilterStage::undecided;
-    if (middle.hi < interval.hi && !push({middle.hi, interval.hi})) return FilterStage::undecided;
+  /// Continues with the two parts of an interval on both sides of its middle, the earlier one first.
+  FilterStage go_on_beside(const Enclosure& interval, const Enclosure& middle) {
+    if (middle.hi < interval.hi && !push({middle.hi, interval.hi})) return unclear(interval);
+    if (interval.lo < middle.lo && !push({interval.lo, middle.lo})) return unclear(interval);
+    return FilterStage::weights;
+  }
+
+  /// It is not known whether there is a contact in an interval.
+  FilterStage unclear(const Enclosure& interval) {
+    if (asked_ == Asked::whether) return FilterStage::undecided;
+    return unclear_in_step(in_step(interval, is_whole() ? 0 : zoom_rounding));
+  }
+
+  FilterStage unclear_in_step(const std::optional<Enclosure>& time) {
+    if (asked_ == Asked::whether) return FilterStage::undecided;
+    if (!unclear_) unclear_ = time;
+    unclear_ = Enclosure{std::min(unclear_->lo, time->lo), std::max(unclear_->hi, time->hi)};
     return FilterStage::weights;
   }
 
   /// Searches the interval as a part of its own, if that is much smaller than this part.
-  FilterStage zoom(const TimeInterval& interval) const {
+  FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
-    if (depth_ == deepest || interval.hi - interval.lo > 0.5) return FilterStage::undecided;
-    // Rounds outward by more than the error of four roundings of numbers up to 1. The additional range is
-    // still inside the step.
-    const double length = part_.end - part_.begin;
-    const double begin = std::max(part_.begin, part_.begin + interval.lo * length - zoom_rounding);
-    const double end = std::min(part_.end, part_.begin + interval.hi * length + zoom_rounding);
-    if (length <= narrowest) return FilterStage::undecided;
+    if (depth_ == deepest || interval.hi - interval.lo > 0.5) return unclear(interval);
+    if (part_.end - part_.begin <= narrowest) return unclear(interval);
+    const auto [begin, end] = in_step(interval, zoom_rounding);
     const StepPart<Real> part = part_of(whole_, begin, end);
     const auto F = coplanarity(part.a, part.b, part.c);
-    return ContactSearch(kind_, whole_, part, F, depth_ + 1).run();
+    ContactSearch closer(kind_, whole_, part, F, depth_ + 1, asked_);
+    const FilterStage stage = closer.run();
+    if (stage == FilterStage::sign_change) found_ = closer.first();
+    return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
-  bool push(const TimeInterval& interval) {
+  /// Whether this part is the step; then its times are those of the step.
+  [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
+
+  /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the error of four
+  /// roundings of numbers up to 1. The additional range is still inside the step.
+  [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
+    const double length = part_.end - part_.begin;
+    return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),
+            std::min(part_.end, part_.begin + interval.hi * length + rounding)};
+  }
+
+  bool push(const Enclosure& interval) {
     if (count_ == intervals_.size()) return false;
     intervals_[count_++] = interval;
     return true;
@@ -185,9 +232,12 @@ class ContactSearch {
   const StepPart<Real>& part_;
   const Bernstein<Real, 4>& F_;
   int depth_;
+  Asked asked_;
+  std::optional<Enclosure> found_;  ///< of the step; contains the first contact that is not before `unclear_`
+  std::optional<Enclosure> unclear_;  ///< of the step; contains all intervals that are unclear
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;
-  std::array<TimeInterval, 64> intervals_;
+  std::array<Enclosure, 64> intervals_;
   std::size_t count_ = 0;
 };
 

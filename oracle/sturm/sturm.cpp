@@ -165,22 +165,35 @@ int multiplicity(const IntegerPolynomial& F, const SturmRoot& t) {
   return m;
 }
 
-/// Decides the case that F is identically zero. The set of colliding times is closed, and its least element
-/// is 0 or a root of one of the polynomials whose signs decide.
-bool collides_in_plane(Primitives& primitives) {
+/// The times of which the first contact is one, if there is a contact: the roots of F. If F is identically zero, the set of
+/// colliding times is closed, and its least element is 0 or a root of one of the polynomials whose signs decide. Calls
+/// `holds` with each of these times until it returns true; returns whether it did.
+template <class Holds>
+bool any_candidate(Primitives& primitives, const Holds& holds) {
+  const auto any_root = [&](const IntegerPolynomial& p) {
+    const auto roots = roots_in_unit_interval(p);
+    return std::any_of(roots.begin(), roots.end(), holds);
+  };
+  if (!primitives.F().is_zero()) return any_root(primitives.F());
   std::vector<const IntegerPolynomial*> deciding{&primitives.area()};
   for (const IntegerPolynomial& weight : primitives.weights()) deciding.push_back(&weight);
   for (const SegmentMembership& on : primitives.segments()) {
     deciding.push_back(&on.off_line);
     deciding.push_back(&on.beyond);
   }
-  if (contact_at(primitives, SturmRoot(Dyadic{0, 0})) != ContactPlace::none) return true;
-  return std::any_of(deciding.begin(), deciding.end(), [&](const IntegerPolynomial* p) {
-    if (p->is_zero()) return false;
-    const auto roots = roots_in_unit_interval(*p);
-    return std::any_of(roots.begin(), roots.end(),
-                       [&](const SturmRoot& t) { return contact_at(primitives, t) != ContactPlace::none; });
-  });
+  return holds(SturmRoot(Dyadic{0, 0})) ||
+         std::any_of(deciding.begin(), deciding.end(),
+                     [&](const IntegerPolynomial* p) { return !p->is_zero() && any_root(*p); });
+}
+
+/// A positive multiple of t - time.
+IntegerPolynomial after(double time) {
+  if (time == 0) return IntegerPolynomial({0, 1});
+  const OddMultiple number(time);
+  const Integer one = 1;
+  return number.exponent < 0
+             ? IntegerPolynomial({-Integer(number.odd), one << static_cast<unsigned>(-number.exponent)})
+             : IntegerPolynomial({-(Integer(number.odd) << static_cast<unsigned>(number.exponent)), one});
 }
 
 }  // namespace
@@ -193,7 +206,8 @@ RootCount count_roots(const Query& query) {
   RootCount count;
   if (primitives.F().is_zero()) {
     count.planar = true;
-    count.collision = collides_in_plane(primitives);
+    count.collision = any_candidate(
+        primitives, [&](const SturmRoot& t) { return contact_at(primitives, t) != ContactPlace::none; });
     count.on_boundary = count.collision;
     return count;
   }
@@ -206,6 +220,16 @@ RootCount count_roots(const Query& query) {
     count.with_multiplicity += multiplicity(primitives.F(), t);
   }
   return count;
+}
+
+bool meet_before(const Query& query, double time) {
+  using namespace sturm;
+  const PlainArithmetic guard;
+  Primitives primitives(query);
+  const IntegerPolynomial after_time = after(time);
+  return any_candidate(primitives, [&](const SturmRoot& t) {
+    return t.sign(after_time) < 0 && contact_at(primitives, t) != ContactPlace::none;
+  });
 }
 
 }  // namespace nearmiss

@@ -22,4 +22,7 @@ struct RootCount {
 /// method.
 RootCount count_roots(const Query& query);
 
+/// Whether the primitives share a point at some t in [0, 1] with t < time, by the same method.
+bool meet_before(const Query& query, double time);
+
 }  // namespace nearmiss

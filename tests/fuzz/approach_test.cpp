@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss::certified {

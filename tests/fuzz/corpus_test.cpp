@@ -7,6 +7,7 @@
 #include "ccd/subject.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/defects.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

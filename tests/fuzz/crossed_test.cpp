@@ -60,7 +60,7 @@ TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {
     } else if (levels.when() == When::at_1) {
       EXPECT_TRUE(collides_exactly(at_rest(query, 1))) << index << to_text(levels);
     } else if (levels.roots() == Roots::one && levels.motion() != Motion::rotation) {
-      const double time = earliest_time(query)->enclosure.hi;
+      const double time = earliest_time(query)->enclosure().hi;
       const bool is_early = levels.when() == When::after_0;
       const bool is_late = levels.when() == When::before_1;
       EXPECT_LE(is_late ? 1 - 1.0 / 32 : is_early ? 0x1p-53 : 1.0 / 16, time) << index << to_text(levels);

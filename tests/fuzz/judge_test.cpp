@@ -13,6 +13,7 @@
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 

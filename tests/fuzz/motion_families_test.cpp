@@ -75,7 +75,7 @@ TEST(FirstMoment, MostFirstTouchBefore2ToTheMinus49ButNotAtTheStart) {
     EXPECT_EQ(count_of_400(family, collides_exactly), 400) << family;
     EXPECT_GT(count_of_400(family,
                            [](const Query& query) {
-                             const double time = earliest_time(query)->enclosure.hi;
+                             const double time = earliest_time(query)->enclosure().hi;
                              return 0 < time && time < 0x1p-49 && !collides_exactly(at_rest(query, 0));
                            }),
               300)
@@ -104,8 +104,8 @@ TEST(TouchTwice, MostTouchAtTwoTimes) {
   EXPECT_EQ(count_of_400("touch-twice", collides_exactly), 400);
   EXPECT_GT(count_of_400("touch-twice",
                          [](const Query& query) {
-                           const double first = earliest_time(query)->enclosure.hi;
-                           const double last = 1 - earliest_time(backwards(query))->enclosure.hi;
+                           const double first = earliest_time(query)->enclosure().hi;
+                           const double last = 1 - earliest_time(backwards(query))->enclosure().hi;
                            return last - first >= 1.0 / 16;
                          }),
             300);

@@ -166,7 +166,7 @@ TEST(Mutation, RestoreKeepsACollisionWhereItIs) {
   std::uint64_t number = 0;
   for (const Query& before : first_queries("uniform", 1000)) {
     Random random(2, 0, number++);
-    const auto time = earliest_time(before);
+    auto time = earliest_time(before);
     if (!time) continue;
     ++collisions;
     const Query after = mutation("restore").apply(random, before);

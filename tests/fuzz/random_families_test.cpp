@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "oracle/distance.hpp"
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/sturm.hpp"

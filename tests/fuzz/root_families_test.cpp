@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "fuzz/families/contacts.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
@@ -79,8 +80,8 @@ TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
     const int as_far = count_of_200("even-roots@-2", kind, [&](const Query& query) {
       if (count_roots(query).distinct != 2) return false;
       ++twice;
-      const double first = earliest_time(query)->enclosure.hi;
-      const double last = 1 - earliest_time(reversed(query))->enclosure.hi;
+      const double first = earliest_time(query)->enclosure().hi;
+      const double last = 1 - earliest_time(reversed(query))->enclosure().hi;
       return 0.005 < last - first && last - first < 0.02;
     });
     std::cout << short_name(kind) << ": " << as_far << " of " << twice << "\n";

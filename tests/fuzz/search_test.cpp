@@ -5,6 +5,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/distance.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
@@ -22,33 +23,6 @@ double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return std::nextafter(x, 0.0); }
 
 using Rational = boost::multiprecision::mpq_rational;
-
-/// The value as a double, if a double can represent it.
-std::optional<double> as_double(const Rational& x) {
-  const auto d = x.convert_to<double>();
-  if (std::isfinite(d) && Rational(d) == x) return d;
-  return std::nullopt;
-}
-
-/// The motion up to time t, if doubles can represent it.
-std::optional<Query> until(const Query& query, double t) {
-  Query cut = query;
-  for (std::size_t k = 0; k < 12; ++k) {
-    const Rational start(query.x[k]);
-    const auto end = as_double(start + Rational(t) * (Rational(query.x[12 + k]) - start));
-    if (!end) return std::nullopt;
-    cut.x[12 + k] = *end;
-  }
-  return cut;
-}
-
-/// Whether the motion up to time t collides, by Sturm sequences; nothing if doubles cannot represent this
-/// motion.
-std::optional<bool> collides_until(const Query& query, double t) {
-  const auto cut = until(query, t);
-  if (!cut) return std::nullopt;
-  return count_roots(*cut).collision;
-}
 
 std::string enclosure_disagreement(const Enclosure& d, bool collision) {
   if (!(0 <= d.lo && d.lo <= d.hi)) return "distance: no enclosure";
@@ -102,23 +76,26 @@ std::string distance_disagreement(const Query& query, bool collision) {
 }
 
 std::string time_disagreement(const Query& query, bool collision) {
-  const auto time = earliest_time(query);
+  auto time = earliest_time(query);
   if (time.has_value() != collision) return "time: of no collision";
   if (!time) return "";
-  const auto [lo, hi] = time->enclosure;
-  if (!(0 <= lo && lo <= hi && hi <= 1 && hi <= above(lo))) return "time: no enclosure";
-  if (!time->rational.empty()) {
-    const Rational exact(time->rational);
+  const Enclosure known = time->known();
+  const auto is_enclosure = [](const Enclosure& t) { return 0 <= t.lo && t.lo <= t.hi && t.hi <= 1; };
+  if (!is_enclosure(known)) return "time: no enclosure";
+  // Before the exact time is known, so that the enclosure answers if it can.
+  for (const double at : {known.lo, below(known.lo), known.lo / 2, known.hi, above(known.hi),
+                          (1 + known.hi) / 2, known.lo + (known.hi - known.lo) / 2})
+    if (time->is_before(at) != meet_before(query, at)) return "time: before";
+  const auto [lo, hi] = time->enclosure();
+  if (!is_enclosure({lo, hi}) || hi > above(lo)) return "time: wide";
+  if (lo < known.lo || known.hi < hi) return "time: enclosures apart";
+  if (meet_before(query, lo)) return "time: too late";
+  if (!meet_before(query, above(hi))) return "time: too early";
+  if (lo == hi && meet_before(query, hi)) return "time: not exact";
+  if (const std::string rational = time->rational(); !rational.empty()) {
+    const Rational exact(rational);
     if (exact < Rational(lo) || exact > Rational(hi)) return "time: rational";
     if (lo == hi && exact != Rational(lo)) return "time: rational";
-  }
-  // Tries multiples of 2^-bits around the time. The fewer bits, the more often doubles represent the motion
-  // up to then.
-  for (const int bits : {4, 12, 30}) {
-    const double at = std::ldexp(std::ceil(std::ldexp(hi, bits)), -bits);
-    if (collides_until(query, at) == false) return "time: too early";
-    const double before = std::ldexp(std::ceil(std::ldexp(lo, bits)) - 1, -bits);
-    if (before >= 0 && collides_until(query, before) == true) return "time: too late";
   }
   return "";
 }

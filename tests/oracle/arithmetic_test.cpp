@@ -5,6 +5,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "oracle/agreement.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/arithmetic_modes.hpp"
 #include "tests/queries.hpp"
@@ -39,8 +40,8 @@ std::vector<double> answers(const std::vector<Query>& queries) {
   for (const Query& query : queries) {
     all.push_back(collides(query) ? 1 : 0);
     all.push_back(collides_exactly(query) ? 1 : 0);
-    const auto time = earliest_time(query);
-    all.insert(all.end(), {time ? time->enclosure.lo : 2, time ? time->enclosure.hi : 2});
+    auto time = earliest_time(query);
+    all.insert(all.end(), {time ? time->enclosure().lo : 2, time ? time->enclosure().hi : 2});
     for (const Enclosure& each : {minimum_distance(query), minimum_distance(query, 1e-9)})
       all.insert(all.end(), {each.lo, each.hi});
     all.insert(all.end(), {closest_ratio(query, 0x1p-20), closest_time(query),

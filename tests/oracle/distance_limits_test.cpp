@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/distance.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/moment.hpp"
 #include "oracle/distance/proximity.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "oracle/distance.hpp"
 #include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/distance.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/oracle.hpp"
@@ -121,20 +122,20 @@ TEST(Exact, MixedExponents) {
 
 TEST(EarliestTime, IsExactWhereItIsADouble) {
   for (const double t : {0.0, 0.25, 0.5, 1.0}) {
-    const auto time = earliest_time(falling_vertex(0.25, 0.25, t, t - 1));
+    auto time = earliest_time(falling_vertex(0.25, 0.25, t, t - 1));
     ASSERT_TRUE(time);
-    EXPECT_EQ(time->enclosure.lo, t);
-    EXPECT_EQ(time->enclosure.hi, t);
+    EXPECT_EQ(time->enclosure().lo, t);
+    EXPECT_EQ(time->enclosure().hi, t);
   }
 }
 
 TEST(EarliestTime, EnclosesARationalTimeThatIsNoDoubleAndNamesIt) {
   // The vertex starts at height 1 and falls by 3, so t = 1/3, which is not a double.
-  const auto third = earliest_time(falling_vertex(0.25, 0.25, 1, -2));
+  auto third = earliest_time(falling_vertex(0.25, 0.25, 1, -2));
   ASSERT_TRUE(third);
-  EXPECT_EQ(third->rational, "1/3");
-  EXPECT_EQ(third->enclosure.lo, 1.0 / 3);  // rounded down
-  EXPECT_EQ(third->enclosure.hi, std::nextafter(1.0 / 3, 1));
+  EXPECT_EQ(third->rational(), "1/3");
+  EXPECT_EQ(third->enclosure().lo, 1.0 / 3);  // rounded down
+  EXPECT_EQ(third->enclosure().hi, std::nextafter(1.0 / 3, 1));
 }
 
 TEST(EarliestTime, EnclosesAnIrrationalTime) {
@@ -142,25 +143,26 @@ TEST(EarliestTime, EnclosesAnIrrationalTime) {
   Query query = falling_vertex(0, 0.5, 1, 0);
   query.set_start(3, {0, 1, 0});
   query.set_end(3, {0, 2, 1});
-  const auto time = earliest_time(query);
+  auto time = earliest_time(query);
   ASSERT_TRUE(time);
-  EXPECT_TRUE(time->rational.empty());
-  EXPECT_EQ(std::nextafter(time->enclosure.lo, 1), time->enclosure.hi);
+  EXPECT_TRUE(time->rational().empty());
+  EXPECT_EQ(std::nextafter(time->enclosure().lo, 1), time->enclosure().hi);
   // (1 - t) (1 + t) = t / 2
   const double t = (std::sqrt(17.0) - 1) / 4;
-  EXPECT_NEAR(time->enclosure.lo, t, 1e-15);
-  const auto wide = earliest_time(query, 1e-3);
-  EXPECT_LE(wide->enclosure.lo, time->enclosure.lo);
-  EXPECT_GE(wide->enclosure.hi, time->enclosure.hi);
-  EXPECT_LE(wide->enclosure.hi - wide->enclosure.lo, 1e-3);
+  EXPECT_NEAR(time->enclosure().lo, t, 1e-15);
+  auto wide = earliest_time(query);
+  const Enclosure in_wide = wide->enclosure(1e-3);
+  EXPECT_LE(in_wide.lo, time->enclosure().lo);
+  EXPECT_GE(in_wide.hi, time->enclosure().hi);
+  EXPECT_LE(in_wide.hi - in_wide.lo, 1e-3);
 }
 
 TEST(EarliestTime, IsTheFirstOfSeveral) {
   // Planar motion along y = 1/4: the vertex is inside from t = 1/4 on, when x = 0.
-  const auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
+  auto time = earliest_time(vertex_against_unit_triangle({-1, 0.25, 0}, {3, 0.25, 0}));
   ASSERT_TRUE(time);
-  EXPECT_EQ(time->enclosure.lo, 0.25);
-  EXPECT_EQ(time->rational, "1/4");
+  EXPECT_EQ(time->enclosure().lo, 0.25);
+  EXPECT_EQ(time->rational(), "1/4");
 }
 
 TEST(EarliestTime, IsNothingWithoutACollision) { EXPECT_FALSE(earliest_time(falling_vertex(2, 2, 1, -1))); }
@@ -188,12 +190,12 @@ TEST(EarliestTime, IsThatBeforeWhichNothingCollides) {
     if (is_planar)
       for (std::size_t k = 2; k < 24; k += 3) query.x[k] = query.x[k - 1] - 2 * query.x[k - 2];
     SCOPED_TRACE(testing::repeat(i, query));
-    const auto time = earliest_time(query);
+    auto time = earliest_time(query);
     ASSERT_EQ(time.has_value(), collides(query));
     if (!time) continue;
-    const double t = std::ceil(time->enclosure.hi / unit) * unit;
+    const double t = std::ceil(time->enclosure().hi / unit) * unit;
     ASSERT_TRUE(collides(until(query, t)));
-    const double before = (std::ceil(time->enclosure.lo / unit) - 1) * unit;
+    const double before = (std::ceil(time->enclosure().lo / unit) - 1) * unit;
     if (before < 0) continue;
     ASSERT_FALSE(collides(until(query, before)));
     ++(is_planar ? planar : later);

@@ -105,8 +105,8 @@ TEST(Features, FitTheSecondAnswer) {
     ++collisions;
     using Multiplicity = ContactFeatures::Multiplicity;
     EXPECT_EQ(features->multiplicity == Multiplicity::planar, count.planar);
-    EXPECT_EQ(features->time == ContactFeatures::Time::start, earliest_time(query)->rational == "0");
-    EXPECT_EQ(features->time == ContactFeatures::Time::end, earliest_time(query)->rational == "1");
+    EXPECT_EQ(features->time == ContactFeatures::Time::start, earliest_time(query)->rational() == "0");
+    EXPECT_EQ(features->time == ContactFeatures::Time::end, earliest_time(query)->rational() == "1");
     if (count.distinct != 1) continue;  // with one root, the first contact is the only one
     EXPECT_EQ(features->multiplicity == Multiplicity::multiple, count.with_multiplicity > 1);
     const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&

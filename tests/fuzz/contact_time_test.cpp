@@ -1,0 +1,109 @@
+// The time of the first contact: what certified arithmetic knows about it, and comparisons with any time.
+#include "oracle/contact_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "fuzz/families/families.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/sturm/sturm.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+double above(double x) { return std::nextafter(x, 2); }
+double below(double x) { return std::nextafter(x, 0); }
+
+/// Times at which a comparison is hard, and some others.
+std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow) {
+  std::vector<double> times{0, 1, 0.5};
+  for (const double end : {known.lo, known.hi, narrow.lo, narrow.hi})
+    for (const double time : {below(end), end, above(end), end / 2, (1 + end) / 2}) times.push_back(time);
+  return times;
+}
+
+class ContactTimes : public ::testing::TestWithParam<Family> {};
+INSTANTIATE_TEST_SUITE_P(All, ContactTimes, ::testing::ValuesIn(families().begin(), families().end()),
+                         [](const auto& each) {
+                           std::string name = each.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(ContactTimes, AreComparedAsBySturmSequences) {
+  const Family& family = GetParam();
+  const std::uint64_t count = family.block_cases < 25 ? 20 : 200;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Query query = make_query(family, 1, i);
+    auto time = earliest_time(query);
+    if (!time) continue;
+    const Enclosure known = time->known();
+    const Enclosure narrow = earliest_time(query)->enclosure();
+    EXPECT_LE(known.lo, narrow.lo) << i;
+    EXPECT_LE(narrow.hi, known.hi) << i;
+    EXPECT_LE(narrow.hi, above(narrow.lo)) << i;
+    for (const double at : times_around(known, narrow))
+      EXPECT_EQ(time->is_before(at), meet_before(query, at)) << family.name << ':' << i << " at " << at;
+  }
+}
+
+/// A vertex that falls through a triangle, which it reaches at t = 3/8.
+Query falling() {
+  return testing::make_query(Kind::vertex_triangle, {{0.25, 0.25, 3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                             {{0.25, 0.25, -5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+}
+
+TEST(ContactTime, IsNotBeforeItself) {
+  auto time = *earliest_time(falling());
+  EXPECT_FALSE(time.is_before(0.375));
+  EXPECT_TRUE(time.is_before(above(0.375)));
+  EXPECT_FALSE(time.is_before(std::nan("")));
+  EXPECT_TRUE(time.is_before(HUGE_VAL));
+  EXPECT_FALSE(time.is_before(-1));
+  EXPECT_EQ(time.enclosure(), (Enclosure{0.375, 0.375}));
+  EXPECT_EQ(time.rational(), "3/8");
+}
+
+TEST(ContactTime, IsKnownWithoutExactArithmetic) {
+  const auto time = *earliest_time(falling());
+  EXPECT_LE(time.known().lo, 0.375);
+  EXPECT_GE(time.known().hi, 0.375);
+  EXPECT_LT(time.known().hi - time.known().lo, 1e-12);
+}
+
+// Many of these queries have two contacts near each other.
+TEST(ContactTime, IsOfTheFirstOfTwoContacts) {
+  std::size_t later = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Query query = make_query(find_family("even-roots"), 1, i);
+    auto time = earliest_time(query);
+    if (!time || !(time->known().hi < 1)) continue;
+    const RootCount roots = count_roots(query);
+    later += roots.distinct > 1 ? 1 : 0;
+    EXPECT_FALSE(meet_before(query, time->known().lo)) << i;
+    EXPECT_TRUE(meet_before(query, above(time->known().hi))) << i;
+  }
+  EXPECT_GT(later, 100);
+}
+
+TEST(ContactTime, NeedsAContact) {
+  Query query = falling();
+  for (int i = 1; i < 4; ++i)
+    for (const std::size_t time : {0U, 12U}) query.x[time + 3 * static_cast<std::size_t>(i)] += 10;
+  EXPECT_FALSE(earliest_time(query));
+}
+
+TEST(MeetBefore, ComparesWithTimesOfAnySize) {
+  const Query query = falling();
+  for (const double time : {-1.0, 0.0, 0x1p-1074, 0.25, 0.375})
+    EXPECT_FALSE(meet_before(query, time)) << time;
+  for (const double time : {above(0.375), 1.0, 3.0, 0x1p60}) EXPECT_TRUE(meet_before(query, time)) << time;
+}
+
+}  // namespace
+}  // namespace nearmiss
