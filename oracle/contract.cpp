@@ -66,7 +66,7 @@ std::span<const Edge> edges(Kind kind) {
 bool has_lengths(const Query& query, double shortest, double longest) {
   const Number least = Number(shortest) * Number(shortest);
   const Number most = Number(longest) * Number(longest);
-  for (const std::size_t time : {0, 4})
+  for (const std::size_t time : {std::size_t{0}, std::size_t{4}})
     for (const auto& [p, q] : edges(query.kind)) {
       const Number length = squared_distance(query, time + p, time + q);
       if (length < least || (longest != 0 && length > most)) return false;
