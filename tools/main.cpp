@@ -78,13 +78,17 @@ std::string with_short_words(std::string_view text) {
   return result;
 }
 
-/// Throws Error if an argument or the value of an option is empty, as from a variable of a shell that is not set.
+/// Throws Error if an argument or the value of an option is empty, or a list of nothing, as from a variable of a
+/// shell that is not set.
 void expect_values(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument.empty())
       throw nearmiss::Error(fmt::format("found an empty argument after '{}', expected a value",
                                         nearmiss::excerpt(argv[i - 1])));
+    if (argument.find_first_not_of(',') == std::string_view::npos)
+      throw nearmiss::Error(
+          fmt::format("found an empty list after '{}', expected a value", nearmiss::excerpt(argv[i - 1])));
     if (argument.starts_with("--") && argument.ends_with('='))
       throw nearmiss::Error(fmt::format("found '{}', expected a value", nearmiss::excerpt(argument)));
   }

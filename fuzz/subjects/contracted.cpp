@@ -48,7 +48,7 @@ class Contracted final : public ForwardingSubject {
   }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
-    return asks(query) ? subject_->needed_tolerance(query) : Subject::needed_tolerance(query);
+    return asks(query) ? subject_->needed_tolerance(query) : ForwardingSubject::needed_tolerance(query);
   }
 
  private:

@@ -44,7 +44,7 @@ std::vector<Symmetry> symmetries(Kind kind) {
     std::array<std::size_t, 3> axes{0, 1, 2};
     do {
       for (unsigned mirrored = 0; mirrored < 8; ++mirrored)
-        for (const std::size_t reversed : {0, 1}) {
+        for (const std::size_t reversed : {0U, 1U}) {
           Symmetry& made = all.emplace_back();
           for (std::size_t i = 0; i < 24; ++i) {
             const std::size_t k = axes[i % 3];

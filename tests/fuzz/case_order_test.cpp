@@ -36,7 +36,7 @@ TEST(CaseOrder, HasRoundsThatDouble) {
   const CampaignPlan plan = plan_of(0);
   Blocks cases(plan);
   std::uint64_t first = 0;
-  for (const std::uint64_t multiple : {1, 2, 4, 8, 16, 32, 64, 128, 128, 128}) {
+  for (const std::uint64_t multiple : {1U, 2U, 4U, 8U, 16U, 32U, 64U, 128U, 128U, 128U}) {
     for (const Family& family : plan.families) {
       const auto block = cases.next();
       EXPECT_EQ(block->family, &family);

@@ -126,7 +126,7 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   refused(command("say('nearmiss 2\\nnames p\\n\\n')"), "found the line 'names'");
   refused(command("import no_such_module"), "No module named 'no_such_module'");
   refused("pipe:no-such-command", "no-such-command: not found");
-  refused("pipe:", "found no command");
+  refused("pipe:", "pipe: found no command");
 }
 
 TEST_F(ProgramTest, ThatIsChangedIsNoticed) {

@@ -122,7 +122,7 @@ TEST(Contract, LengthsAtTheEndsOfDouble) {
   query.x[3] = most;
   EXPECT_FALSE(keeps_contract(query, {.longest = most}));
   Query tiny{.kind = Kind::edge_edge};
-  for (const std::size_t i : {0, 6, 12, 18}) tiny.x[i] = least;
+  for (const std::size_t i : {0U, 6U, 12U, 18U}) tiny.x[i] = least;
   EXPECT_TRUE(keeps_contract(tiny, {.shortest = least, .longest = least}));
   EXPECT_FALSE(keeps_contract(tiny, {.shortest = 2 * least}));
 }

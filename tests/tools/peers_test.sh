@@ -47,6 +47,8 @@ for bad in tight-inclusion:tolerance=x tight-inclusion:tolerance=-1 tight-inclus
   ask "$folder/all/${bad/:/.so:}" vt "$vt_hit"
   [[ $said == "exit code 2: nearmiss: "*"found '${bad#*:}', expected "*"=NUMBER from "* ]] || fail "$bad: found '$said'"
 done
+ask "$folder/all/tight-inclusion.so:tolerance=1e-3:tolerance=1" vt "$vt_hit"
+[[ $said == *"found 'tolerance=1', expected "*", each once"* ]] || fail "an option given twice: found '$said'"
 # A minimum separation root finder sees what is nearer than its separation.
 ask "$folder/all/msrf.so:separation=1.5" vt "$vt_miss"
 [[ $said == 1* ]] || fail "expected a hit at separation 1.5, found '$said'"

@@ -57,6 +57,7 @@ TEST_F(CommandLine, FilesThatAreNone) {
 
 TEST_F(CommandLine, ArgumentsWithoutAValue) {
   expect_refused("fuzz --time ''", {"found an empty argument after '--time', expected a value"});
+  expect_refused("fuzz --cases 10 --subject ,", {"found an empty list after '--subject', expected a value"});
   expect_refused("fuzz --cases 10 --db=", {"found '--db=', expected a value"});
   expect_refused("fuzz --cases 10 --json ''", {"after '--json'"});
   for (const std::string size : {"-1", "99999999999999999999G", "18014398509481984K", "1X", "1Gi", "iB", ""})

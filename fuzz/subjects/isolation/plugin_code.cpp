@@ -40,7 +40,7 @@ std::vector<std::string> words_of(std::string command) {
 std::vector<std::string> files_of_program(const std::string& command) {
   std::vector<std::string> files = words_of(command);
   if (files.empty())
-    throw Error(std::string(program_prefix) + ": found no command, expected one behind the colon");
+    throw Error(std::string(program_prefix) + " found no command, expected one behind the colon");
   if (files.front().find('/') == std::string::npos) files.front() = file_of_command(files.front());
   std::erase_if(files, [](const std::string& word) { return !is_file(word); });
   return files;

@@ -52,17 +52,22 @@ struct Option {
   double least, most;  ///< the values that are allowed
 };
 
-/// Sets the option KEY=VALUE. False if there is no such option, or the value is not allowed.
+/// Sets the option KEY=VALUE, and says in `is_set` which one this was. False if there is no such option, it was set
+/// before, or the value is not allowed.
 template <class State, std::size_t n>
-bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
+bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state,
+                std::array<bool, n>& is_set) {
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos) return false;
   const char* const number = text.c_str() + sign + 1;
   char* rest = nullptr;
   const double value = std::strtod(number, &rest);
   if (rest == number || *rest != '\0') return false;
-  for (const Option<State>& option : options) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const Option<State>& option = options[i];
     if (text.compare(0, sign, option.key) != 0) continue;
+    if (is_set[i]) return false;
+    is_set[i] = true;
     state.*option.value = value;
     return value >= option.least && value <= option.most;
   }
@@ -72,11 +77,12 @@ bool set_option(const std::array<Option<State>, n>& options, const std::string& 
 /// Sets options such as "tolerance=1e-6:iterations=1000". Returns "", or what is wrong with them.
 template <class State, std::size_t n>
 std::string set_options(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
+  std::array<bool, n> is_set{};
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(':', at), text.size());
     const std::string part = text.substr(at, end - at);
     at = end + 1;
-    if (set_option(options, part, state)) continue;
+    if (set_option(options, part, state, is_set)) continue;
     std::array<char, 128> line{};
     std::string expected;
     for (const Option<State>& option : options) {
@@ -84,7 +90,9 @@ std::string set_options(const std::array<Option<State>, n>& options, const std::
                     option.key, option.least, option.most);
       expected.append(line.data());
     }
-    return "found '" + part + "', expected " + expected;
+    std::string fault = "found '";
+    fault.append(part).append("', expected ").append(expected);
+    return fault.append(n == 1 ? ", once" : ", each once");
   }
   return "";
 }
