@@ -1,10 +1,14 @@
 // Plug-ins in worker processes. Whatever they do, every other query is answered.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
@@ -29,6 +33,8 @@ namespace {
 
 using testing::first_queries;
 
+using ::testing::Each;
+using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -97,6 +103,40 @@ TEST(Isolation, WaitingForADeviceCounts) {
     subject->time_each(queries, times);
     for (const auto& each : times) EXPECT_GE(each, 90'000);
   }
+}
+
+/// Restricts this thread, and the processes that it starts, to one processor.
+void use_one_processor() {
+  cpu_set_t allowed;
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  std::size_t first = 0;
+  while (!CPU_ISSET(first, &allowed)) ++first;
+  CPU_ZERO(&allowed);
+  CPU_SET(first, &allowed);
+  sched_setaffinity(0, sizeof allowed, &allowed);
+}
+
+/// Uses the processor for some milliseconds, so that other processes come first afterwards.
+void compute_for_some_time() {
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(5)) {
+  }
+}
+
+// The plug-in computes at least this long, so the test does not depend on speed.
+TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
+  std::vector<std::uint64_t> nanoseconds;
+  std::thread([&] {
+    use_one_processor();
+    const auto subject = make_isolated_plugin(plugin("computes_briefly"));
+    const auto queries = one_batch(50);
+    std::vector<Verdict> verdicts(queries.size());
+    for (int i = 0; i < 20; ++i) {
+      compute_for_some_time();
+      nanoseconds.push_back(subject->decide_timed(queries, verdicts).nanoseconds);
+    }
+  }).join();
+  EXPECT_THAT(nanoseconds, Each(Ge(50 * 9'000U)));
 }
 
 struct Misbehaviour {

@@ -115,8 +115,7 @@ void WorkerProcess::start(const std::string& plugin) {
 }
 
 void WorkerProcess::load(const std::string& plugin) {
-  ask({0, Request::load});
-  const End end = wait(0, limits_.loading, limits_.loading);
+  const End end = ask({0, Request::load}, limits_.loading, limits_.loading);
   if (end == End::query_late || end == End::call_late)
     throw Error(
         fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
@@ -145,10 +144,9 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   answers_->current = first;
   answers_->exception[0] = '\0';
   const Call call{++call_, request};
-  ask(call);
   const Duration of_queries = limits_.time * calls_per_query(request);
   const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
-  End end = wait(call.number, info_.batch == 1 ? limits_.time : of_call, of_call);
+  End end = ask(call, info_.batch == 1 ? limits_.time : of_call, of_call);
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
   if (end == End::done && answers_->threw == call.number) end = End::threw;
   for (std::uint32_t i = first; i < last && end == End::done; ++i)
@@ -161,11 +159,6 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   WorkerFailure found = failure(end, query);
   found.of_call |= info_.batch > 1 && last - first > 1;
   return found;
-}
-
-void WorkerProcess::ask(const Call& call) {
-  // If the worker is dead or does not read, no reply comes.
-  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
 WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
@@ -188,10 +181,12 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
   }
 }
 
-WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Duration of_call) {
+WorkerProcess::End WorkerProcess::ask(const Call& call, Duration of_query, Duration of_call) {
   constexpr int look_again_ms = 10;
-  const Watch watch(*this);
+  const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;
+  // If the worker is dead or does not read, no reply comes.
+  static_cast<void>(send(replies_.number(), &call, sizeof call, MSG_NOSIGNAL | MSG_DONTWAIT));
   std::optional<Watch> query_watch(watch);
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
@@ -199,7 +194,7 @@ WorkerProcess::End WorkerProcess::wait(std::uint64_t call, Duration of_query, Du
     if (limits_.stop != nullptr) limits_.stop->check();
     elapsed_ = watch.elapsed();
     if (spoke)
-      if (const auto end = end_of(call)) return *end;
+      if (const auto end = end_of(call.number)) return *end;
     if (const std::uint32_t now = answers_->calls; now != calls) {
       calls = now;
       query_watch.emplace(*this);

@@ -91,11 +91,10 @@ class WorkerProcess {
 
   void start(const std::string& plugin);
   void load(const std::string& plugin);
-  void ask(const Call& call);
   /// The computing time of the plug-in's process, and of the program that it runs, if it does.
   [[nodiscard]] Duration computing() const;
-  /// Waits for the reply to a call.
-  End wait(std::uint64_t call, Duration of_query, Duration of_call);
+  /// Sends a call, and waits for the reply.
+  End ask(const Call& call, Duration of_query, Duration of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
