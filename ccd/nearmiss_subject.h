@@ -27,7 +27,7 @@ extern "C" {
 
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
-  int apart_at_start; /* 1: the primitives do not touch at t = 0 */
+  int apart_at_start; /* 1: the distance of the primitives at t = 0 is more than h; for h = 0, they do not touch */
   int one_root;       /* 1: the four vertices are coplanar at one time in [0, 1] at most */
   double grid;        /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,

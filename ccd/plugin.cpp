@@ -60,13 +60,13 @@ auto Plugin::with_detector(const Act& act) const {
 }
 
 Verdict Plugin::decide(const Query& query) const {
-  if (!decides(query.kind)) return {.fault = Fault::not_asked};
+  if (!decides(query.kind) || (query.separation > 0 && !takes_separation()))
+    return {.fault = Fault::not_asked};
   return with_detector([&](const Detector& detector) {
     const Query seen = rounded(query);
-    const double contact = 0;
     int answer = 0;
     double time = std::numeric_limits<double>::quiet_NaN();
-    detector.decide(query.kind, seen.x.data(), &contact, std::span(&answer, 1), std::span(&time, 1));
+    detector.decide(query.kind, seen.x.data(), &seen.separation, std::span(&answer, 1), std::span(&time, 1));
     return verdict_of(info_, answer, time);
   });
 }

@@ -35,10 +35,14 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 
 /// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
 /// double coordinates. The unit of length is arbitrary. Coordinates are finite; readers refuse any others.
+/// The question is whether the distance of the two closed primitives is at most h, the separation, at some t in [0, 1].
+/// Their distance is 0 where they touch, so h = 0 asks for contact.
 struct Query {
   Kind kind{};
   /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
   std::array<double, 24> x{};
+  /// The separation h, finite and not negative, in the unit of the coordinates.
+  double separation = 0;
 
   [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
   [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
@@ -55,6 +59,12 @@ struct Query {
     Eigen::Map<Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point) = p;
   }
 };
+
+/// The query of the same primitives for another separation; 0 asks for contact.
+inline Query with_separation(Query query, double separation) {
+  query.separation = separation;
+  return query;
+}
 
 /// The coordinates as a function of a time (0 or 1), a vertex and a component k.
 inline auto coordinates(const Query& query) {

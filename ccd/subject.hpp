@@ -79,16 +79,16 @@ inline constexpr std::array<std::string_view, fault_count> fault_names{
     "none",     "error",     "crash",   "time", "memory",  "exception",
     "protocol", "not-asked", "invalid", "load", "contract"};
 
-/// What a subject says about the time of a collision.
+/// What a subject says about the time of a collision: t*, the earliest time at which the distance is at most h.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< a time near it
-  lower_bound,  ///< nothing happens before this time
+  lower_bound,  ///< a time that is not after it: nothing happens before
 };
 
 /// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
 struct Contract {
-  bool apart_at_start = false;  ///< the primitives do not touch at t = 0
+  bool apart_at_start = false;  ///< at t = 0, the distance of the primitives is more than the separation
   bool one_root = false;        ///< the four vertices are coplanar at one time in [0, 1] at most
   double grid = 0;              ///< a power of two of which every coordinate is a multiple
   double shortest = 0;          ///< all edges, at t = 0 and t = 1, are at least as long
@@ -175,6 +175,12 @@ class Subject {
 
   /// Whether the subject decides queries of a kind. About others, it is not asked.
   [[nodiscard]] virtual bool decides(Kind /*kind*/) const { return true; }
+
+  /// Whether the subject answers queries with a separation h > 0. About these, other subjects are not asked.
+  [[nodiscard]] virtual bool takes_separation() const { return false; }
+
+  /// What the time of a verdict means, for collisions.
+  [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
 
   /// What the subject takes for granted.
   [[nodiscard]] virtual Contract contract() const { return {}; }

@@ -41,6 +41,7 @@ std::string to_text(const Case& each) {
   for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", line);
   text += fmt::format("kind {}\n", short_name(each.query.kind));
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);
+  if (each.query.separation != 0) text += fmt::format("separation {}\n", to_exact(each.query.separation));
   if (!each.provenance.empty()) text += fmt::format("provenance {}\n", each.provenance);
   for (std::size_t i = 0; i < 8; ++i) {
     const double* x = each.query.x.data() + 3 * i;
@@ -74,14 +75,17 @@ Case parse_case(std::istream& in, const std::string& file) {
       if (value != "0" && value != "1")
         throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, excerpt(value)));
       result.truth = value == "1";
+    } else if (label == "separation") {
+      result.query.separation = parse_separation(value, where);
     } else if (label == "provenance") {
       result.provenance = value;
     } else {
       const auto point = std::find(point_labels.begin(), point_labels.end(), label) - point_labels.begin();
       const auto i = static_cast<std::size_t>(point);
       if (i == 8)
-        throw Error(fmt::format("{}: found '{}', expected kind, truth, provenance, or x0 .. x3, y0 .. y3",
-                                where, excerpt(label)));
+        throw Error(
+            fmt::format("{}: found '{}', expected kind, truth, separation, provenance, or x0 .. x3, y0 .. y3",
+                        where, excerpt(label)));
       if (seen[i]) throw Error(fmt::format("{}: found a second {}, expected one", where, label));
       seen[i] = true;
       parse_numbers(value, std::span(result.query.x).subspan(3 * i, 3), where);

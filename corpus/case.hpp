@@ -20,7 +20,7 @@ struct Case {
 };
 
 /// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three numbers,
-/// decimal if that is exact, else hex floats; all labels except `truth` and `provenance` are required:
+/// decimal if that is exact, else hex floats; all labels except `truth`, `separation` and `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee

@@ -29,6 +29,12 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
+std::size_t count_of_words(std::string_view line) {
+  std::size_t count = 0;
+  while (!next_word(line).empty()) ++count;
+  return count;
+}
+
 /// A finite double or float. Throws Error that says what was expected.
 template <class Number>
 Number parse(std::string_view text, std::string_view where, std::string_view expected) {
@@ -105,6 +111,20 @@ void parse_numbers(std::string_view line, std::span<double> numbers, std::string
     throw Error(fmt::format("{}: found {} numbers, expected {}", where, count, numbers.size()));
 }
 
+namespace {
+
+double checked_separation(double separation, std::string_view where) {
+  if (separation >= 0) return separation + 0.0;  // -0 is 0
+  throw Error(
+      fmt::format("{}: found the separation {}, expected a number that is not negative", where, separation));
+}
+
+}  // namespace
+
+double parse_separation(std::string_view text, std::string_view where) {
+  return checked_separation(parse_number(text, where), where);
+}
+
 std::string to_hex(double value) {
   if (value == 0) return std::signbit(value) ? "-0x0p+0" : "0x0p+0";
   return fmt::format("{:a}", value);
@@ -120,7 +140,7 @@ std::string to_line(const Query& query) {
     if (!line.empty()) line += ' ';
     line += to_hex(c);
   }
-  return line;
+  return query.separation == 0 ? line : line + ' ' + to_hex(query.separation);
 }
 
 std::string to_readable(const Query& query) {
@@ -132,13 +152,21 @@ std::string to_readable(const Query& query) {
                    : i % 3 == 0 ? "  "
                                 : " ",
                    query.x[i]);
-  const bool exact = std::all_of(query.x.begin(), query.x.end(), has_exact_decimal);
+  if (query.separation != 0) text += fmt::format("   {}", query.separation);
+  const bool exact =
+      std::all_of(query.x.begin(), query.x.end(), has_exact_decimal) && has_exact_decimal(query.separation);
   return exact ? text : fmt::format("{}\n{}", text, to_line(query));
 }
 
 Query parse_line(Kind kind, std::string_view line, std::string_view where) {
+  std::array<double, 25> numbers{};
+  const std::size_t count = count_of_words(line);
+  if (count != 24 && count != 25)
+    throw Error(fmt::format("{}: found {} numbers, expected 24, or 25 with a separation", where, count));
+  parse_numbers(line, std::span(numbers).first(count), where);
   Query query{.kind = kind};
-  parse_numbers(line, query.x, where);
+  std::copy_n(numbers.begin(), query.x.size(), query.x.begin());
+  query.separation = checked_separation(numbers.back(), where);
   return query;
 }
 

@@ -35,20 +35,24 @@ std::optional<Integer> parse_integer(std::string_view text) {
 /// Throws Error that starts with `where`.
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where);
 
+/// A separation: a finite number, at least 0. Throws Error that starts with `where`.
+double parse_separation(std::string_view text, std::string_view where);
+
 /// The shortest C hex float with this value.
 std::string to_hex(double value);
 
 /// A text that is exactly this value: its shortest decimal, such as "-2" or "0.25", if that is exact, else to_hex.
 std::string to_exact(double value);
 
-/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1. parse_line reads it back exactly.
+/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1; a separation other than 0 follows. parse_line reads
+/// it back exactly.
 std::string to_line(const Query& query);
 
-/// 24 decimals for people: points are separated by two blanks, the two times by three. parse_line reads it back exactly.
+/// The same in decimals for people: points are separated by two blanks, the two times by three. parse_line reads it back exactly.
 /// If a decimal is not exact, a second line is to_line(query).
 std::string to_readable(const Query& query);
 
-/// A query from 24 numbers. Throws Error that starts with `where`.
+/// A query from 24 numbers, or 25 with the separation. Throws Error that starts with `where`.
 Query parse_line(Kind kind, std::string_view line, std::string_view where);
 
 /// "vt" or "ee". Throws Error that starts with `where`.

@@ -43,6 +43,7 @@ bool Answers::collision() const {
 
 std::string Answers::disagreement(std::optional<bool> by_filter) const {
   Votes collision;
+  Votes at_most;
   Votes boundary;
   Votes odd;
   std::string text;
@@ -52,11 +53,13 @@ std::string Answers::disagreement(std::optional<bool> by_filter) const {
     if (method.claim == Claim::complete && !answer.collision)
       text.append(text.empty() ? "" : ", ").append("no answer of ").append(method.name);
     collision.add(method.name, answer.collision);
+    at_most.add(method.name, answer.at_most);
     boundary.add(method.name, answer.on_boundary);
     odd.add(method.name, answer.odd);
   }
   collision.add("filter", by_filter);
   collision.complain(text, "collision");
+  at_most.complain(text, "at most h");
   boundary.complain(text, "boundary");
   odd.complain(text, "odd");
   return text;
@@ -65,7 +68,8 @@ std::string Answers::disagreement(std::optional<bool> by_filter) const {
 bool Answers::missed_by_parity() const {
   const auto misses = [&](const Answer& answer) {
     const Method& method = methods_[static_cast<std::size_t>(&answer - answers_.data())];
-    return method.claim == Claim::parity && !answer.collision.value_or(false);
+    return method.claim == Claim::parity && answer.on_boundary.has_value() &&
+           !answer.collision.value_or(false);
   };
   return collision() && std::any_of(answers_.begin(), answers_.end(), misses);
 }
@@ -76,8 +80,8 @@ Answers ask_all(const Query& query, std::span<const Method> asked) {
   return {asked, std::move(answers)};
 }
 
-Answers ask_others(const Query& query, bool first, std::span<const Method> asked) {
-  std::vector<Answer> answers{{.collision = first}};
+Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked) {
+  std::vector<Answer> answers{first};
   for (const Method& method : asked.subspan(1)) answers.push_back(method.ask(query));
   return {asked, std::move(answers)};
 }
@@ -86,6 +90,10 @@ bool is_sampled(const Query& query, std::uint64_t one_in) {
   std::uint64_t hash = static_cast<std::uint64_t>(query.kind);
   for (const double c : query.x) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15;
+    hash ^= hash >> 32;
+  }
+  if (query.separation > 0) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(query.separation)) * 0x9e3779b97f4a7c15;
     hash ^= hash >> 32;
   }
   return hash % one_in == 0;

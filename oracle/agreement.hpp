@@ -41,9 +41,9 @@ class Answers {
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
 /// The same if the answer of the first method, a complete method, is already known.
-Answers ask_others(const Query& query, bool first, std::span<const Method> asked = methods());
+Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
-/// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its coordinates.
+/// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its numbers.
 bool is_sampled(const Query& query, std::uint64_t one_in);
 
 }  // namespace nearmiss

@@ -20,7 +20,8 @@ using exact::Number;
 bool is_apart_at_start(const Query& query) {
   Query at_rest = query;
   for (int vertex = 0; vertex < 4; ++vertex) at_rest.set_end(vertex, query.start(vertex));
-  return !decide(at_rest).collision;
+  const Decision decision = decide(at_rest);
+  return !decision.collision && !decision.is_tie;
 }
 
 /// Whether the signs of F's Bernstein coefficients, if they are certain, show that F has at most one root in [0, 1]: none

@@ -9,6 +9,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
+#include "oracle/distance/conversion.hpp"
 #include "oracle/distance/proximity.hpp"
 #include "oracle/oracle.hpp"
 
@@ -18,38 +19,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double above(double x) { return std::nextafter(x, infinity); }
-double below(double x) { return x > 0 ? std::nextafter(x, 0.0) : 0; }
+using certified::above;
+using certified::Conversion;
 
-/// Converts distances from the unit of VertexDifferences to multiples of `unit`, and back.
-class Conversion {
- public:
-  /// Requires unit > 0.
-  Conversion(double unit, int exponent) {
-    int of_unit = 0;
-    mantissa_ = std::frexp(unit, &of_unit);
-    shift_ = exponent - of_unit;
-  }
-
-  [[nodiscard]] double lower(double distance) const { return divided(distance, below); }
-  [[nodiscard]] double upper(double distance) const { return divided(distance, above); }
-  /// The smallest distance, up to rounding upward, that is at least `multiple` units; 0 for 0.
-  [[nodiscard]] double at_least(double multiple) const {
-    return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
-  }
-
- private:
-  /// Applies `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
-  template <class Next>
-  [[nodiscard]] double divided(double distance, const Next& next) const {
-    int exponent = 0;
-    const double mantissa = std::frexp(distance, &exponent);
-    return next(std::ldexp(next(mantissa / mantissa_), shift_ + exponent));
-  }
-
-  double mantissa_;
-  int shift_;
-};
+/// Whether the primitives touch, whatever the query's separation is.
+bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
 /// Halves an enclosure by an exact comparison. The halves contain equally many doubles, so the ratio of the
 /// ends shrinks evenly. Returns false if no double is left between the ends.
@@ -74,7 +48,7 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
   const certified::Approach approach = certified::closest_approach(differences, needed_distance);
   const double hi = ratio.upper(approach.upper);
   if (approach.enough) return {std::max(needed(hi), ratio.lower(approach.lower)), hi};
-  if (collides(query)) return {0, 0};
+  if (touches(query)) return {0, 0};
 
   const Conversion to_distance(1, differences.exponent());
   Enclosure distance{0, to_distance.upper(approach.upper)};
@@ -89,7 +63,7 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
 
 Enclosure minimum_distance(const Query& query, double relative_width) {
   const PlainArithmetic guard;
-  if (collides(query)) return {0, 0};
+  if (touches(query)) return {0, 0};
   return distance_in_units(query, 1,
                            [&](double hi) { return std::min(above(hi * (1 - relative_width)), hi); });
 }
@@ -117,7 +91,7 @@ double closest_time(const Query& query) {
 bool distance_exceeds(const Query& query, double bound) {
   const PlainArithmetic guard;
   if (std::isinf(bound)) return false;
-  if (bound == 0) return !collides(query);
+  if (bound == 0) return !touches(query);
   const certified::VertexDifferences differences(query);
   const Conversion to_distance(1, differences.exponent());
   // Either an upper end that is not above the bound, or a lower end that is above it, decides the comparison.

@@ -1,4 +1,4 @@
-// The smallest distance of two primitives over the step.
+// The smallest distance of two primitives over the step, whatever the query's separation is.
 #pragma once
 
 #include "ccd/query.hpp"
@@ -7,11 +7,11 @@
 
 namespace nearmiss {
 
-/// An enclosure of the smallest distance over [0, 1]; (0, 0) for a collision. hi - lo <= relative_width * hi,
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) for contact. hi - lo <= relative_width * hi,
 /// or lo and hi are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
-/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for a query without a collision.
+/// An enclosure of the smallest distance over [0, 1] divided by `unit` > 0, for primitives that do not touch.
 /// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "ccd/arithmetic.hpp"
+#include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/parity/parity.hpp"
 
@@ -27,7 +28,10 @@ Explanation explain(const Query& query) {
   exact::Predicates predicates(query);
   const bool planar = predicates.F().is_zero();
   Explanation result{.roots = planar ? -1 : static_cast<int>(exact::roots_in_step(predicates.F()).size())};
-  if (auto first = exact::first_contact(predicates)) {
+  if (query.separation > 0) {
+    result.is_approach = true;
+    if (auto approach = exact::first_approach(query)) result.contact = contact_of(approach->time);
+  } else if (auto first = exact::first_contact(predicates)) {
     result.contact = contact_of(first->time);
     result.unseen_by_parity = !root_parity(query).collision();
   }
@@ -35,10 +39,13 @@ Explanation explain(const Query& query) {
 }
 
 std::string to_text(const Explanation& explanation) {
-  static constexpr std::array<std::string_view, 5> contacts{"no contact", "contact at t = 0",
-                                                            "contact within 2^-40 after t = 0",
-                                                            "contact inside the step", "contact at t = 1"};
-  std::string text(contacts[static_cast<std::size_t>(explanation.contact)]);
+  static constexpr std::array<std::string_view, 5> times{"never", "at t = 0", "within 2^-40 after t = 0",
+                                                         "inside the step", "at t = 1"};
+  std::string text(explanation.is_approach                ? "within the separation "
+                   : explanation.contact == Contact::none ? "no contact"
+                                                          : "contact ");
+  if (explanation.is_approach || explanation.contact != Contact::none)
+    text += times[static_cast<std::size_t>(explanation.contact)];
   text += "; the vertices are ";
   switch (explanation.roots) {
     case -1:

@@ -11,7 +11,7 @@ namespace nearmiss {
 /// Facts about a query on which CCDs often depend, determined by exact arithmetic.
 struct Explanation {
   enum class Contact : std::uint8_t {
-    none,    ///< the primitives do not touch
+    none,    ///< the primitives do not touch, or do not come within the separation
     start,   ///< at t = 0
     early,   ///< at 0 < t <= 2^-40
     inside,  ///< at 2^-40 < t < 1
@@ -20,7 +20,8 @@ struct Explanation {
 
   /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are.
   int roots = 0;
-  Contact contact{};  ///< the first contact
+  Contact contact{};         ///< the first contact, or the first approach to the separation
+  bool is_approach = false;  ///< whether the query has a separation
   /// There is a contact, but the number of roots that root parity counts is even.
   bool unseen_by_parity = false;
 

@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "ccd/arithmetic.hpp"
+#include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
+#include "oracle/exact/nearness.hpp"
 
 namespace nearmiss {
 
@@ -33,13 +35,47 @@ std::optional<ContactFeatures> contact_features(const Query& query) {
                          contact->meeting.degenerate};
 }
 
+std::optional<ApproachFeatures> approach_features(const Query& query) {
+  const PlainArithmetic guard;
+  auto approach = exact::first_approach(query);
+  if (!approach) return std::nullopt;
+  exact::Root& time = approach->time;
+  const exact::Nearness nearness(query, query.separation);
+  ApproachFeatures features{.time = time_class(time),
+                            .closest = ApproachFeatures::Closest::interiors,
+                            .touches = !approach->below || time.is_below(*approach->below)};
+  for (const exact::FeatureNearness& each : nearness.statements()) {
+    const auto closest = static_cast<ApproachFeatures::Closest>(each.features);
+    if (closest < features.closest && each.holds_at(time)) features.closest = closest;
+  }
+  return features;
+}
+
+namespace {
+
+std::string_view name(Time time) {
+  static constexpr std::array<std::string_view, 3> times{"at-start", "inside", "at-end"};
+  return times[static_cast<std::size_t>(time)];
+}
+
+}  // namespace
+
+std::string to_text(Kind kind, const ApproachFeatures& features) {
+  static constexpr std::array<std::array<std::string_view, 3>, 2> closest{
+      {{"vertex-vertex", "vertex-edge", "vertex-face"}, {"end-end", "end-edge", "edge-edge"}}};
+  std::string text("approach ");
+  text.append(name(features.time)).append(" ");
+  text.append(closest[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.closest)]);
+  if (features.touches) text += " touching";
+  return text;
+}
+
 std::string to_text(Kind kind, const ContactFeatures& features) {
   static constexpr std::array<std::string_view, 3> multiplicities{"planar", "simple-root", "multiple-root"};
-  static constexpr std::array<std::string_view, 3> times{"at-start", "inside", "at-end"};
   static constexpr std::array<std::array<std::string_view, 3>, 2> locations{
       {{"in-face", "on-edge", "on-vertex"}, {"crossing", "end-on-edge", "end-on-end"}}};
   std::string text(multiplicities[static_cast<std::size_t>(features.multiplicity)]);
-  text.append(" ").append(times[static_cast<std::size_t>(features.time)]);
+  text.append(" ").append(name(features.time));
   text.append(" ").append(
       locations[static_cast<std::size_t>(kind)][static_cast<std::size_t>(features.location)]);
   if (features.degenerate) text += " degenerate";

@@ -34,6 +34,28 @@ struct ContactFeatures {
 /// The features of a query's first contact; nothing if there is no collision.
 std::optional<ContactFeatures> contact_features(const Query& query);
 
+/// How two primitives first come within the separation h > 0, determined by exact arithmetic.
+struct ApproachFeatures {
+  enum class Closest : std::uint8_t {
+    vertices,         ///< a vertex of each primitive
+    vertex_and_edge,  ///< a vertex and an edge, of the triangle or alone
+    interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
+  };
+
+  ContactFeatures::Time time{};
+  Closest closest{};
+  /// The distance is exactly h for some time, or at one time only, before it falls below h or grows again.
+  bool touches = false;
+
+  bool operator==(const ApproachFeatures&) const = default;
+};
+
+/// The features of the first approach of a query with a separation; nothing if the distance is always above h.
+std::optional<ApproachFeatures> approach_features(const Query& query);
+
+/// A text such as "approach inside vertex-face" or "approach at-start end-end touching".
+std::string to_text(Kind kind, const ApproachFeatures& features);
+
 /// A text such as "simple-root inside on-edge" or "planar at-start end-on-end degenerate".
 std::string to_text(Kind kind, const ContactFeatures& features);
 

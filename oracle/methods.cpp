@@ -4,15 +4,20 @@
 
 #include "oracle/oracle.hpp"
 #include "oracle/parity/parity.hpp"
+#include "oracle/sturm/separation.hpp"
 #include "oracle/sturm/sturm.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-Answer by_exact(const Query& query) { return {.collision = collides_exactly(query)}; }
+Answer by_exact(const Query& query) { return to_answer(query, decide_exactly(query)); }
 
 Answer by_sturm(const Query& query) {
+  if (query.separation > 0) {
+    const Reach found = reach(query);
+    return {.collision = found.below, .at_most = found.at_most};
+  }
   const RootCount count = count_roots(query);
   Answer answer{.collision = count.collision, .on_boundary = count.on_boundary};
   if (!count.on_boundary) answer.odd = count.odd();
@@ -22,6 +27,7 @@ Answer by_sturm(const Query& query) {
 }
 
 Answer by_parity(const Query& query) {
+  if (query.separation > 0) return {};
   const RootParity parity = root_parity(query);
   Answer answer{.on_boundary = parity.on_boundary};
   if (parity.collision()) answer.collision = true;
@@ -30,6 +36,12 @@ Answer by_parity(const Query& query) {
 }
 
 }  // namespace
+
+Answer to_answer(const Query& query, const Decision& decision) {
+  Answer answer{.collision = decision.collision};
+  if (query.separation > 0) answer.at_most = decision.collision || decision.is_tie;
+  return answer;
+}
 
 std::string_view name(Claim claim) { return claim == Claim::complete ? "complete" : "parity"; }
 

@@ -9,12 +9,15 @@
 #include <string_view>
 
 #include "ccd/query.hpp"
+#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
 /// A method's answer to a query; the method does not know a member without a value.
 struct Answer {
-  std::optional<bool> collision{};    ///< whether the primitives meet
+  std::optional<bool>
+      collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h
+  std::optional<bool> at_most{};      ///< for h > 0: whether the distance is at most h at some time
   std::optional<bool> on_boundary{};  ///< whether they meet at an end of the step or at a border
   std::optional<bool> odd{};  ///< whether the number of roots with multiplicity is odd; unset on the boundary
   std::size_t detail = 0;     ///< further results as a number below 32, feedback for a fuzzer
@@ -23,8 +26,11 @@ struct Answer {
 /// The promise of a method.
 enum class Claim {
   complete,  ///< the method always knows whether there is a collision
-  parity,    ///< it detects collisions on the boundary and odd numbers of roots
+  parity,    ///< it detects collisions on the boundary and odd numbers of roots; it says nothing about h > 0
 };
+
+/// A decision as the answer of a method.
+Answer to_answer(const Query& query, const Decision& decision);
 
 /// "complete" or "parity".
 std::string_view name(Claim claim);

@@ -88,9 +88,23 @@ void add_computed(CsvColumns& columns, std::uint64_t Counts::*counter) {
   }
 }
 
+/// Adds the columns of times that are computed after this counter.
+void add_times(CsvColumns& columns, std::uint64_t Counts::*counter) {
+  if (counter != &Counts::stuck) return;
+  add_column(columns, "unknown", &Counts::unknown);
+  for (const auto& [name, part] : {std::pair{"median_early", 0.5}, {"q99_early", 0.99}})
+    add_range(columns, name, [part](const Counts& counts) {
+      const Bin bin = counts.early_quantile(part);
+      return std::pair(bin.from, bin.to);
+    });
+  add_column(columns, "max_early", &Counts::max_early);
+  add_column(columns, "max_after", &Counts::max_after);
+}
+
 void add_counter(CsvColumns& columns, const Counter<Counts, std::uint64_t>& counter) {
   add_column(columns, std::string(counter.name), counter.member);
   add_computed(columns, counter.member);
+  add_times(columns, counter.member);
 }
 
 template <std::size_t size>
@@ -112,7 +126,7 @@ void add_counter(CsvColumns& columns, const Counter<Counts, SubjectTimes>& /*cou
   add_time_quantile(columns, "q99_ns", 0.99);
 }
 
-/// These members have no column: distances.csv has the histogram, and case files have the farthest false
+/// These members have no column: distances.csv and times.csv have the histograms, and case files have the farthest false
 /// positives.
 template <class Member>
 void add_counter(CsvColumns& /*columns*/, const Counter<Counts, Member>& /*counter*/) {}
@@ -166,12 +180,26 @@ std::string distances_csv(const Statistics& statistics) {
   return text;
 }
 
+std::string times_csv(const Statistics& statistics) {
+  std::string text = "subject,kind,family,side,error_from,error_to,times\n";
+  for (const auto& [key, counts] : statistics.counts)
+    for (const auto& [side, histogram] : {std::pair{"early", &counts.early}, {"after", &counts.after}})
+      for (std::size_t i = 0; i < Histogram::bin_count; ++i)
+        if (const auto count = histogram->bins[i]; count != 0)
+          text += fmt::format("{},{},{},{},{},{},{}\n", field(key.subject), short_name(key.kind),
+                              field(key.family), side, Histogram::border(i), Histogram::border(i + 1), count);
+  return text;
+}
+
 std::string findings_csv(const Campaign& campaign) {
-  std::string text = "what,subject,signature,seen,kind,family,provenance,distance_over_bound,shrunk,query\n";
+  std::string text =
+      "what,subject,signature,seen,kind,family,provenance,distance_over_bound,late_by,shrunk,query\n";
   for (const Finding& f : campaign.findings())
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", name(f.what), field(f.subject), field(f.signature),
-                        campaign.statistics.times_seen(signature_of(f)), short_name(f.query.kind),
-                        field(f.family), field(f.provenance), f.ratio, to_line(f.shrunk), to_line(f.query));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", name(f.what), field(f.subject), field(f.signature),
+                    campaign.statistics.times_seen(signature_of(f)), short_name(f.query.kind),
+                    field(f.family), field(f.provenance), f.what == Finding::What::late ? 0 : f.ratio,
+                    f.what == Finding::What::late ? f.ratio : 0, to_line(f.shrunk), to_line(f.query));
   return text;
 }
 

@@ -186,6 +186,7 @@ std::map<std::string, std::string> files_with_contents(const Campaign& campaign,
                                            {"statistics.csv", statistics_csv(campaign.statistics)},
                                            {"classes.csv", classes_csv(campaign.statistics)},
                                            {"distances.csv", distances_csv(campaign.statistics)},
+                                           {"times.csv", times_csv(campaign.statistics)},
                                            {"findings.csv", findings_csv(campaign)}};
   for (const ShownFinding& each : shown_findings(campaign))
     for (const Exported& exported : {each.shrunk, each.original})

@@ -29,7 +29,7 @@ nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext
 /// Writes the files of a report:
 ///  - index.html: self-contained, opens offline; it contains report.json and only draws it;
 ///  - report.json;
-///  - statistics.csv, classes.csv, distances.csv and findings.csv, with all counters and findings;
+///  - statistics.csv, classes.csv, distances.csv, times.csv and findings.csv, with all counters and findings;
 ///  - cases/: findings, shrunk and in their original form, as *.case files for nearmiss replay;
 ///  - farthest/: the farthest false positive of each subject, kind and family, as *.case files.
 /// The files of an earlier report are replaced, and no others (report_folder.hpp). Throws Error if the folder is

@@ -23,6 +23,7 @@ constexpr std::array fixed_files{data_file,
                                  std::string_view("statistics.csv"),
                                  std::string_view("classes.csv"),
                                  std::string_view("distances.csv"),
+                                 std::string_view("times.csv"),
                                  std::string_view("findings.csv")};
 constexpr std::array sub_folders{"cases", "farthest"};
 

@@ -55,6 +55,29 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
           Comparison::caution));
 }
 
+void SeparationOption::add_to(CLI::App& command, bool can_be_drawn) {
+  command
+      .add_option(
+          "--separation", text,
+          fmt::format("Ask whether the primitives come within the distance H of each other, in the unit of "
+                      "the coordinates{}; 0 asks for contact",
+                      can_be_drawn ? "; drawn: each query draws its own" : ""))
+      ->type_name(can_be_drawn ? "H|drawn" : "H");
+}
+
+Query SeparationOption::apply(const Query& query) const {
+  return is_given() ? with_separation(query, parse_separation(text, "--separation")) : query;
+}
+
+void expect_separations(const Subjects& subjects) {
+  for (const auto& subject : subjects)
+    if (!subject->takes_separation())
+      throw Error(
+          fmt::format("{}: answers for contact only, expected subjects that take a separation "
+                      "(nearmiss subjects)",
+                      subject->name()));
+}
+
 void add_bound_option(CLI::App& command, std::string& bound) {
   command.add_option("--bound", bound, "Use this bound B for every pair, instead of the pair's own")
       ->type_name("B");
@@ -67,13 +90,16 @@ void QueryInput::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"vt", "ee"}));
   command
       .add_option("FILE", file,
-                  "Queries, one a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1; - is standard input")
+                  "Queries, one a line: 24 numbers, x0 x1 x2 x3 at t = 0, then at t = 1; a 25th is the "
+                  "separation; - is "
+                  "standard input")
       ->capture_default_str();
+  separation.add_to(command);
 }
 
 void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   const Kind of = parse_kind(kind, "--kind");
-  const auto each = [&](const Case& read) { sink(read.query); };
+  const auto each = [&](const Case& read) { sink(separation.apply(read.query)); };
   if (file == "-") {
     std::ios::sync_with_stdio(false);  // otherwise an error looks like the end of the file
     return read_query_lines(std::cin, of, "stdin", each);
@@ -129,11 +155,12 @@ std::vector<Family> different(std::vector<Family> found, std::string_view option
 
 }  // namespace
 
-std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known) {
+std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
+                                  std::span<const Family> all) {
   std::vector<Family> found;
   for (const std::string& name : names) {
     if (name == "all")
-      found.insert(found.end(), known.begin(), known.end());
+      found.insert(found.end(), all.begin(), all.end());
     else
       found.push_back(find_family(name, known));
   }

@@ -29,6 +29,20 @@ void add_seed_option(CLI::App& command, std::uint64_t& seed);
 /// --compare N and --compare-near-bounds
 void add_comparison_options(CLI::App& command, Comparison& comparison);
 
+/// --separation H: the separation of every query.
+struct SeparationOption {
+  std::string text;
+
+  /// `drawn`: whether the option may be "drawn".
+  void add_to(CLI::App& command, bool can_be_drawn = false);
+  [[nodiscard]] bool is_given() const { return !text.empty(); }
+  /// The query with the separation, if one is given. Throws Error.
+  [[nodiscard]] Query apply(const Query& query) const;
+};
+
+/// Throws Error if a subject does not take a separation.
+void expect_separations(const Subjects& subjects);
+
 /// --bound B: one bound for every pair.
 void add_bound_option(CLI::App& command, std::string& bound);
 
@@ -45,6 +59,7 @@ struct PluginLimitOptions {
 /// --kind vt|ee and FILE|-: the kind, and the file with one query a line.
 struct QueryInput {
   std::string kind, file = "-";
+  SeparationOption separation;
 
   void add_to(CLI::App& command);
   /// Passes every query to `sink`, in order. Throws Error.
@@ -58,8 +73,9 @@ Subjects make_subjects(const std::vector<std::string>& names, const isolation::P
 /// Throws Error if two subjects have the same name, under which their results would be added up.
 void expect_different_names(const Subjects& subjects);
 
-/// Finds the families NAME or NAME@VALUE; "all" stands for all known ones. Throws Error.
-std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known);
+/// Finds the families NAME, NAME@VALUE and so on; "all" stands for those in `all`. Throws Error.
+std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
+                                  std::span<const Family> all);
 
 /// Makes the families NAME@VALUE of the named sweeps. Throws Error.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,

@@ -25,6 +25,7 @@ namespace {
 struct Options {
   TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
+  SeparationOption separation;
   int steps = 17;
   bool search = false;
   std::vector<std::filesystem::path> mesh;
@@ -70,8 +71,18 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
-  auto chosen = options.sweeps.empty() ? find_families(options.families, known)
+  const std::size_t contact = known.size();
+  known.insert(known.end(), separation_families().begin(), separation_families().end());
+  // "all" means the families that fit the question.
+  const bool is_drawn = options.separation.text == drawn_separation;
+  const auto all = std::span(known).first(is_drawn ? known.size() : contact);
+  auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
                                        : find_sweeps(options.sweeps, options.steps, known);
+  if (options.separation.is_given())
+    for (Family& family : chosen)
+      if (!family.has_separation) family = with_separation(family, options.separation.text);
+  const auto has_separation = [](const Family& family) { return family.has_separation; };
+  if (std::any_of(chosen.begin(), chosen.end(), has_separation)) expect_separations(subjects);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
     for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject, stop));
@@ -81,7 +92,7 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
 /// A line for each family with its class, and one for its parameter.
 std::string list_of_families() {
   std::string lines;
-  for (const Family& family : families()) {
+  for (const Family& family : all_families()) {
     lines += fmt::format("\n  {:<22} {}: {}", family.name, name(class_of(family.name)), family.about);
     if (family.parameter)
       lines += fmt::format("\n  {:<22}   {}, x from {} to {}", "", family.parameter->about,
@@ -105,6 +116,10 @@ RunInfo info_of(const Options& options, const CampaignPlan& plan, const Subjects
   } else {
     info["families"] = fmt::format("{} in {} steps", families, options.steps);
     again += fmt::format(" --sweep {} --steps {}", families, options.steps);
+  }
+  if (options.separation.is_given()) {
+    info["separation"] = options.separation.text;
+    again += fmt::format(" --separation {}", options.separation.text);
   }
   if (options.search) {
     info["families"] += ", search";
@@ -237,6 +252,7 @@ void add_fuzz(CLI::App& app, int& exit_code) {
           "by 10^x of their size, x from -16 to -1")
       ->expected(2)
       ->type_name("START.obj END.obj");
+  options->separation.add_to(*command, true);
   command->add_flag(
       "--search", options->search,
       "Add directed search for collisions that each subject nearly misses, and for its farthest "

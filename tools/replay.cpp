@@ -21,6 +21,7 @@ struct Options {
   std::vector<fs::path> paths;
   TrialOptions trial;
   std::string bound;
+  SeparationOption separation;
   RecordOptions record;
 };
 
@@ -44,6 +45,10 @@ int run(const Options& options) {
     info["bound"] = options.bound;
     info["again"] += " --bound " + options.bound;
   }
+  if (options.separation.is_given()) {
+    info["separation"] = options.separation.text;
+    info["again"] += " --separation " + options.separation.text;
+  }
   Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
   {
     Progress progress(options.record.quiet);
@@ -52,7 +57,10 @@ int run(const Options& options) {
     TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
     const auto add = [&](const Case& each) {
       stop.check();
-      stream.add(family_of(each.name), each.query, each.truth, [name = each.name] { return name; });
+      // A recorded truth is that of the recorded question.
+      const Query query = options.separation.apply(each.query);
+      stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
+                 [name = each.name] { return name; });
       ++count;
       if (progress.due())
         progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
@@ -77,6 +85,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       ->required();
   options->trial.add_to(*command);
   add_bound_option(*command, options->bound);
+  options->separation.add_to(*command);
   options->record.add_to(*command);
   command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
 namespace nearmiss {
@@ -26,8 +28,19 @@ const Parameter& parameter_of(const Family& family) {
   return *family.parameter;
 }
 
-/// The name without "@VALUE".
-std::string_view base_name(std::string_view name) { return name.substr(0, name.find('@')); }
+/// The name without "@VALUE" and "~SEPARATION".
+std::string_view base_name(std::string_view name) { return name.substr(0, name.find_first_of("@~")); }
+
+/// Draws a separation, as with_separation() says.
+double draw_separation(Random& random, const Query& query) {
+  constexpr double least_digits = -6;
+  const double factor = std::pow(10, random.uniform(least_digits, 0));
+  const bool is_power_of_two = random.one_in(4);
+  const double size = extent(query);
+  const double h = std::clamp(size > 0 ? size * factor : factor, std::numeric_limits<double>::denorm_min(),
+                              std::numeric_limits<double>::max());
+  return is_power_of_two ? std::ldexp(1.0, std::ilogb(h)) : h;
+}
 
 }  // namespace
 
@@ -69,14 +82,58 @@ std::vector<Family> sweep(const Family& family, int steps) {
   return found;
 }
 
+Family with_separation(const Family& family, std::string_view separation) {
+  const std::string name = fmt::format("{}~{}", family.name, separation);
+  const std::string where = fmt::format("family '{}'", excerpt(name));
+  if (family.has_separation)
+    throw Error(fmt::format("{}: found a separation, expected none: the family has its own", where));
+  Family other = family;
+  other.name = name;
+  other.has_separation = true;
+  other.planted = false;
+  const double fixed = separation == drawn_separation ? 0 : parse_separation(separation, where);
+  if (separation != drawn_separation && fixed == 0)
+    throw Error(
+        fmt::format("{}: found the separation 0, expected a positive number or {}", where, drawn_separation));
+  other.make = [make = family.make, fixed](Random& random, Kind kind) {
+    Query query = make(random, kind);
+    query.separation = fixed > 0 ? fixed : draw_separation(random, query);
+    return query;
+  };
+  if (other.parameter)
+    other.parameter->make = [make = family.parameter->make, fixed](Random& random, Kind kind, double x) {
+      Query query = make(random, kind, x);
+      query.separation = fixed > 0 ? fixed : draw_separation(random, query);
+      return query;
+    };
+  return other;
+}
+
+namespace {
+
+std::vector<Family> joined(const std::vector<std::vector<Family>>& themes) {
+  std::vector<Family> all;
+  for (const auto& theme : themes) all.insert(all.end(), theme.begin(), theme.end());
+  return all;
+}
+
+}  // namespace
+
 std::span<const Family> families() {
-  static const std::vector<Family> all = [] {
-    std::vector<Family> joined;
-    for (auto& theme : {random_families(), file_families(), motion_families(), crossed_families(),
-                        root_families(), extreme_families(), range_families()})
-      joined.insert(joined.end(), theme.begin(), theme.end());
-    return joined;
-  }();
+  static const std::vector<Family> all =
+      joined({random_families(), file_families(), motion_families(), crossed_families(), root_families(),
+              extreme_families(), range_families()});
+  return all;
+}
+
+std::span<const Family> separation_families() {
+  static const std::vector<Family> all = approach_families();
+  return all;
+}
+
+std::span<const Family> all_families() {
+  static const std::vector<Family> all = joined(
+      {{families().begin(), families().end()}, {separation_families().begin(), separation_families().end()}});
   return all;
 }
 
@@ -89,9 +146,12 @@ Family find_family(std::string_view name, std::span<const Family> known) {
     for (const Family& family : known) names += ", " + family.name;
     throw Error(fmt::format("unknown family '{}', expected one of {}", excerpt(base), names.substr(2)));
   }
-  if (base == name) return *found;
-  return at_value(*found,
-                  parse_number(name.substr(base.size() + 1), fmt::format("family '{}'", excerpt(name))));
+  const std::string_view of_contact = name.substr(0, name.find('~'));
+  Family family = *found;
+  if (base != of_contact)
+    family = at_value(
+        family, parse_number(of_contact.substr(base.size() + 1), fmt::format("family '{}'", excerpt(name))));
+  return of_contact == name ? family : with_separation(family, name.substr(of_contact.size() + 1));
 }
 
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {

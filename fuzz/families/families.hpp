@@ -32,6 +32,7 @@ struct Family {
   std::uint64_t block_cases = 25;        ///< queries per round of a campaign; fewer if they are slow
   bool timed = true;                     ///< whether the subjects' times count
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
+  bool has_separation = false;           ///< whether the queries have a separation h > 0
 };
 
 /// A family with a parameter.
@@ -45,12 +46,26 @@ Family at_value(const Family& family, double value);
 /// fewer whole numbers than steps, each occurs once. Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// All families, in the order in which they are listed and asked: the extreme ones come last.
+/// What a separation is that is not a number.
+inline constexpr std::string_view drawn_separation = "drawn";
+
+/// The family NAME~SEPARATION: the same queries with a separation, which is a positive number, or `drawn`. Then each query
+/// draws its own after all else, from a millionth of the extent of its primitives to all of it; one in four is a power of two.
+/// Throws Error if it is neither, or if the family has separations of its own.
+Family with_separation(const Family& family, std::string_view separation);
+
+/// All families that ask for contact, in the order in which they are listed and asked: the extreme ones come last.
 std::span<const Family> families();
 
-/// A family by its name, NAME or NAME@VALUE. For an unknown name, throws an Error that lists the known
-/// families.
-Family find_family(std::string_view name, std::span<const Family> known = families());
+/// The families whose queries have separations of their own.
+std::span<const Family> separation_families();
+
+/// Both.
+std::span<const Family> all_families();
+
+/// A family by its name, NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name, throws an Error that lists
+/// the known families.
+Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
 /// The kind of a family's query by its index: vertex-triangle if it is even, edge-edge if it is odd.
 constexpr Kind kind_of(std::uint64_t index) { return kinds[index % kinds.size()]; }

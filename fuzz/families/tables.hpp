@@ -14,5 +14,6 @@ std::vector<Family> range_families();
 std::vector<Family> motion_families();
 std::vector<Family> file_families();
 std::vector<Family> crossed_families();
+std::vector<Family> approach_families();
 
 }  // namespace nearmiss

@@ -1,5 +1,6 @@
 #include "fuzz/trial/judge.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fuzz/trial/signatures.hpp"
@@ -14,11 +15,53 @@ double Judge::unit(const Query& query) const { return ask_unit(query).bound; }
 
 BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ : subject_).ask_bound(query); }
 
-std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict,
-                                                            const Truth& truth) const {
-  Outcome outcome{.verdict = verdict, .collision = truth.collision(), .measured_by_wang = wang_ != nullptr};
+namespace {
+
+/// The magnitude of time - t*: an upper bound in the right bin of a Histogram, with a relative accuracy of 1/1000 unless it
+/// lies in the first bin; and its sign, 0 if the time certainly is t*.
+struct TimeDifference {
+  double magnitude;
+  int sign;
+};
+
+TimeDifference difference(double time, EarliestTime& earliest) {
+  constexpr double accuracy = 1e-3;
+  for (const double width : {rough_time, 0x1p-50, 0.0}) {
+    const auto [lo, hi] = earliest.enclosure(width);
+    if (lo <= time && time <= hi && width > 0) continue;
+    if (lo == hi && lo == time) return {0, 0};
+    const double nearer = time > hi ? time - hi : time < lo ? lo - time : 0;
+    const double farther = std::max(std::abs(time - lo), std::abs(hi - time));
+    const bool is_known = Histogram::lower_border(nearer) == Histogram::lower_border(farther) &&
+                          (Histogram::lower_border(farther) == 0 || farther - nearer <= accuracy * farther);
+    if (is_known || width == 0) return {farther, time >= hi ? 1 : -1};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth) const {
+  const TimeSort sort = subject_.time_sort();
+  if (sort == TimeSort::none || std::isnan(verdict.time)) return std::nullopt;
+  const auto [magnitude, sign] = difference(verdict.time, truth.time());
+  TimeError error{.late = sort == TimeSort::lower_bound && truth.time().makes_late(verdict.time),
+                  .stuck = verdict.time == 0 && sign < 0};
+  (sign > 0 ? error.after : error.early) = magnitude;
+  error.travelled = error.early * truth.relative_speed();
+  return error;
+}
+
+std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdict, Truth& truth) const {
+  Outcome outcome{.verdict = verdict,
+                  .collision = truth.collision() || (truth.is_tie() && verdict.hit),
+                  .measured_by_wang = wang_ != nullptr};
   if (verdict.fault != Fault::none) outcome.fault_text = subject_.fault_text(verdict);
-  if (verdict.fault != Fault::none || !verdict.hit || outcome.collision) return {outcome, std::nullopt};
+  if (verdict.fault != Fault::none || !verdict.hit) return {outcome, std::nullopt};
+  if (outcome.collision) {
+    outcome.time = time_error(verdict, truth);
+    return {outcome, std::nullopt};
+  }
   const BoundAnswer unit = ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;
@@ -32,19 +75,21 @@ Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts& counts)
   if (!unit) return outcome;
   const auto [ratio, exceeds] = truth.distance(*unit);
   outcome.bound_refuted = exceeds && subject_.claims_bound();
-  const bool is_kept = outcome.bound_refuted || counts.keeps(ratio);
+  const bool is_kept = outcome.bound_refuted || Counts::keeps(counts.farthest, ratio);
   outcome.ratio = is_kept ? truth.precise_ratio(*unit, ratio) : ratio;
   return outcome;
 }
 
 std::optional<Failure> Judge::failure(const Query& query) const {
   const Verdict verdict = subject_.decide(query);
-  // A report fails only by a bound that is claimed.
-  if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound()) return std::nullopt;
+  // A report fails only by a bound or a time that is claimed.
+  if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
+      subject_.time_sort() != TimeSort::lower_bound)
+    return std::nullopt;
   const Query rounded = subject_.rounded(query);
   Truth truth(rounded);
   auto [outcome, unit] = outcome_of(verdict, truth);
-  outcome.bound_refuted = unit && distance_exceeds(rounded, *unit);
+  outcome.bound_refuted = unit && subject_.claims_bound() && truth.exceeds(*unit);
   return failure_of(outcome, truth);
 }
 
@@ -56,6 +101,7 @@ std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
     return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict, outcome.fault_text)};
   if (outcome.collision && !outcome.verdict.hit)
     return Failure{Finding::What::false_negative, truth.contact()};
+  if (outcome.time && outcome.time->late) return Failure{Finding::What::late, truth.contact()};
   if (outcome.bound_refuted)
     return Failure{Finding::What::refuted_bound, report_signature(kind, outcome.verdict.stage)};
   return std::nullopt;

@@ -34,7 +34,8 @@ class Judge {
   /// The unit, or why the subject fails to give it.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
-  /// Compares an answer with the truth about the query as the subject rounds it. A subject that claims bounds
+  /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is exactly the
+  /// separation h > 0, any answer is right, and a report counts as that of a collision. A subject that claims bounds
   /// must give a number >= 0 for a false positive; anything else is a fault. The ratio of a false positive is
   /// that of `Truth::distance`, accurate to 1/1000 if the finding or these counters store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, const Counts& counts) const;
@@ -45,7 +46,9 @@ class Judge {
  private:
   /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(const Verdict& verdict,
-                                                                     const Truth& truth) const;
+                                                                     Truth& truth) const;
+  /// The error of the time of a true positive; nothing if the subject gives none.
+  [[nodiscard]] std::optional<TimeError> time_error(const Verdict& verdict, Truth& truth) const;
 
   const Subject& subject_;
   std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound

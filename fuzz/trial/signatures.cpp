@@ -32,6 +32,10 @@ std::string without_numbers(std::string_view text) {
 }  // namespace
 
 std::string contact_signature(const Query& query) {
+  if (query.separation > 0) {
+    const auto features = approach_features(query);
+    return signature(query.kind, features ? to_text(query.kind, *features) : "no-approach");
+  }
   const auto features = contact_features(query);
   return signature(query.kind, features ? to_text(query.kind, *features) : "no-contact");
 }

@@ -161,6 +161,8 @@ bool can_fail(Finding::What what, const Verdict& verdict, bool collision) {
       return is_false_positive;
     case Finding::What::fault:
       return is_fault || is_false_positive;
+    case Finding::What::late:
+      return !is_fault && verdict.hit && collision;
     default:
       return false;
   }

@@ -94,7 +94,7 @@ class Judging {
         decisions_(batch.queries.size()) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       counts_.push_back(nullptr);
-      if (!subjects[s]->decides(batch.kind)) continue;
+      if (!batch.can_ask(*subjects[s])) continue;
       counts_.back() = &result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}];
       counts_.back()->times = times[s];
     }
@@ -165,7 +165,9 @@ class Judging {
 
   void keep(std::size_t i, const std::string& subject, Failure failure, const Query& query,
             const Outcome& outcome = {}) {
-    const double ratio = outcome.bound_refuted ? outcome.ratio : 0;
+    const double ratio = failure.what == Finding::What::refuted_bound ? outcome.ratio
+                         : failure.what == Finding::What::late        ? outcome.time->after
+                                                                      : 0;
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
     result_.findings.back().place = i;
@@ -202,9 +204,8 @@ void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
   check_coordinates(batch_);
   const std::vector<Verdict> not_asked(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
   for (std::size_t s = 0; s < subjects_.size(); ++s)
-    answers_.push_back(subjects_[s]->decides(batch_.kind) && asks(s)
-                           ? decide_all(*subjects_[s], batch_, times_[s])
-                           : not_asked);
+    answers_.push_back(batch_.can_ask(*subjects_[s]) && asks(s) ? decide_all(*subjects_[s], batch_, times_[s])
+                                                                : not_asked);
 }
 
 TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }

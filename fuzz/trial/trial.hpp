@@ -16,7 +16,8 @@ namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// Queries of one kind and family that are decided, timed and counted together.
+/// Queries of one kind and family that are decided, timed and counted together. All of them have a separation h > 0, or
+/// none has; a subject that takes no separation is asked in the second case only.
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
@@ -28,6 +29,12 @@ struct Batch {
   std::function<std::string(std::size_t)> provenance = {};
   /// If set, receives every outcome: that of query i for the subject with this index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
+
+  /// Whether a subject can answer these queries.
+  [[nodiscard]] bool can_ask(const Subject& subject) const {
+    const bool has_separation = !queries.empty() && queries.front().separation > 0;
+    return subject.decides(kind) && (!has_separation || subject.takes_separation());
+  }
 };
 
 /// The result of a trial. The place of a finding is that of its query in the batch.

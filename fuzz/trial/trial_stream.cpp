@@ -10,7 +10,7 @@ constexpr std::size_t batch_queries = 1000;
 
 bool TrialStream::add(const std::string& family, const Query& query, std::optional<bool> truth,
                       std::function<std::string()> provenance) {
-  Pending& pending = pending_[{family, query.kind}];
+  Pending& pending = pending_[{family, query.kind, query.separation > 0}];
   pending.batch.kind = query.kind;
   pending.batch.family = family;
   pending.batch.queries.push_back(query);

@@ -5,14 +5,14 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "fuzz/trial/sifted_trials.hpp"
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind and family, runs the trials and passes on the results. It stores
+/// Collects queries into batches by kind, family and whether there is a separation, runs the trials and passes on the results. It stores
 /// only a few batches at any time.
 class TrialStream {
  public:
@@ -36,7 +36,7 @@ class TrialStream {
 
   SiftedTrials& trials_;
   TrialSink sink_;
-  std::map<std::pair<std::string, Kind>, Pending> pending_;
+  std::map<std::tuple<std::string, Kind, bool>, Pending> pending_;  // by family, kind and whether h > 0
   std::vector<Pending> full_;
 };
 

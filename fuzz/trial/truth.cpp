@@ -1,9 +1,11 @@
 #include "fuzz/trial/truth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
+#include "ccd/subject.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
 #include "reports/statistics/statistics.hpp"
@@ -14,7 +16,7 @@ Truth::Truth(const Query& query) : query_(query) { decide(std::span(&query, 1), 
 
 Answers Truth::ask_methods() const {
   const bool by_exact_arithmetic = decision_.stage == FilterStage::undecided;
-  return by_exact_arithmetic ? ask_others(query_, collision()) : ask_all(query_);
+  return by_exact_arithmetic ? ask_others(query_, to_answer(query_, decision_)) : ask_all(query_);
 }
 
 std::string Truth::disagreement(const Answers& answers) const {
@@ -24,6 +26,25 @@ std::string Truth::disagreement(const Answers& answers) const {
 const std::string& Truth::contact() {
   if (contact_.empty()) contact_ = contact_signature(query_);
   return contact_;
+}
+
+EarliestTime& Truth::time() {
+  if (!time_) time_.emplace(query_);
+  return *time_;
+}
+
+double Truth::relative_speed() const {
+  const double B = pair_bound(query_);
+  double fastest = 0;
+  for (int i = 0; i < split(query_.kind); ++i)
+    for (int j = split(query_.kind); j < 4; ++j) {
+      // In units of B, nothing overflows.
+      const auto moved = [&](int vertex) -> Vector3<double> {
+        return query_.end(vertex) / B - query_.start(vertex) / B;
+      };
+      fastest = std::max(fastest, (moved(i) - moved(j)).norm());
+    }
+  return std::isfinite(fastest) ? fastest : 0;
 }
 
 Truth::Distance Truth::distance(double unit) {
@@ -36,16 +57,36 @@ Truth::Distance Truth::distance(double unit) {
 
 double Truth::precise_ratio(double unit, double ratio) const {
   if (Histogram::lower_border(ratio) == 0) return ratio;
-  return std::min(closest_ratio(query_, unit), ratio);
+  if (query_.separation == 0) return std::min(closest_ratio(query_, unit), ratio);
+  constexpr double width = 1e-3;
+  return std::min(beyond_separation(unit, [](double hi) { return hi * (1 - width); }).hi, ratio);
+}
+
+Enclosure Truth::beyond_separation(double unit, const NeededDistance& needed) const {
+  constexpr double most = std::numeric_limits<double>::max();
+  const double h = std::min(query_.separation / unit, most);
+  const Enclosure all = distance_in_units(
+      query_, unit, [&](double hi) { return hi > h ? std::min(h + needed(hi - h), hi) : 0; });
+  return {std::max(all.lo - h, 0.0), std::max(all.hi - h, 0.0)};
+}
+
+bool Truth::exceeds(double unit) const {
+  if (unit == 0) return true;  // it is not 0
+  const double h = query_.separation;
+  // For h > 0, the sum is rounded up, in favour of the subject.
+  return distance_exceeds(query_,
+                          h == 0 ? unit : std::nextafter(h + unit, std::numeric_limits<double>::infinity()));
 }
 
 Truth::Distance Truth::measured_distance(double unit) const {
-  if (unit == 0) return {std::numeric_limits<double>::max(), true};  // any distance exceeds it
-  const Enclosure ratio = distance_in_units(query_, unit, Histogram::lower_border);
-  if (ratio.hi <= 1) return {ratio.hi, false};
-  if (ratio.lo > 1 || distance_exceeds(query_, unit))
-    return {std::min(ratio.hi, std::numeric_limits<double>::max()), true};
-  return {1, false};
+  constexpr double most = std::numeric_limits<double>::max();
+  if (unit == 0) return {most, true};
+  const bool is_contact = query_.separation == 0;
+  const Enclosure ratio = is_contact ? distance_in_units(query_, unit, Histogram::lower_border)
+                                     : beyond_separation(unit, Histogram::lower_border);
+  // For contact, the enclosure mostly tells.
+  const bool beyond = is_contact && ratio.hi <= 1 ? false : is_contact && ratio.lo > 1 ? true : exceeds(unit);
+  return {std::min(ratio.hi, beyond ? most : 1.0), beyond};
 }
 
 }  // namespace nearmiss

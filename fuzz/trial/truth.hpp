@@ -1,12 +1,14 @@
 // The oracle's answers about one query.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ccd/query.hpp"
 #include "oracle/agreement.hpp"
+#include "oracle/distance/needed_distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -28,25 +30,39 @@ class Truth {
   /// The signature of a disagreement between these answers and the decision; "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
+  /// Whether both answers are right, because the smallest distance is exactly h > 0.
+  [[nodiscard]] bool is_tie() const { return decision_.is_tie; }
+
   /// The signature of the first contact.
   const std::string& contact();
 
-  /// The distance of a false positive, divided by a unit of length.
+  /// The earliest time at which the distance is at most h, for a collision or a tie.
+  EarliestTime& time();
+  /// The largest relative speed of a vertex of one primitive and one of the other, in the pair's bound B for each step;
+  /// rounded.
+  [[nodiscard]] double relative_speed() const;
+
+  /// The distance of a false positive, less the separation, divided by a unit of length.
   struct Distance {
     double ratio;  ///< an upper bound in the right bin of a Histogram
     bool exceeds;  ///< whether the ratio is above 1, decided exactly
   };
   Distance distance(double unit);
+  /// The `exceeds` of `distance`, which takes less time.
+  [[nodiscard]] bool exceeds(double unit) const;
 
   /// The `ratio` of `distance` with an accuracy of 1/1000, unless it lies in the first bin of a Histogram.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:
   [[nodiscard]] Distance measured_distance(double unit) const;
+  /// An enclosure of the smallest distance less the separation h > 0, divided by `unit`; up to rounding, lo >= needed(hi).
+  [[nodiscard]] Enclosure beyond_separation(double unit, const NeededDistance& needed) const;
 
   const Query& query_;
   Decision decision_;
   std::string contact_;
+  std::optional<EarliestTime> time_;
   std::vector<std::pair<double, Distance>> distances_;  // computed distances by unit
 };
 

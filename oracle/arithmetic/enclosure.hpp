@@ -11,4 +11,10 @@ struct Enclosure {
   bool operator==(const Enclosure&) const = default;
 };
 
+/// What is known about a time.
+struct KnownTime {
+  Enclosure time;
+  bool is_between = false;  ///< whether it certainly is neither end of the enclosure
+};
+
 }  // namespace nearmiss

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ccd/query.hpp"
+#include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/distance/needed_distance.hpp"
 #include "oracle/distance/vertex_differences.hpp"
 
@@ -20,5 +21,18 @@ struct Approach {
 /// with 384 bits. The errors are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. The
 /// search gives up if it needs too many times, as for narrow enclosures of minima at which the normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
+
+/// When the distance first falls below a bound.
+struct FirstTime {
+  bool never = false;  ///< it certainly does not in [0, 1]; it is even at least the required distance
+  bool comes = false;  ///< it certainly does
+  Enclosure
+      time;  ///< contains the first such time, if there is one; before it, the distance is at least the required one
+};
+
+/// Looks for the first time at which the distance is below `low`, in the same way, in double and in double words; at most `width`
+/// wide, or as narrow as doubles allow, if the search succeeds. The required distance is what certified bounds must
+/// reach before that time; it must be greater than `low`. Both are in the unit of the differences.
+FirstTime first_time_below(const VertexDifferences& differences, double low, double required, double width);
 
 }  // namespace nearmiss::certified

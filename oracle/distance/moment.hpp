@@ -22,6 +22,7 @@ struct Moment {
   double slope = 0;          ///< its sign is that of the change of the distance, uncertified
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
+  double rate = 0;           ///< derivative of the distance, estimated
   Vec<double> direction{};   ///< from the second primitive to the first, between closest points, or 0
 
   /// The separation that fits the features best; then others, if requested.
@@ -83,6 +84,7 @@ Moment look(const VerticesAt<Real>& x) {
   const Vec<double> difference = to_double(closest.difference);
   const Vec<double> velocity = to_double(closest.velocity);
   moment.direction = detail::direction_of(difference);
+  moment.rate = dot(moment.direction, velocity);
   switch (features.combination) {
     case ClosestFeatures::Combination::vertices:
       detail::predict(moment, difference, velocity);

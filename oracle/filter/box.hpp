@@ -7,9 +7,9 @@
 
 namespace nearmiss {
 
-/// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] meet. The boxes are closed, and
-/// the test is exact because it only compares input coordinates. If the boxes do not meet, there is no
-/// collision.
+/// Whether the axis-aligned boxes that the two primitives sweep over [0, 1] are at most the separation h apart along every
+/// axis; for h = 0, whether these closed boxes meet. If not, there is no collision. The test is exact: rounding is monotone, so
+/// fl(a - b) > h implies a - b > h.
 inline bool boxes_meet(const Query& query) {
   const auto range = [&](int first, int last, int k) {
     double lo = query.x[static_cast<std::size_t>(3 * first + k)];
@@ -28,7 +28,7 @@ inline bool boxes_meet(const Query& query) {
   for (int k = 0; k < 3; ++k) {
     const auto [lo_a, hi_a] = range(0, middle, k);
     const auto [lo_b, hi_b] = range(middle, 4, k);
-    meet &= lo_a <= hi_b && lo_b <= hi_a;
+    meet &= !(lo_a - hi_b > query.separation || lo_b - hi_a > query.separation);
   }
   return meet;
 }

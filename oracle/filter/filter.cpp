@@ -42,11 +42,13 @@ FilterStage search_in_double_words(const Query& query) {
 
 /// If there is a contact, the first one is in this interval.
 template <class Real>
-std::optional<Enclosure> search_for_time(const Query& query, const Bernstein<Real, 4>& F,
-                                         const StepPart<Real>& whole) {
-  ContactSearch<Real> search(query.kind, whole, whole, F, 0, Asked::when);
+std::optional<KnownTime> search_for_time(const Query& query, const Bernstein<Real, 4>& F,
+                                         const StepPart<Real>& whole, Asked asked) {
+  ContactSearch<Real> search(query.kind, whole, whole, F, 0, asked);
   search.run();
-  return search.first();
+  const auto first = search.first();
+  if (!first) return std::nullopt;
+  return KnownTime{*first, search.is_between()};
 }
 
 FilterBatch* filter_with(Instructions instructions) {
@@ -91,20 +93,19 @@ FilterStage filter(const Query& query) {
   return look_closer(query, whole, F);
 }
 
-std::optional<Enclosure> time_of_contact(const Query& query) {
+std::optional<KnownTime> time_of_contact(const Query& query, double width) {
   using namespace certified;
   const PlainArithmetic guard;
-  if (!is_finite(query)) return Enclosure{0, 1};
+  if (!is_finite(query)) return KnownTime{{0, 1}};
   const auto whole = whole_step<double>(coordinates(query));
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return std::nullopt;
-  if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return Enclosure{0, 0};
-  constexpr double narrow = 0x1p-30;
-  const auto time = search_for_time(query, F, whole);
-  if (!time || time->hi - time->lo <= narrow) return time;
-  const auto whole_in_words = whole_step<DoubleWord>(coordinates(query));
-  return search_for_time(query, coplanarity(whole_in_words.a, whole_in_words.b, whole_in_words.c),
-                         whole_in_words);
+  if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return KnownTime{{0, 0}};
+  const auto time = search_for_time(query, F, whole, Asked::when);
+  if (!time || time->time.hi - time->time.lo <= width) return time;
+  const auto in_words = whole_step<DoubleWord>(coordinates(query));
+  return search_for_time(query, coplanarity(in_words.a, in_words.b, in_words.c), in_words,
+                         width < rough_time ? Asked::when_precisely : Asked::when);
 }
 
 bool has(Instructions instructions) {

@@ -15,32 +15,37 @@ namespace nearmiss {
 /// The stage that decided a query.
 enum class FilterStage : std::uint8_t {
   boxes,        ///< no: the swept boxes do not meet
-  planes,       ///< no: a moving plane across an axis or a diagonal separates the primitives
+  planes,       ///< no: a moving plane across an axis or a diagonal separates the primitives, by more than h
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: two weights have opposite signs at every time at which F may vanish
   sign_change,  ///< yes: F changes its sign where all weights are inside
   at_an_end,    ///< yes: the primitives touch at t = 0 or t = 1, by exact predicates
+  apart,        ///< no: the distance is always above the separation h > 0
+  within,       ///< yes: the distance falls below the separation h > 0
   undecided,    ///< exact arithmetic must decide
 };
 
-inline constexpr std::size_t filter_stage_count = 7;
+inline constexpr std::size_t filter_stage_count = 9;
 
 /// Names of the stages, in order, as used in files and reports.
 inline constexpr std::array<std::string_view, filter_stage_count> filter_stage_names{
-    "boxes", "planes", "one-sign", "weights", "sign-change", "at-an-end", "undecided"};
+    "boxes", "planes", "one-sign", "weights", "sign-change", "at-an-end", "apart", "within", "undecided"};
 
 /// Whether a stage means a collision; the stage must not be `undecided`.
 constexpr bool is_collision(FilterStage stage) {
-  return stage == FilterStage::sign_change || stage == FilterStage::at_an_end;
+  return stage == FilterStage::sign_change || stage == FilterStage::at_an_end || stage == FilterStage::within;
 }
 
 /// Decides a query in double arithmetic with certified bounds, or leaves it undecided; it does not include
 /// the box test. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
 
+/// Width of an enclosure of a time that is mostly known without double words.
+inline constexpr double rough_time = 0x1p-30;
+
 /// An interval that contains the time of the first contact, if there is one, found in the same arithmetic; nothing if there
-/// certainly is none. Most are narrower than 2^-30. It does not include the box test.
-std::optional<Enclosure> time_of_contact(const Query& query);
+/// certainly is none. Most are at most `width` wide, or as narrow as doubles allow. It does not include the box test.
+std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
 /// The x86-64 instruction sets that can decide many queries at once.
 enum class Instructions : std::uint8_t { sse2, avx2, avx512 };

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "ccd/query.hpp"
+#include "oracle/arithmetic/bernstein.hpp"
 
 namespace nearmiss::certified {
 
@@ -16,9 +18,6 @@ struct HeightRange {
   explicit HeightRange(const Real& x) : lo(x), hi(x) {}
   HeightRange(const Real& x, const Real& y) : lo(lesser(x, y)), hi(greater(x, y)) {}
   HeightRange(const HeightRange& a, const Real& x) : lo(lesser(a.lo, x)), hi(greater(a.hi, x)) {}
-
-  /// Whether this range is certainly above the other one; NaN is never above.
-  [[nodiscard]] auto is_above(const HeightRange& other) const { return lo > other.hi; }
 
  private:
   static Real lesser(const Real& x, const Real& y) {
@@ -32,11 +31,12 @@ struct HeightRange {
 };
 
 /// Whether the first primitive is above the second one at both ends of the step, or below it at both, for the
-/// heights `height(time, vertex)` in some direction. If so, all differences of heights between the primitives
-/// have one sign at both ends and, because they are linear, at every time. Their convex combinations do too,
-/// so the primitives never meet.
-template <Kind kind, class Height>
-[[gnu::always_inline]] inline auto is_separated(const Height& height) {
+/// heights `height(time, vertex)` in some direction; `is_above(lo, hi)` compares the lowest vertex of one with the highest
+/// one of the other. If so, all differences of heights between the primitives have one sign at both ends and, because they
+/// are linear, at every time. Their convex combinations do too, so the primitives never meet. If `is_above` asks for a
+/// difference of more than g, the heights of the primitives always differ by more than g.
+template <Kind kind, class Height, class IsAbove>
+[[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
   const auto first = [&](std::size_t time) {
     if constexpr (kind == Kind::vertex_triangle)
@@ -55,16 +55,26 @@ template <Kind kind, class Height>
   const auto a1 = first(1);
   const auto b0 = second(0);
   const auto b1 = second(1);
-  return (a0.is_above(b0) & a1.is_above(b1)) | (b0.is_above(a0) & b1.is_above(a1));
+  return (is_above(a0.lo, b0.hi) & is_above(a1.lo, b1.hi)) |
+         (is_above(b0.lo, a0.hi) & is_above(b1.lo, a1.hi));
 }
+
+/// For contact: whether one height is certainly above another one; NaN is never above.
+struct IsAbove {
+  template <class Real>
+  auto operator()(const Real& lo, const Real& hi) const {
+    return lo > hi;
+  }
+};
 
 /// Whether a plane across an axis separates the primitives throughout the step, so that they do not collide.
 /// The points `x(time, vertex, k)` must be finite. Heights along an axis are coordinates, so comparing them
 /// is exact.
-template <Kind kind, class Points>
-[[gnu::always_inline]] inline auto separated_across_axes(const Points& x) {
+template <Kind kind, class Points, class Above = IsAbove>
+[[gnu::always_inline]] inline auto separated_across_axes(const Points& x, const Above& is_above = {}) {
   const auto axis = [&](std::size_t k) {
-    return is_separated<kind>([&](std::size_t time, std::size_t vertex) { return x(time, vertex, k); });
+    return is_separated<kind>([&](std::size_t time, std::size_t vertex) { return x(time, vertex, k); },
+                              is_above);
   };
   return axis(0) | axis(1) | axis(2);
 }
@@ -73,8 +83,8 @@ template <Kind kind, class Points>
 /// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An
 /// overflowing sum is infinite; it is above every finite sum, as the exact sum is, and not above another
 /// infinite sum of its sign.
-template <Kind kind, class Points>
-[[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x) {
+template <Kind kind, class Points, class Above = IsAbove>
+[[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x, const Above& is_above = {}) {
   const auto both = [&](std::size_t k, std::size_t l) {
     const auto sum = [&](std::size_t time, std::size_t vertex) {
       return x(time, vertex, k) + x(time, vertex, l);
@@ -82,9 +92,44 @@ template <Kind kind, class Points>
     const auto difference = [&](std::size_t time, std::size_t vertex) {
       return x(time, vertex, k) - x(time, vertex, l);
     };
-    return is_separated<kind>(sum) | is_separated<kind>(difference);
+    return is_separated<kind>(sum, is_above) | is_separated<kind>(difference, is_above);
   };
   return both(0, 1) | both(1, 2) | both(2, 0);
+}
+
+/// For a separation h: whether a coordinate is more than h above another one. A difference is rounded once, and rounding is
+/// monotone: fl(a - b) > h implies a - b > h, because h is a double.
+struct IsFartherAbove {
+  double h;
+  bool operator()(double lo, double hi) const { return lo - hi > h; }
+};
+
+inline constexpr double root_of_two = 1.4142136;  ///< rounded up by a relative 2^-25
+inline constexpr double height_rounding =
+    0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
+
+/// The same for heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has length
+/// √2, so heights of points at a distance of at most h differ by at most √2 h.
+///
+/// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact. D = fl(A - B) is
+/// at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact heights differ by at least
+/// A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The right side below is at least √2 h + 4 u (|A| + |B|), less a relative
+/// 3 u for its roundings, which the margins of its constants cover, and less twice the smallest double for
+/// underflow in its products, which is added. If a sum or D is infinite, the right side is, too, or NaN: no answer.
+struct IsFartherAboveDiagonally {
+  double h;
+  bool operator()(double lo, double hi) const {
+    const double rounding = height_rounding * (std::abs(lo) + std::abs(hi));
+    return lo - hi > root_of_two * h + rounding + 2 * smallest;
+  }
+};
+
+/// Whether planes across the axes and the diagonals show that the primitives are always more than h apart.
+template <Kind kind>
+bool farther_apart_than(double h, const Query& query) {
+  const auto x = coordinates(query);
+  return separated_across_axes<kind>(x, IsFartherAbove{h}) ||
+         separated_across_diagonals<kind>(x, IsFartherAboveDiagonally{h});
 }
 
 }  // namespace nearmiss::certified

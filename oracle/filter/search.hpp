@@ -17,8 +17,8 @@ namespace nearmiss::certified {
 /// A subinterval that becomes a part of its own is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// What is asked: whether there is a contact, or also when the first one is.
-enum class Asked : std::uint8_t { whether, when };
+/// What is asked: whether there is a contact, or also when the first one is, roughly or to neighbouring doubles.
+enum class Asked : std::uint8_t { whether, when, when_precisely };
 
 /// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two weights have
 /// opposite signs on it, and splits an interval if that helps. It ends when all intervals are dropped, one contains a
@@ -49,6 +49,9 @@ class ContactSearch {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
   }
+  /// Whether that time is certainly not an end of the interval: F is certainly not zero at the ends of an interval in which it
+  /// changes its sign.
+  [[nodiscard]] bool is_between() const { return is_between_ && !unclear_; }
 
  private:
   // Each of these returns `weights` if the search can go on.
@@ -138,10 +141,26 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// There is a contact in `near`, a part of an interval.
+  /// There is a contact in `near`, a part of an interval: F changes its sign, and all weights are inside.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
-    found_ = in_step(near, is_whole() ? 0 : zoom_rounding);
-    return look_before(near, interval);
+    const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
+    found_ = in_step(first, is_whole() ? 0 : zoom_rounding);
+    is_between_ = true;
+    return look_before(first, interval);
+  }
+
+  /// A smaller interval with the first change of sign of F, between neighbouring doubles if F is clear of its error.
+  [[nodiscard]] Enclosure first_change(Enclosure near) const {
+    const bool rises = F_.at(near.hi) > 0;
+    while (true) {
+      const double middle = near.lo + 0.5 * (near.hi - near.lo);
+      if (!(near.lo < middle && middle < near.hi)) return near;
+      const double f = F_.at(middle);
+      if (!(std::abs(f) > F_.error)) return near;
+      const bool has_changed = (f > 0) == rises;
+      if (!has_changed && F_.sign_on(near.lo, middle) == 0) return near;
+      (has_changed ? near.hi : near.lo) = middle;
+    }
   }
 
   /// The same if `found_` is known. What comes later does not matter.
@@ -204,7 +223,10 @@ class ContactSearch {
     const auto F = coplanarity(part.a, part.b, part.c);
     ContactSearch closer(kind_, whole_, part, F, depth_ + 1, asked_);
     const FilterStage stage = closer.run();
-    if (stage == FilterStage::sign_change) found_ = closer.first();
+    if (stage == FilterStage::sign_change) {
+      found_ = closer.first();
+      is_between_ = closer.is_between();
+    }
     return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
@@ -234,6 +256,7 @@ class ContactSearch {
   int depth_;
   Asked asked_;
   std::optional<Enclosure> found_;  ///< of the step; contains the first contact that is not before `unclear_`
+  bool is_between_ = false;         ///< whether that time is certainly neither end of `found_`
   std::optional<Enclosure> unclear_;  ///< of the step; contains all intervals that are unclear
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;

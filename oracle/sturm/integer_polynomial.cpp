@@ -18,6 +18,23 @@ int IntegerPolynomial::sign_at(const Dyadic& t) const {
   return value.sign();
 }
 
+int IntegerPolynomial::sign_on(const Dyadic& lo, const Dyadic& hi) const {
+  const unsigned exponent = std::max(lo.exponent, hi.exponent);
+  const Integer from = lo.numerator << (exponent - lo.exponent);
+  const Integer to = hi.numerator << (exponent - hi.exponent);
+  // Bounds of the value times 2^(exponent × degree).
+  Integer least = 0;
+  Integer most = 0;
+  unsigned shift = 0;
+  for (auto c = c_.rbegin(); c != c_.rend(); ++c) {
+    const Integer next = *c << shift;
+    least = least * (least < 0 ? to : from) + next;
+    most = most * (most < 0 ? from : to) + next;
+    shift += exponent;
+  }
+  return least > 0 ? 1 : most < 0 ? -1 : 0;
+}
+
 IntegerPolynomial IntegerPolynomial::derivative() const {
   std::vector<Integer> d;
   for (std::size_t i = 1; i < c_.size(); ++i) d.emplace_back(c_[i] * i);
@@ -194,10 +211,27 @@ void isolate(const SturmSequence& sequence, const Dyadic& lo, const Dyadic& hi,
 
 }  // namespace
 
+SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
+    : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {
+  constexpr int halvings = 24;  // so that interval arithmetic shows most signs
+  const int sign_at_lo = f_.sign_at(lo_);
+  for (int i = 0; i < halvings; ++i) {
+    Dyadic middle = between(lo_, hi_);
+    const int sign = f_.sign_at(middle);
+    if (sign == 0) {
+      is_dyadic_ = true;
+      lo_ = std::move(middle);
+      return;
+    }
+    (sign == sign_at_lo ? lo_ : hi_) = std::move(middle);
+  }
+}
+
 int SturmRoot::sign(const IntegerPolynomial& g) const {
   if (is_dyadic_) return g.sign_at(lo_);
   if (g.is_zero()) return 0;
-  return tarski_query(f_, g, lo_, hi_);
+  const int sign = g.sign_on(lo_, hi_);
+  return sign != 0 ? sign : tarski_query(f_, g, lo_, hi_);
 }
 
 std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {

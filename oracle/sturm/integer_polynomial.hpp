@@ -24,6 +24,8 @@ class IntegerPolynomial {
   [[nodiscard]] bool is_zero() const { return c_.empty(); }
   [[nodiscard]] int degree() const { return static_cast<int>(c_.size()) - 1; }
   [[nodiscard]] int sign_at(const Dyadic& t) const;
+  /// The sign on all of [lo, hi], for 0 <= lo < hi, if interval arithmetic shows it; else 0.
+  [[nodiscard]] int sign_on(const Dyadic& lo, const Dyadic& hi) const;
   [[nodiscard]] IntegerPolynomial derivative() const;
 
   IntegerPolynomial operator+(const IntegerPolynomial& other) const;
@@ -50,10 +52,10 @@ class IntegerPolynomial {
 class SturmRoot {
  public:
   explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_(std::move(value)) {}
-  SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
-      : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {}
+  SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi);
 
-  /// The sign of g at this root. If the root is not dyadic, Tarski's query finds the sign.
+  /// The sign of g at this root. If the root is not dyadic, and interval arithmetic does not show the sign, Tarski's query
+  /// finds it.
   [[nodiscard]] int sign(const IntegerPolynomial& g) const;
   /// Whether the root is t = 0 or t = 1.
   [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }

@@ -19,9 +19,12 @@ std::string subject_of(const Finding& finding) {
 
 Case to_case(const Finding& finding) {
   std::string why = fmt::format("{} of {}", name(finding.what), subject_of(finding));
-  if (finding.ratio > 0) why += fmt::format(", {}", times_the_bound(finding.ratio));
+  if (finding.ratio > 0)
+    why += finding.what == Finding::What::late ? fmt::format(", by {:.3g} of the step", finding.ratio)
+                                               : fmt::format(", {}", times_the_bound(finding.ratio));
   Case result{.name = {}, .query = finding.query, .truth = {}, .why = why, .provenance = finding.provenance};
-  if (finding.what == Finding::What::false_negative) result.truth = true;
+  if (finding.what == Finding::What::false_negative || finding.what == Finding::What::late)
+    result.truth = true;
   if (finding.what == Finding::What::refuted_bound) result.truth = false;
   return result;
 }

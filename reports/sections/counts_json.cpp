@@ -22,10 +22,11 @@ ordered_json value_json(std::uint64_t count) { return count; }
 
 ordered_json value_json(const Histogram& histogram) { return histogram.bins; }
 
-ordered_json value_json(const std::vector<FarCase>& cases) {
+/// `key` names what the cases are extreme in.
+ordered_json cases_json(const std::vector<FarCase>& cases, const char* key) {
   ordered_json json = ordered_json::array();
   for (const FarCase& far : cases)
-    json.push_back({{"ratio", far.ratio}, {"provenance", far.provenance}, {"query", to_line(far.query)}});
+    json.push_back({{key, far.ratio}, {"provenance", far.provenance}, {"query", to_line(far.query)}});
   return json;
 }
 
@@ -48,6 +49,12 @@ template <class Owner, class Member>
 void add_counter(ordered_json& json, const Owner& owner, const Counter<Owner, Member>& counter) {
   ordered_json& object = counter.shown == Shown::in_times ? json["times"] : json;
   object[std::string(counter.json_key)] = value_json(owner.*counter.member);
+}
+
+void add_counter(ordered_json& json, const Counts& counts,
+                 const Counter<Counts, std::vector<FarCase>>& counter) {
+  const bool are_distances = counter.member == &Counts::farthest;
+  json[std::string(counter.json_key)] = cases_json(counts.*counter.member, are_distances ? "ratio" : "error");
 }
 
 template <class Owner, std::size_t size>
@@ -106,6 +113,11 @@ ordered_json rates_json(const Counts& counts, bool is_sample) {
   json["q99_fp_distance_over_bound"] = range(counts.ratio_quantile(0.99));
   json["max_fp_distance_over_bound"] = counts.max_ratio();
   json["bound_of_distances"] = name(counts.distance_unit());
+  json["unknown"] = counts.unknown();
+  json["median_early"] = range(counts.early_quantile(0.5));
+  json["q99_early"] = range(counts.early_quantile(0.99));
+  json["max_early"] = counts.max_early();
+  json["max_after"] = counts.max_after();
   json["ns_per_query"] = or_null(counts.times.ns_per_query());
   return json;
 }

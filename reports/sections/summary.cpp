@@ -8,6 +8,7 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/sections/class_table.hpp"
+#include "reports/sections/time_table.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/text/text.hpp"
 
@@ -39,8 +40,8 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
 }  // namespace
 
 bool found_anything(const Statistics& statistics) {
-  return statistics.false_negatives() + statistics.refuted_bounds() + statistics.oracle_disagreements +
-             statistics.mismatches_with_recorded_truth >
+  return statistics.false_negatives() + statistics.late() + statistics.refuted_bounds() +
+             statistics.oracle_disagreements + statistics.mismatches_with_recorded_truth >
          0;
 }
 
@@ -65,10 +66,14 @@ std::string fault_text(const Counts& counts) {
 SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   const bool missed = counts.false_negatives > 0;
   const bool faulty = counts.faults_total() > beyond_contract(counts);
+  const bool late = counts.late > 0;
   const bool refuted = counts.refuted_bounds > 0;
   std::string text =
       missed ? fmt::format("MISSED {} of ", with_separators(counts.false_negatives)) : "no miss in ";
   text += counted(counts.collisions, "collision", "collisions");
+  if (late)
+    text += fmt::format(", LATE in {} of {}", with_separators(counts.late),
+                        counted(counts.times_given, "time", "times"));
   if (faulty) text += ", " + fault_text(counts);
   if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
   if (counts.false_positives == 0)
@@ -80,7 +85,7 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   if (beyond_contract(counts) > 0)
     text += fmt::format("; {} not asked, beyond its contract",
                         counted(beyond_contract(counts), "query", "queries"));
-  return {subject, !missed && !refuted && !faulty, std::move(text)};
+  return {subject, !missed && !late && !refuted && !faulty, std::move(text)};
 }
 
 }  // namespace
@@ -163,7 +168,9 @@ std::string summary_table(const Statistics& statistics) {
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
   std::string classes = class_table(statistics);
   if (!classes.empty()) classes += "\n";
-  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + classes +
+  std::string times = time_table(statistics);
+  if (!times.empty()) times += "\n";
+  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + times + classes +
          oracle_lines(statistics) + extremes + footnotes + footnote_on_units(statistics);
 }
 

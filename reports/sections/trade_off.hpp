@@ -26,10 +26,10 @@ struct TradeOff {
     return place.unit ? std::optional(all.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it answered every query, missed no collision, and no bound was
-  /// refuted.
+  /// Whether the subject may be on a front: it answered every query, missed no collision, gave no time that is late, and no
+  /// bound was refuted.
   [[nodiscard]] bool sound() const {
-    return all.false_negatives == 0 && all.refuted_bounds == 0 && all.faults_total() == 0;
+    return all.false_negatives == 0 && all.late == 0 && all.refuted_bounds == 0 && all.faults_total() == 0;
   }
 };
 

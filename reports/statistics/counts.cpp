@@ -10,7 +10,8 @@ namespace {
 /// keeps the same cases.
 bool farther(const FarCase& a, const FarCase& b) {
   if (a.ratio != b.ratio) return a.ratio > b.ratio;
-  return std::tie(a.query.kind, a.query.x, a.provenance) < std::tie(b.query.kind, b.query.x, b.provenance);
+  return std::tie(a.query.kind, a.query.x, a.query.separation, a.provenance) <
+         std::tie(b.query.kind, b.query.x, b.query.separation, b.provenance);
 }
 
 }  // namespace
@@ -38,13 +39,32 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
       ++true_by_stage[stage];
     else
       ++false_negatives;
+    if (outcome.time) add_time(*outcome.time, query, provenance);
   } else if (hit) {
     ++false_positives;
     ++false_by_stage[stage];
     distances.add(outcome.ratio);
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
     measured_by_wang += outcome.measured_by_wang ? 1 : 0;
-    if (keeps(outcome.ratio)) add_up(farthest, {{outcome.ratio, query, provenance()}});
+    if (keeps(farthest, outcome.ratio)) add_up(farthest, {{outcome.ratio, query, provenance()}});
+  }
+}
+
+void Counts::add_time(const TimeError& time, const Query& query,
+                      const std::function<std::string()>& provenance) {
+  ++times_given;
+  late += time.late ? 1 : 0;
+  stuck += time.stuck ? 1 : 0;
+  const auto keep = [&](std::vector<FarCase>& kept, double error) {
+    if (error > 0 && keeps(kept, error)) add_up(kept, {{error, query, provenance()}});
+  };
+  if (time.after > 0) {
+    after.add(time.after);
+    keep(latest, time.after);
+  } else {
+    early.add(time.early);
+    travelled.add(time.travelled);
+    keep(earliest, time.early);
   }
 }
 

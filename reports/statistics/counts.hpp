@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,9 +20,10 @@
 
 namespace nearmiss {
 
-/// A false positive that is kept because it is among the farthest.
+/// A query that is kept because it is among the most extreme: the false positives that are the farthest apart, or the times
+/// that are the earliest or the latest.
 struct FarCase {
-  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit)
+  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or the error of the time
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
@@ -30,6 +32,19 @@ struct FarCase {
 
 /// Adds cases and keeps the farthest, at most Counts::far_cases.
 void add_up(std::vector<FarCase>& own, const std::vector<FarCase>& other);
+
+/// How the time that a subject gave for a true collision compares with t*, the earliest time.
+struct TimeError {
+  double early = 0;  ///< t* - time if that is positive, in the same sense as Outcome::ratio
+  double after = 0;  ///< time - t* if that is positive, likewise
+  /// How far a vertex of one primitive moves relative to one of the other in the time by which it is early, at most, divided by
+  /// the pair's bound B; rounded.
+  double travelled = 0;
+  bool late = false;   ///< something happens before a time that is to be a lower bound
+  bool stuck = false;  ///< the time is 0, and t* is not
+
+  bool operator==(const TimeError&) const = default;
+};
 
 /// A subject's answer with the oracle's.
 struct Outcome {
@@ -42,7 +57,8 @@ struct Outcome {
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
   bool measured_by_wang = false;
-  std::string fault_text = {};  ///< what an exception said
+  std::string fault_text = {};         ///< what an exception said
+  std::optional<TimeError> time = {};  ///< of a true positive with a time
 };
 
 /// Counters of one subject, kind and family.
@@ -52,15 +68,23 @@ struct Counts {
   std::uint64_t positives = 0;   ///< queries that the subject reported as collisions
   std::uint64_t false_negatives = 0;
   std::uint64_t false_positives = 0;
-  std::uint64_t refuted_bounds = 0;                 ///< false positives that are farther away than claimed
-  std::uint64_t measured_by_wang = 0;               ///< false positives for which the subject claims no bound
-  std::array<std::uint64_t, fault_count> faults{};  ///< queries without an answer, by reason
-  SubjectTimes times;                               ///< run times in ns
+  std::uint64_t refuted_bounds = 0;    ///< false positives that are farther away than claimed
+  std::uint64_t measured_by_wang = 0;  ///< false positives for which the subject claims no bound
+  std::uint64_t times_given = 0;       ///< true positives for which the subject gives a time
+  std::uint64_t late = 0;              ///< of these, with a time that should be a lower bound and is too late
+  std::uint64_t stuck = 0;             ///< of these, with the time 0 although nothing happens then
+  std::array<std::uint64_t, fault_count> faults{};           ///< queries without an answer, by reason
+  SubjectTimes times;                                        ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
   std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
   Histogram distances;                                       ///< distances of false positives
   std::vector<FarCase> farthest;                             ///< farthest first, at most far_cases
+  Histogram early;                                           ///< t* - time, of times that are not after t*
+  Histogram after;                                           ///< time - t*, of times after t*
+  Histogram travelled;            ///< TimeError::travelled, of times that are not after t*
+  std::vector<FarCase> earliest;  ///< the times that are the earliest before t*, at most far_cases
+  std::vector<FarCase> latest;    ///< the times that are the latest after t*, at most far_cases
 
   /// Lists every counter. To add a counter, declare it here and count it in add().
   static constexpr auto counters() {
@@ -73,6 +97,9 @@ struct Counts {
         Counter{"refuted_bounds", &Counts::refuted_bounds, Shown::with_rates},
         Counter{"measured_by_wang", &Counts::measured_by_wang, Shown::with_rates,
                 "false_positives_measured_by_wang"},
+        Counter{"times_given", &Counts::times_given, Shown::with_rates},
+        Counter{"late", &Counts::late, Shown::with_rates},
+        Counter{"stuck", &Counts::stuck, Shown::with_rates},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},
         NamedCounts<Counts, stage_count>{"true_by_stage", &Counts::true_by_stage, stage_names,
@@ -82,7 +109,12 @@ struct Counts {
         NamedCounts<Counts, rejection_count>{"rejected_by", &Counts::rejected_by, rejection_names,
                                              "rejected_by", "rejected_by"},
         Counter{"distances", &Counts::distances, Shown::in_full, "fp_distance_histogram"},
-        Counter{"farthest", &Counts::farthest}};
+        Counter{"farthest", &Counts::farthest},
+        Counter{"early", &Counts::early, Shown::in_full, "early_histogram"},
+        Counter{"after", &Counts::after, Shown::in_full, "after_histogram"},
+        Counter{"travelled", &Counts::travelled, Shown::in_full, "travelled_histogram"},
+        Counter{"earliest", &Counts::earliest},
+        Counter{"latest", &Counts::latest}};
   }
 
   static constexpr std::size_t far_cases = 5;
@@ -108,9 +140,23 @@ struct Counts {
     return measured_by_wang == false_positives ? DistanceUnit::wangs_bound : DistanceUnit::both;
   }
   [[nodiscard]] double max_ratio() const { return farthest.empty() ? 0 : farthest.front().ratio; }
-  /// Whether a false positive with this ratio would be kept among the farthest.
-  [[nodiscard]] bool keeps(double ratio) const {
-    return farthest.size() < far_cases || ratio >= farthest.back().ratio;
+  /// The error of the earliest time, and of the latest one; 0 if there is none.
+  [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
+  [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
+  /// Whether a case with this ratio would be kept among some that are kept.
+  [[nodiscard]] static bool keeps(const std::vector<FarCase>& kept, double ratio) {
+    return kept.size() < far_cases || ratio >= kept.back().ratio;
+  }
+  /// Reports that are neither right nor wrong: the subject could not tell.
+  [[nodiscard]] std::uint64_t unknown() const {
+    constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
+    return true_by_stage[stage] + false_by_stage[stage];
+  }
+  /// The bin of the smallest error such that a fraction `part` of the times that are not after t* are not earlier. Its upper
+  /// end is at most the largest error.
+  [[nodiscard]] Bin early_quantile(double part) const {
+    const Bin bin = early.quantile(part);
+    return {bin.from, std::min(bin.to, max_early())};
   }
   /// The bin of the smallest ratio such that a fraction `part` of the false positives does not exceed it. The
   /// bin's upper end is at most the largest ratio.
@@ -120,6 +166,9 @@ struct Counts {
   }
 
   bool operator==(const Counts&) const = default;
+
+ private:
+  void add_time(const TimeError& time, const Query& query, const std::function<std::string()>& provenance);
 };
 static_assert(declares_all_members<Counts>());
 

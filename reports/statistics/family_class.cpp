@@ -33,7 +33,7 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
 }  // namespace
 
 FamilyClass class_of(std::string_view family) {
-  const std::string_view base = family.substr(0, family.find('@'));
+  const std::string_view base = family.substr(0, family.find_first_of("@~"));
   if (family.starts_with("scene:") || contains(ordinary, base)) return FamilyClass::ordinary;
   if (contains(degenerate, base)) return FamilyClass::degenerate;
   return contains(extreme, base) ? FamilyClass::extreme : FamilyClass::unclassified;

@@ -20,7 +20,8 @@ struct Finding {
     refuted_bound,
     oracle_disagreement,
     truth_mismatch,
-    fault
+    fault,
+    late  ///< a time before which nothing should happen is too late
   };
 
   What what{};
@@ -28,7 +29,7 @@ struct Finding {
   std::string family;
   Query query;
   std::string provenance;
-  double ratio = 0;            ///< distance divided by bound, if a bound was refuted
+  double ratio = 0;  ///< distance divided by bound, if a bound was refuted; time - t*, if the time is late
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
   Query shrunk = {};        ///< the simplest known query that fails in the same way; may be the query itself
   std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
@@ -38,8 +39,8 @@ struct Finding {
 };
 
 /// Names of the sorts of failure in files and reports, in order.
-inline constexpr std::array<std::string_view, 5> what_names{"false-negative", "refuted-bound",
-                                                            "oracle-disagreement", "truth-mismatch", "fault"};
+inline constexpr std::array<std::string_view, 6> what_names{
+    "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch", "fault", "late"};
 
 constexpr std::string_view name(Finding::What what) { return what_names[static_cast<std::size_t>(what)]; }
 

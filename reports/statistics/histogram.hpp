@@ -1,4 +1,4 @@
-// Distances of false positives, counted in bins.
+// Distances of false positives, and errors of times, counted in bins.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ struct Bin {
   bool operator==(const Bin&) const = default;
 };
 
-/// Counts the distances of false positives, as fractions of the bound that the subject claims. The bins are
-/// log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for everything below and one for
+/// Counts numbers such as the distances of false positives, as fractions of the bound that the subject claims. The bins are
+/// log-spaced, four to a decade from 10^-16 to 10^1, with one more bin for everything below, 0 among it, and one for
 /// everything above.
 struct Histogram {
   static constexpr int per_decade = 4;

@@ -91,15 +91,16 @@ TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
     EXPECT_EQ(ask_all(query, more).disagreement(), "");
   const std::string caught = "collision (no: one more; yes: " + others + ")";
   EXPECT_EQ(ask_all(lied_about, more).disagreement(), caught);
-  EXPECT_EQ(ask_others(lied_about, true, more).disagreement(), caught);
+  EXPECT_EQ(ask_others(lied_about, {.collision = true}, more).disagreement(), caught);
   EXPECT_EQ(ask_all(lied_about).disagreement(), "");
 }
 
 TEST(Agreement, KnownAnswersAreNotAskedForAgain) {
   auto methods = three();
   methods[0].ask = [](const Query&) -> Answer { throw "asked"; };
-  EXPECT_EQ(ask_others(hit, true, methods).disagreement(), "");
-  EXPECT_EQ(ask_others(hit, false, methods).disagreement(), "collision (no: first; yes: second, third)");
+  EXPECT_EQ(ask_others(hit, {.collision = true}, methods).disagreement(), "");
+  EXPECT_EQ(ask_others(hit, {.collision = false}, methods).disagreement(),
+            "collision (no: first; yes: second, third)");
 }
 
 // --- the table -------------------------------------------------------------------------------------------

@@ -72,6 +72,8 @@ class IsolatedPlugin final : public BatchSubject {
 
   [[nodiscard]] bool claims_bound() const override { return info_.claims_bound; }
   [[nodiscard]] bool decides(Kind kind) const override { return nearmiss::decides(info_, kind); }
+  [[nodiscard]] bool takes_separation() const override { return info_.takes_separation; }
+  [[nodiscard]] TimeSort time_sort() const override { return info_.time_sort; }
   [[nodiscard]] Contract contract() const override { return info_.contract; }
   [[nodiscard]] bool rounds() const override { return info_.is_narrow; }
   [[nodiscard]] Query rounded(const Query& query) const override { return rounded_for(info_, query); }
@@ -123,10 +125,16 @@ class IsolatedPlugin final : public BatchSubject {
     return has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
   }
 
-  /// The size of the next batch: queries of one kind, up to batch_size.
-  static std::size_t batch_at(std::span<const Query> queries) {
+  [[nodiscard]] bool can_decide(const Query& query) const {
+    return decides(query.kind) && (query.separation == 0 || takes_separation());
+  }
+
+  /// The size of the next batch: queries of one kind of which the plug-in can decide all or none, up to batch_size.
+  [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
+    const Query& first = queries.front();
     std::size_t count = 1;
-    while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == queries[0].kind)
+    while (count < std::min(queries.size(), isolation::batch_size) && queries[count].kind == first.kind &&
+           can_decide(queries[count]) == can_decide(first))
       ++count;
     return count;
   }
@@ -156,11 +164,11 @@ class IsolatedPlugin final : public BatchSubject {
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const std::optional<WorkerFailure> not_asked = WorkerFailure{0, Fault::not_asked};
-    const bool can_decide = decides(batch.front().kind);
+    const bool is_asked = can_decide(batch.front());
     if (worker) worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
     for (std::uint32_t first = 0; first < size;) {
-      if (!can_decide || (limits_.most_late != 0 && late >= limits_.most_late)) {
+      if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
         ++first;
         continue;

@@ -134,7 +134,10 @@ void WorkerProcess::load(const std::string& plugin) {
 
 void WorkerProcess::give(std::span<const Query> queries) {
   questions_->kind = queries.front().kind;
-  for (std::size_t i = 0; i < queries.size(); ++i) questions_->queries[i] = rounded_for(info_, queries[i]).x;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    questions_->queries[i] = rounded_for(info_, queries[i]).x;
+    questions_->separations[i] = queries[i].separation;
+  }
 }
 
 std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32_t first,

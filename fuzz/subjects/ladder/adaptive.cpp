@@ -55,7 +55,8 @@ class Adaptive final : public BatchSubject {
       return is_collision(stage) ? Verdict::accepted(Stage::filter, time)
                                  : Verdict::rejected(Rejection::filter);
     if (!finer_->decide(query).hit) return Verdict::rejected(Rejection::finer);
-    return settle(query, stage) ? Verdict::accepted(Stage::exact, time) : Verdict::rejected(Rejection::exact);
+    return settle(query, stage).collision ? Verdict::accepted(Stage::exact, time)
+                                          : Verdict::rejected(Rejection::exact);
   }
 
   std::unique_ptr<Subject> wang_, finer_;

@@ -1,5 +1,5 @@
 // The time of the first contact: what certified arithmetic knows about it, and comparisons with any time.
-#include "oracle/contact_time.hpp"
+#include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,15 +27,15 @@ std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow
   return times;
 }
 
-class ContactTimes : public ::testing::TestWithParam<Family> {};
-INSTANTIATE_TEST_SUITE_P(All, ContactTimes, ::testing::ValuesIn(families().begin(), families().end()),
+class EarliestTimes : public ::testing::TestWithParam<Family> {};
+INSTANTIATE_TEST_SUITE_P(All, EarliestTimes, ::testing::ValuesIn(families().begin(), families().end()),
                          [](const auto& each) {
                            std::string name = each.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
 
-TEST_P(ContactTimes, AreComparedAsBySturmSequences) {
+TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
   const Family& family = GetParam();
   const std::uint64_t count = family.block_cases < 25 ? 20 : 200;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ Query falling() {
                              {{0.25, 0.25, -5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
 
-TEST(ContactTime, IsNotBeforeItself) {
+TEST(EarliestTime, IsNotBeforeItself) {
   auto time = *earliest_time(falling());
   EXPECT_FALSE(time.is_before(0.375));
   EXPECT_TRUE(time.is_before(above(0.375)));
@@ -69,7 +69,7 @@ TEST(ContactTime, IsNotBeforeItself) {
   EXPECT_EQ(time.rational(), "3/8");
 }
 
-TEST(ContactTime, IsKnownWithoutExactArithmetic) {
+TEST(EarliestTime, IsKnownWithoutExactArithmetic) {
   const auto time = *earliest_time(falling());
   EXPECT_LE(time.known().lo, 0.375);
   EXPECT_GE(time.known().hi, 0.375);
@@ -77,7 +77,7 @@ TEST(ContactTime, IsKnownWithoutExactArithmetic) {
 }
 
 // Many of these queries have two contacts near each other.
-TEST(ContactTime, IsOfTheFirstOfTwoContacts) {
+TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
   std::size_t later = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Query query = make_query(find_family("even-roots"), 1, i);
@@ -91,7 +91,7 @@ TEST(ContactTime, IsOfTheFirstOfTwoContacts) {
   EXPECT_GT(later, 100);
 }
 
-TEST(ContactTime, NeedsAContact) {
+TEST(EarliestTime, NeedsAContact) {
   Query query = falling();
   for (int i = 1; i < 4; ++i)
     for (const std::size_t time : {0U, 12U}) query.x[time + 3 * static_cast<std::size_t>(i)] += 10;

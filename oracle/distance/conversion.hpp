@@ -1,0 +1,46 @@
+// Conversion of distances between units, rounded in a known direction.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace nearmiss::certified {
+
+inline double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+inline double below(double x) { return x > 0 ? std::nextafter(x, 0.0) : 0; }
+
+/// Converts distances from the unit of VertexDifferences to multiples of `unit`, and back.
+class Conversion {
+ public:
+  /// Requires unit > 0.
+  Conversion(double unit, int exponent) {
+    int of_unit = 0;
+    mantissa_ = std::frexp(unit, &of_unit);
+    shift_ = exponent - of_unit;
+  }
+
+  [[nodiscard]] double lower(double distance) const { return divided(distance, below); }
+  [[nodiscard]] double upper(double distance) const { return divided(distance, above); }
+  /// The smallest distance, up to rounding upward, that is at least `multiple` units; 0 for 0.
+  [[nodiscard]] double at_least(double multiple) const {
+    return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
+  }
+  /// A distance, or 0, below this number of units; the largest one, up to rounding downward.
+  [[nodiscard]] double below_multiple(double multiple) const {
+    return below(below(std::ldexp(multiple, -shift_)) * mantissa_);
+  }
+
+ private:
+  /// Applies `next` after each rounding: that of the quotient, and that of an ldexp that underflows.
+  template <class Next>
+  [[nodiscard]] double divided(double distance, const Next& next) const {
+    int exponent = 0;
+    const double mantissa = std::frexp(distance, &exponent);
+    return next(std::ldexp(next(mantissa / mantissa_), shift_ + exponent));
+  }
+
+  double mantissa_;
+  int shift_;
+};
+
+}  // namespace nearmiss::certified

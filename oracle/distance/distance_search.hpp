@@ -1,0 +1,324 @@
+// The search for the smallest distance over the step, and for the first time at which the distance is small.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "oracle/distance/approach.hpp"
+#include "oracle/distance/moment.hpp"
+
+namespace nearmiss::certified {
+
+/// A search that looks at the primitives at some times of the step, until certified bounds around these times cover the step.
+/// Times are of type Real; positions are of this type, too, if they must be precise.
+template <class Real>
+class DistanceSearch {
+ public:
+  DistanceSearch(const VertexDifferences& differences, const NeededDistance& needed)
+      : differences_(differences), needed_(needed) {}
+
+  /// Encloses the smallest distance.
+  Approach smallest() {
+    look_at_ends();
+    for (int i = 0; i < most_gaps && required_ > 0; ++i) {
+      const auto gap = first_gap();
+      if (!gap) return {std::min(required_, upper_), upper_, best_time_, true};
+      if (!look_into(*gap)) break;
+    }
+    return {0, upper_, best_time_, required_ <= 0};
+  }
+
+  /// Encloses the first time at which the distance is below `low`, in an interval that is at most `width` wide, if
+  /// possible. The required distance must be greater than `low`.
+  FirstTime first(double low, double width) {
+    low_ = low;
+    look_at_ends();
+    int slow_steps = 0;
+    double last_width = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most_gaps; ++i) {
+      forget_what_comes_after_low();
+      if (is_low(times_.front())) return {.comes = true, .time = {0, 0}};
+      const auto gap = first_gap();
+      if (!gap) return {.never = true, .time = {1, 1}};
+      const bool is_crossing = is_low(times_[gap->before + 1]);
+      if (is_crossing && is_narrow(time_in(*gap), width)) break;
+      if (is_crossing ? !look_for_crossing(*gap, slow_steps >= 2) : !look_into(*gap)) break;
+      slow_steps = is_crossing && 2 * gap->width > last_width && slow_steps < 2 ? slow_steps + 1 : 0;
+      last_width = gap->width;
+    }
+    forget_what_comes_after_low();
+    const auto gap = first_gap();
+    return {.comes = is_low(times_.back()), .time = gap ? time_in(*gap) : Enclosure{0, 1}};
+  }
+
+ private:
+  struct SampledTime {
+    Real t;
+    Moment moment;
+    bool is_covered = false;  ///< whether the step is covered from here to the next time
+  };
+
+  /// A part of the step that no certified bound covers. It lies between the range that the time `before`
+  /// covers and the range that the next time covers.
+  struct Gap {
+    std::size_t before;
+    double width, covered_before, covered_behind;
+  };
+
+  static constexpr int most_gaps = 300;
+
+  void look_at_ends() {
+    times_.reserve(16);
+    times_.push_back(look_at(Real(0)));
+    if (is_low(times_[0])) return;
+    times_.push_back(look_at(Real(1)));
+    descend(times_[0], times_[1]);
+  }
+
+  /// Whether the distance is certainly below `low_` at a time.
+  [[nodiscard]] bool is_low(const SampledTime& time) const { return time.moment.upper < low_; }
+
+  [[nodiscard]] VerticesAt<double> rough_vertices(const Real& t) const {
+    return {differences_, to_double(t)};
+  }
+
+  SampledTime look_precisely(const Real& t) {
+    SampledTime time{t, look(VerticesAt<Real>(differences_, t)), false};
+    time.moment.is_precise = true;
+    note(time);
+    return time;
+  }
+
+  /// Looks at a time in double if that is precise enough, and then at the double nearest to t.
+  SampledTime look_at(const Real& t) {
+    SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
+    note(time);
+    return resolves(time.moment) ? time : look_precisely(t);
+  }
+  /// The same for a time between two others, either of which may be the double nearest to t.
+  SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
+    const Real rough(to_double(t));
+    return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
+  }
+
+  /// Whether a moment's errors are small compared with its distance and with the required bound.
+  [[nodiscard]] bool resolves(const Moment& moment) const {
+    const Separation& separation = moment.separations[0];
+    const double error = separation.products[0].errors[0];
+    const double least = std::max(required_, 0.3 * moment.upper);
+    constexpr double small = 0.03;
+    return error <= small * least * separation.length[0] && separation.products[0].coefficients[0] > 0 &&
+           points_error<double>(differences_) <= small * moment.upper;
+  }
+
+  void note(const SampledTime& time) {
+    if (!(time.moment.upper < upper_)) return;
+    upper_ = time.moment.upper;
+    best_time_ = to_double(time.t);
+    required_ = needed_(upper_);
+  }
+
+  /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
+  /// The next time is where an end predicts the minimum, or the middle if the predictions do not help.
+  void descend(SampledTime a, SampledTime b) {
+    if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
+    constexpr int most_steps = 60;
+    int slow_steps = 0;
+    double width = to_double(b.t - a.t);
+    for (int i = 0; i < most_steps && required_ > 0 && !(upper_ < low_); ++i) {
+      const Real t = slow_steps < 2 ? guess_between(a, b, width) : a.t + Real(0.5 * width);
+      if (!(a.t < t && t < b.t)) return;
+      const SampledTime next = look_between(a, t, b);
+      insert(next);
+      constexpr double little = 0.9;
+      if (next.moment.predicted >= little * next.moment.upper || next.moment.slope == 0) return;
+      (next.moment.slope < 0 ? a : b) = next;
+      const double before = width;
+      width = to_double(b.t - a.t);
+      slow_steps = 2 * width > before && slow_steps < 2 ? slow_steps + 1 : 0;
+    }
+  }
+
+  /// The time of the minimum that the end with the steeper slope predicts; the middle if no prediction lies
+  /// between the ends.
+  static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
+    const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
+    const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
+    if (!a_is_inside && !b_is_inside) return a.t + Real(0.5 * width);
+    const bool from_a =
+        a_is_inside && (!b_is_inside || -a.moment.slope * b.moment.upper >= b.moment.slope * a.moment.upper);
+    return from_a ? a.t + Real(a.moment.step) : b.t + Real(b.moment.step);
+  }
+
+  void insert(const SampledTime& time) {
+    times_.insert(std::upper_bound(times_.begin(), times_.end(), time,
+                                   [](const SampledTime& a, const SampledTime& b) { return a.t < b.t; }),
+                  time);
+  }
+
+  [[nodiscard]] double covered(const SampledTime& time, int direction, double most) const {
+    double farthest = 0;
+    for (const Separation& separation : time.moment.separations) {
+      farthest = std::max(farthest, certified_reach(separation, required_, direction, most));
+      if (farthest >= most) break;
+    }
+    return farthest;
+  }
+
+  std::optional<Gap> first_gap() {
+    for (std::size_t i = 0; i + 1 < times_.size(); ++i) {
+      if (times_[i].is_covered) continue;  // the required bound never rises
+      const double width = to_double(times_[i + 1].t - times_[i].t) * (1 + 0x1p-48);
+      const double before = covered(times_[i], 1, width);
+      const double behind = before < width ? covered(times_[i + 1], -1, width) : 0;
+      times_[i].is_covered = before + behind >= width;
+      if (!times_[i].is_covered) return Gap{i, width, before, behind};
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a gap is so much wider than the covered range that most of it is unknown.
+  static bool is_wide(double covered, double gap) { return 100 * covered < gap; }
+
+  /// Looks into a gap; false if nothing more can be done about it.
+  bool look_into(const Gap& gap) {
+    SampledTime& a = times_[gap.before];
+    SampledTime& b = times_[gap.before + 1];
+    const bool a_is_improved = 2 * gap.covered_before < gap.width && improve(a, gap.covered_before);
+    const bool b_is_improved = 2 * gap.covered_behind < gap.width && improve(b, gap.covered_behind);
+    if (a_is_improved || b_is_improved) return true;
+    if (gap.covered_before == 0 && gap.covered_behind == 0) return false;
+
+    const Real t = guess_in(gap);
+    if (!(a.t < t && t < b.t)) return false;
+    const SampledTime before = a;  // a copy, because times_ grows
+    const SampledTime behind = b;
+    const SampledTime next = look_between(before, t, behind);
+    insert(next);
+    constexpr double near = 2;
+    if (!is_wide(gap.covered_before + gap.covered_behind, gap.width) && next.moment.upper > near * upper_)
+      return true;
+    descend(before, next);
+    descend(next, behind);
+    return true;
+  }
+
+  /// The time of a new minimum that an end of the gap predicts inside it; if there is none, some other time
+  /// in the gap.
+  [[nodiscard]] Real guess_in(const Gap& gap) const {
+    const auto sees = [&](const Moment& moment, double step) {
+      constexpr double little = 0.5;
+      return gap.covered_before < step && step < gap.width - gap.covered_behind &&
+             moment.predicted < little * upper_;
+    };
+    const SampledTime& a = times_[gap.before];
+    const SampledTime& b = times_[gap.before + 1];
+    std::optional<Real> guess;
+    if (sees(a.moment, a.moment.step))
+      guess = a.t + Real(a.moment.step);
+    else if (sees(b.moment, gap.width + b.moment.step))
+      guess = b.t + Real(b.moment.step);
+    return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
+  }
+
+  /// A time in a gap. It is near the end that covers less, since the distance is small there; its offset from
+  /// that end is a few times the time that the end covers. In a wide gap, it is the middle.
+  [[nodiscard]] Real inside(const Gap& gap) const {
+    const double open = gap.width - gap.covered_before - gap.covered_behind;
+    const bool is_before = gap.covered_before <= gap.covered_behind;
+    const double less = is_before ? gap.covered_before : gap.covered_behind;
+    const double near = less > 0 ? less : 1e-3 * std::max(gap.covered_before, gap.covered_behind);
+    const double step =
+        is_wide(near, open) ? 0.5 * open : std::min(0.5 * open, std::max(8 * near, std::sqrt(near * open)));
+    return is_before ? times_[gap.before].t + Real(less + step)
+                     : times_[gap.before + 1].t - Real(less + step);
+  }
+
+  /// Adds separations to a time, or makes the time precise if it covers nothing; false if both are already
+  /// done.
+  bool improve(SampledTime& time, double covered) {
+    if (!time.moment.has_all) {
+      if (time.moment.is_precise)
+        add_other_separations(time.moment, VerticesAt<Real>(differences_, time.t));
+      else
+        add_other_separations(time.moment, rough_vertices(time.t));
+      return true;
+    }
+    if (time.moment.is_precise || covered > 0) return false;
+    time = look_precisely(time.t);  // is_covered is determined again
+    return true;
+  }
+
+  /// Only the times up to the first one at which the distance is low matter for the first such time.
+  void forget_what_comes_after_low() {
+    const auto low =
+        std::find_if(times_.begin(), times_.end(), [&](const auto& time) { return is_low(time); });
+    if (low != times_.end()) times_.erase(low + 1, times_.end());
+  }
+
+  /// An interval that contains the first time at which the distance is low, if there is one: it begins where the first
+  /// gap does, and ends where it certainly is low, or with the step. (Times are at most 1, so `slack` is more than the rounding
+  /// error of the sum.)
+  [[nodiscard]] Enclosure time_in(const Gap& gap) const {
+    constexpr double slack = 0x1p-95;
+    const SampledTime& end = times_.back();
+    const Real begin = times_[gap.before].t + Real(gap.covered_before);
+    double lo = to_double(begin);
+    if (begin < Real(lo) + Real(slack)) lo = std::max(std::nextafter(lo, -1.0), 0.0);
+    double hi = to_double(end.t);
+    if (Real(hi) < end.t) hi = std::nextafter(hi, 2.0);
+    return {lo, hi};
+  }
+
+  static bool is_narrow(const Enclosure& time, double width) {
+    return time.hi - time.lo <= width || std::nextafter(time.lo, 2.0) >= time.hi;
+  }
+
+  /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives the next time;
+  /// once it is precise, twice its step, so that the crossing is enclosed from both sides. False if nothing more can be done.
+  bool look_for_crossing(const Gap& gap, bool halve) {
+    SampledTime& a = times_[gap.before];
+    const SampledTime& b = times_[gap.before + 1];
+    const double from_a = time_to_low(a.moment);
+    const double from_b = -time_to_low(b.moment);
+    if (2 * gap.covered_before < std::min(from_a > 0 ? from_a : gap.width, gap.width) &&
+        improve(a, gap.covered_before))
+      return true;
+    if (gap.covered_before == 0) return false;
+    const auto is_inside = [&](double step) { return 0 < step && step < gap.width; };
+    const bool take_a = is_inside(from_a) && (!is_inside(from_b) || from_a < from_b);
+    double step = take_a ? from_a : from_b;
+    const bool is_precise = 32 * step < gap.width;
+    Real t = take_a ? a.t + Real(is_precise ? 2 * step : step) : b.t - Real(is_precise ? 2 * step : step);
+    const double open = gap.width - gap.covered_before;
+    if (halve || !is_inside(step) || !(a.t + Real(gap.covered_before) < t && t < b.t)) {
+      t = a.t + Real(gap.covered_before + 0.5 * open);
+      step = open;
+    }
+    if (!(a.t < t && t < b.t)) return false;
+    constexpr double rough = 0x1p-40;
+    const bool needs_precision = step * std::abs(a.moment.rate) < rough * differences_.total_reach();
+    const SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
+    insert(next);
+    return true;
+  }
+
+  /// The time until the distance is `low_`, by Newton's method; 0 or NaN if that gives no time.
+  [[nodiscard]] double time_to_low(const Moment& moment) const {
+    return moment.rate < 0 ? (low_ - moment.upper) / moment.rate : 0;
+  }
+
+  const VertexDifferences& differences_;
+  const NeededDistance& needed_;
+  std::vector<SampledTime> times_;
+  double upper_ = std::numeric_limits<double>::infinity();
+  double required_ = std::numeric_limits<double>::infinity();
+  double best_time_ = 0;
+  double low_ = 0;  ///< for first()
+};
+
+}  // namespace nearmiss::certified

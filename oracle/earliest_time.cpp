@@ -1,0 +1,159 @@
+#include "oracle/earliest_time.hpp"
+
+#include <gmpxx.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "ccd/arithmetic.hpp"
+#include "oracle/exact/first_approach.hpp"
+#include "oracle/exact/first_contact.hpp"
+#include "oracle/filter/filter.hpp"
+#include "oracle/within_separation.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using exact::Number;
+using exact::Root;
+
+/// The largest double that is not above x, for x in [0, 1].
+double rounded_down(const Number& x) {
+  double d = CGAL::to_double(x);
+  while (Number(d) > x) d = std::nextafter(d, -1.0);
+  while (Number(std::nextafter(d, 2.0)) <= x) d = std::nextafter(d, 2.0);
+  return d;
+}
+
+/// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow; both are the
+/// time itself if it is a double.
+Enclosure enclose(Root& t, double width) {
+  for (;; t.refine()) {
+    const double lo = rounded_down(t.lo());
+    const double last = rounded_down(t.hi());
+    const double hi = Number(last) < t.hi() ? std::nextafter(last, 2.0) : last;
+    const double next = std::nextafter(lo, 2.0);
+    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;  // a double is left between them
+    for (const double each : {lo, next, hi})
+      if (t.is(Number(each))) return {each, each};
+    if (next >= hi || hi - lo <= width) return {lo, hi};
+  }
+}
+
+[[noreturn]] void refuse() {
+  throw std::invalid_argument("expected primitives that come within the separation");
+}
+
+}  // namespace
+
+/// The exact times. The distance is below h right after `below`; nothing if it never is.
+struct EarliestTime::Exact {
+  Root time;
+  std::optional<Root> below;
+
+  explicit Exact(const Query& query) : time(Number(0)) {
+    if (query.separation > 0) {
+      auto approach = exact::first_approach(query);
+      if (!approach) refuse();
+      time = std::move(approach->time);
+      below = std::move(approach->below);
+    } else {
+      exact::Predicates predicates(query);
+      auto contact = exact::first_contact(predicates);
+      if (!contact) refuse();
+      time = std::move(contact->time);
+      below = time;
+    }
+  }
+};
+
+EarliestTime::EarliestTime(const Query& query) : query_(query) {
+  if (query.separation > 0) {
+    const KnownApproach approach = known_approach(query, rough_time);
+    rough_ = {approach.time, true};
+    is_certified_ = approach.stage == FilterStage::within;
+    if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
+    if (!is_certified_) exact();  // refuses if the distance is always above h
+  } else {
+    const auto time = time_of_contact(query);
+    if (!time) refuse();
+    rough_ = *time;
+  }
+}
+
+EarliestTime::~EarliestTime() = default;
+EarliestTime::EarliestTime(EarliestTime&&) noexcept = default;
+EarliestTime& EarliestTime::operator=(EarliestTime&&) noexcept = default;
+
+namespace {
+
+/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if it is not known.
+int comparison(const Enclosure& known, double time) {
+  if (!(time > known.lo)) return 0;
+  return time > known.hi ? 1 : -1;
+}
+
+}  // namespace
+
+bool EarliestTime::is_before(double time) {
+  int before = comparison(rough_.time, time);
+  if (before < 0) before = comparison(narrow().time, time);
+  if (before >= 0) return before == 1;
+  const PlainArithmetic guard;
+  Root at{Number(time)};
+  return exact().time.is_below(at);
+}
+
+bool EarliestTime::makes_late(double time) {
+  if (query_.separation == 0) return is_before(time);
+  // The enclosures contain both t* and the time at which the distance falls below h, if they are certified.
+  if (!(time > rough_.time.lo)) return false;
+  if (is_certified_) {
+    int late = comparison(rough_.time, time);
+    if (late < 0) late = comparison(narrow().time, time);
+    if (late >= 0) return late == 1;
+  }
+  const PlainArithmetic guard;
+  Root at{Number(time)};
+  return exact().below && exact().below->is_below(at);
+}
+
+Enclosure EarliestTime::enclosure(double width) {
+  const auto is_narrow = [&](const KnownTime& known) {
+    const auto [lo, hi] = known.time;
+    return hi - lo <= width || (known.is_between && std::nextafter(lo, 2.0) == hi);
+  };
+  if (is_narrow(rough_)) return rough_.time;
+  if (is_narrow(narrow())) return narrow().time;
+  const PlainArithmetic guard;
+  return enclose(exact().time, width);
+}
+
+std::string EarliestTime::rational() {
+  const PlainArithmetic guard;
+  const auto rational = exact().time.as_rational();
+  return rational ? mpq_class(rational->mpq()).get_str() : "";
+}
+
+const KnownTime& EarliestTime::narrow() {
+  if (!narrow_) {
+    narrow_ = rough_;
+    if (query_.separation == 0)
+      narrow_ = *time_of_contact(query_, 0);
+    else if (is_certified_)
+      narrow_->time = known_approach(query_, 0).time;
+  }
+  return *narrow_;
+}
+
+EarliestTime::Exact& EarliestTime::exact() {
+  if (!exact_) {
+    const PlainArithmetic guard;
+    exact_ = std::make_unique<Exact>(query_);
+  }
+  return *exact_;
+}
+
+}  // namespace nearmiss

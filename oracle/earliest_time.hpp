@@ -1,0 +1,58 @@
+// When two primitives first share a point, or first come within the separation.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ccd/query.hpp"
+#include "oracle/arithmetic/enclosure.hpp"
+
+namespace nearmiss {
+
+/// The time t* in [0, 1] at which the distance of the primitives is first at most h; for h = 0, at which they first share a
+/// point. Arithmetic with certified bounds encloses it first; exact arithmetic is only used for a question that the
+/// enclosure does not answer.
+class EarliestTime {
+ public:
+  /// The distance must be at most h at some time in [0, 1].
+  explicit EarliestTime(const Query& query);
+  ~EarliestTime();
+  EarliestTime(EarliestTime&&) noexcept;
+  EarliestTime& operator=(EarliestTime&&) noexcept;
+  EarliestTime(const EarliestTime&) = delete;
+  EarliestTime& operator=(const EarliestTime&) = delete;
+
+  /// What certified bounds in double show of t*.
+  [[nodiscard]] const Enclosure& known() const { return rough_.time; }
+
+  /// Whether t* < time. The answer is exact.
+  [[nodiscard]] bool is_before(double time);
+
+  /// Whether `time` is late: something happens in [0, time). For h = 0 that means t* < time. For h > 0, the distance is below h
+  /// at some time before it; a distance of exactly h does not count, because it may be reported or not. The answer is exact.
+  [[nodiscard]] bool makes_late(double time);
+
+  /// An enclosure that is at most `width` wide, or as narrow as doubles allow; one number if t* is a double and `width`
+  /// is 0. It depends on the query and the width alone.
+  Enclosure enclosure(double width = 0);
+
+  /// t* as a rational number, "p/q" or "p" in lowest terms; "" if it is irrational.
+  [[nodiscard]] std::string rational();
+
+ private:
+  struct Exact;
+
+  /// The narrowest enclosure that certified bounds give.
+  const KnownTime& narrow();
+  Exact& exact();
+
+  Query query_;
+  KnownTime rough_;
+  bool is_certified_ =
+      true;  ///< whether certified bounds enclose t*, and show that the distance falls below h > 0
+  std::optional<KnownTime> narrow_;  ///< made when it is needed, as the exact times are
+  std::unique_ptr<Exact> exact_;
+};
+
+}  // namespace nearmiss

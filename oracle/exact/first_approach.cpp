@@ -1,0 +1,56 @@
+// The sign of (distance - h) only changes at the candidates. So between two neighbouring ones, the sign at any number is the
+// sign everywhere, and the distance falls below h at the first candidate behind which that sign is -1.
+#include "oracle/exact/first_approach.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "oracle/exact/nearness.hpp"
+
+namespace nearmiss::exact {
+
+namespace {
+
+/// Sorts times, and leaves one of those that are equal.
+void sort_out(std::vector<Root>& times) {
+  // Comparing changes what is known about a time, not the time. std::sort wants comparisons of constants.
+  std::vector<Root> sorted;
+  for (Root& each : times) {
+    const auto place =
+        std::find_if(sorted.begin(), sorted.end(), [&](Root& other) { return !other.is_below(each); });
+    if (place == sorted.end() || each.is_below(*place)) sorted.insert(place, std::move(each));
+  }
+  times = std::move(sorted);
+}
+
+/// A number between two different times, the earlier one first.
+Number between(Root& first, Root& second) {
+  while (true) {
+    const Number middle = Number(0.5) * (first.hi() + second.lo());
+    if (first.hi() <= second.lo() && !first.is(middle) && !second.is(middle)) return middle;
+    (first.hi() - first.lo() < second.hi() - second.lo() ? second : first).refine();
+  }
+}
+
+}  // namespace
+
+std::optional<FirstApproach> first_approach(const Query& query) {
+  const Nearness nearness(query, query.separation);
+  std::vector<Root> times = nearness.candidates();
+  sort_out(times);
+  std::optional<FirstApproach> approach;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Root& time = times[i];
+    if (!approach && nearness.holds_at(time)) approach = FirstApproach{time, std::nullopt};
+    Root end{Number(1)};
+    Root& next = i + 1 < times.size() ? times[i + 1] : end;
+    if (!approach || !time.is_below(next)) continue;  // before the approach, the distance is above h
+    Root after{between(time, next)};
+    if (!nearness.holds_strictly_at(after)) continue;
+    approach->below = time;
+    break;
+  }
+  return approach;
+}
+
+}  // namespace nearmiss::exact

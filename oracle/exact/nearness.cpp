@@ -1,0 +1,120 @@
+// The distance at a time is at most b if and only if one of finitely many statements about a pair of features holds: a
+// vertex of each, a vertex and an edge, the vertex and the triangle, or two edges. Each statement says that the closest
+// points of the lines or planes through the two features lie in the features and are within b of each other. As a
+// condition, some polynomials in t are not positive, and one is positive unless the features are degenerate (then another
+// statement says the same). The statement of the closest pair holds, and if any statement holds, there are points within b.
+//
+// The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. It changes at t0 to or from
+// -1: on that side of t0, the statement of a closest pair holds strictly. At t0, by continuity, its `outside` are at most 0, and
+// its excess is at most 0; it is not negative, because an excess is 0 where the extent is. So t0 is a root of the excess, which
+// is not identically 0. It changes between 0 and 1: on the side of the zeros, a closest pair is b apart for some time, so its
+// excess is identically 0. On the other side, its statement does not hold, although its extent has isolated zeros only. So one
+// of `outside` is positive there, and 0 at t0. In both cases all `outside` are at most 0 at t0.
+#include "oracle/exact/nearness.hpp"
+
+#include <algorithm>
+
+namespace nearmiss::exact {
+
+using Features = FeatureNearness::Features;
+
+bool FeatureNearness::is_inside_at(Root& t) const {
+  return std::all_of(outside.begin(), outside.end(), [&](const Polynomial& p) { return t.sign_of(p) <= 0; });
+}
+
+bool FeatureNearness::is_extended_at(Root& t) const {
+  return std::all_of(extents.begin(), extents.end(), [&](const Polynomial& p) { return t.sign_of(p) > 0; });
+}
+
+Nearness::Nearness(const Query& query, double b) {
+  const Number scale = unit(query);
+  const Number scaled = Number(b) * scale;
+  squared_b_ = Polynomial({scaled * scaled});
+  const auto x = moving_points(query, scale);
+  if (query.kind == Kind::vertex_triangle) {
+    for (std::size_t i = 1; i < 4; ++i) {
+      add_vertices(x[0], x[i]);
+      add_vertex_and_edge(x[0], x[i], x[i % 3 + 1]);
+    }
+    add_vertex_and_triangle(x);
+  } else {
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t j = 2; j < 4; ++j) add_vertices(x[i], x[j]);
+      add_vertex_and_edge(x[i], x[2], x[3]);
+      add_vertex_and_edge(x[i + 2], x[0], x[1]);
+    }
+    add_edges(x);
+  }
+}
+
+bool Nearness::holds_at(Root& t) const {
+  return std::any_of(statements_.begin(), statements_.end(),
+                     [&](const FeatureNearness& each) { return each.holds_at(t); });
+}
+
+bool Nearness::holds_strictly_at(Root& t) const {
+  return std::any_of(statements_.begin(), statements_.end(),
+                     [&](const FeatureNearness& each) { return each.holds_strictly_at(t); });
+}
+
+std::vector<Root> Nearness::candidates() const {
+  std::vector<Root> times{Root(Number(0))};
+  for (const FeatureNearness& each : statements_) {
+    const auto add_roots = [&](const Polynomial& p) {
+      for (Root& t : roots_in_step(p))
+        if (each.is_inside_at(t)) times.push_back(std::move(t));
+    };
+    if (!each.excess.is_zero()) {
+      add_roots(each.excess);
+      continue;
+    }
+    for (const Polynomial& p : each.outside)
+      if (!p.is_zero()) add_roots(p);
+  }
+  return times;
+}
+
+void Nearness::add_vertices(const PolynomialVector& x, const PolynomialVector& y) {
+  const PolynomialVector d = x - y;
+  statements_.push_back({Features::vertices, dot(d, d) - squared_b_, {}, {}});
+}
+
+void Nearness::add_vertex_and_edge(const PolynomialVector& x, const PolynomialVector& from,
+                                   const PolynomialVector& to) {
+  const PolynomialVector d = x - from;
+  const PolynomialVector e = to - from;
+  const PolynomialVector area = cross(d, e);
+  const Polynomial along = dot(d, e);
+  const Polynomial length = dot(e, e);
+  statements_.push_back({Features::vertex_and_edge,
+                         dot(area, area) - squared_b_ * length,
+                         {Polynomial() - along, along - length},
+                         {length}});
+}
+
+void Nearness::add_with_normal(const Polynomial& F, const Polynomial& squared_N,
+                               std::vector<Polynomial> outside) {
+  statements_.push_back(
+      {Features::interiors, F * F - squared_b_ * squared_N, std::move(outside), {squared_N}});
+}
+
+void Nearness::add_vertex_and_triangle(const std::array<PolynomialVector, 4>& x) {
+  const PolynomialVector N = cross(x[2] - x[1], x[3] - x[1]);
+  std::vector<Polynomial> outside;
+  for (std::size_t i = 1; i < 4; ++i) outside.push_back(dot(N, cross(x[0] - x[i], x[i % 3 + 1] - x[i])));
+  add_with_normal(dot(x[0] - x[1], N), dot(N, N), std::move(outside));
+}
+
+void Nearness::add_edges(const std::array<PolynomialVector, 4>& x) {
+  const PolynomialVector u = x[1] - x[0];
+  const PolynomialVector v = x[3] - x[2];
+  const PolynomialVector x20 = x[2] - x[0];
+  const PolynomialVector N = cross(u, v);
+  const Polynomial whole = dot(N, N);  // α and β are the polynomials below divided by it
+  const Polynomial alpha = dot(cross(x20, v), N);
+  const Polynomial beta = dot(cross(x20, u), N);
+  add_with_normal(dot(x20, N), whole,
+                  {Polynomial() - alpha, alpha - whole, Polynomial() - beta, beta - whole});
+}
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,64 @@
+// The statements in exact polynomials that decide whether two primitives are within a distance at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "oracle/exact/moving.hpp"
+#include "oracle/exact/root.hpp"
+
+namespace nearmiss::exact {
+
+/// The statement that two features of the primitives, such as a vertex and an edge, are within b of each other. Their distance
+/// is that of the lines or planes through them if the closest points of these lie in the features.
+struct FeatureNearness {
+  /// What the features are; `interiors` are those of both edges, or the vertex and the inside of the triangle.
+  enum class Features : std::uint8_t { vertices, vertex_and_edge, interiors };
+
+  Features features{};
+  Polynomial excess;                ///< (distance² - b²) times a positive factor; degree 6 at most
+  std::vector<Polynomial> outside;  ///< all are at most 0 if the closest points lie in the features
+  std::vector<Polynomial> extents;  ///< all are positive unless the features are degenerate
+
+  [[nodiscard]] bool holds_at(Root& t) const {
+    return t.sign_of(excess) <= 0 && is_inside_at(t) && is_extended_at(t);
+  }
+  /// Whether they are less than b apart.
+  [[nodiscard]] bool holds_strictly_at(Root& t) const {
+    return t.sign_of(excess) < 0 && is_inside_at(t) && is_extended_at(t);
+  }
+  [[nodiscard]] bool is_inside_at(Root& t) const;
+  [[nodiscard]] bool is_extended_at(Root& t) const;
+};
+
+/// The statements about all pairs of features, for a finite b >= 0. The distance of the primitives at a time is at most b
+/// iff one of the statements holds, and less than b iff one holds strictly.
+class Nearness {
+ public:
+  Nearness(const Query& query, double b);
+
+  [[nodiscard]] bool holds_at(Root& t) const;
+  [[nodiscard]] bool holds_strictly_at(Root& t) const;
+
+  /// Times in [0, 1], in no order and with repetitions: 0, and all times at which the sign of (distance - b) changes. So the
+  /// earliest time at which the distance is at most b is one of them.
+  [[nodiscard]] std::vector<Root> candidates() const;
+
+  [[nodiscard]] const std::vector<FeatureNearness>& statements() const { return statements_; }
+
+ private:
+  void add_vertices(const PolynomialVector& x, const PolynomialVector& y);
+  void add_vertex_and_edge(const PolynomialVector& x, const PolynomialVector& from,
+                           const PolynomialVector& to);
+  /// Adds a statement for which the distance of the planes or lines is |F| / |N|.
+  void add_with_normal(const Polynomial& F, const Polynomial& squared_N, std::vector<Polynomial> outside);
+  void add_vertex_and_triangle(const std::array<PolynomialVector, 4>& x);
+  void add_edges(const std::array<PolynomialVector, 4>& x);
+
+  Polynomial squared_b_;
+  std::vector<FeatureNearness> statements_;
+};
+
+}  // namespace nearmiss::exact
