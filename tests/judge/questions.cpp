@@ -118,7 +118,7 @@ std::string features_against(const RootCount& count, const Query& query) {
 }
 
 std::string exact_answers_disagree(const Query& query, bool exact) {
-  if (const std::string parts = ask_others(query, exact).disagreement(); !parts.empty())
+  if (const std::string parts = ask_others(query, {.collision = exact}).disagreement(); !parts.empty())
     return "three answers: " + parts;
   return features_against(count_roots(query), query);
 }
