@@ -15,6 +15,7 @@ inline std::string repeat(std::size_t index, const Query& query) {
   std::ostringstream line;
   line << "case " << index << ": echo '" << std::hexfloat;
   for (const double c : query.x) line << c << ' ';
+  if (query.separation != 0) line << query.separation << ' ';
   line << "' | nearmiss oracle --kind " << short_name(query.kind) << " -";
   return line.str();
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "oracle/distance/vertex_differences.hpp"
 
@@ -46,18 +47,28 @@ constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size
 
 namespace detail {
 
+/// A candidate for the closest points: x_vertex or, for interiors, the origin of p (NormalPairs), less a q + b r. For edges, q
+/// is the edge, and b is 0.
 template <class Real>
-void take_closer(ClosestPoints<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
-                 const Vec<Real>& velocity) {
+struct Candidate {
+  ClosestFeatures features;
+  Vec<Real> difference;
+  Real a, b;
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Keeps the closer candidate. A tie goes to the later one, because the interiors come last and have the normal.
+template <class Real>
+void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
+                 const Real& a, const Real& b) {
   const double squared = to_double(dot(difference, difference));
-  // A tie goes to the later candidate, because the interiors come last and have the normal.
-  if (squared <= best.squared_distance) best = {features, difference, velocity, squared};
+  if (squared <= best.squared_distance) best = {features, difference, a, b, squared};
 }
 
 /// Considers a vertex and the edge (from, to) of the other primitive.
 template <class Real>
 void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t from, std::size_t to,
-                   ClosestPoints<Real>& best) {
+                   Candidate<Real>& best) {
   const Vec<Real> p = x.position(vertex, from);
   const Vec<Real> edge = x.position(to, from);
   const Real squared_length = dot(edge, edge);
@@ -66,21 +77,18 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
   ClosestFeatures features{ClosestFeatures::Combination::vertex_and_edge, vertex, from, to};
   if (!(to_double(weight) > 0)) {
     weight = Real(0);
-    features = {ClosestFeatures::Combination::vertices, vertex, from, to};
+    features.combination = ClosestFeatures::Combination::vertices;
   } else if (!(to_double(Real(1) - weight) > 0)) {
     weight = Real(1);
-    features = {ClosestFeatures::Combination::vertices, vertex, to, from};
+    features.combination = ClosestFeatures::Combination::vertices;
   }
-  const Vec<Real> difference = p - weight * edge;
-  const Vec<Real> velocity = x.velocity(vertex, from) - weight * x.velocity(to, from);
-  const bool in_first = vertex < second_primitive(x.differences().kind());
-  take_closer(best, features, in_first ? difference : -difference, in_first ? velocity : -velocity);
+  take_closer(best, features, p - weight * edge, weight, Real(0));
 }
 
 /// Considers the interiors of the triangle or the edges: the foot of the normal N, from p = q a + r b + N c.
 /// It counts if the weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
 template <class Real>
-void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
+void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
   const NormalPairs pairs = normal_pairs(x.differences().kind());
   const Vec<Real> p = x.position(pairs.p);
@@ -95,15 +103,34 @@ void consider_interiors(const VerticesAt<Real>& x, ClosestPoints<Real>& best) {
   const bool is_inside =
       is_triangle ? is_positive(Real(1) - a - b) : is_positive(Real(1) - a) && is_positive(Real(1) - b);
   if (!(is_positive(a) && is_positive(b) && is_inside)) return;
-  take_closer(best, {ClosestFeatures::Combination::interiors}, p - (a * q + b * r),
-              x.velocity(pairs.p) - (a * x.velocity(pairs.q) + b * x.velocity(pairs.r)));
+  take_closer(best, {ClosestFeatures::Combination::interiors}, p - (a * q + b * r), a, b);
+}
+
+/// The points of a candidate.
+template <class Real>
+ClosestPoints<Real> points_of(const VerticesAt<Real>& x, Candidate<Real>& best) {
+  ClosestFeatures& features = best.features;
+  if (features.combination == ClosestFeatures::Combination::interiors) {
+    const NormalPairs pairs = normal_pairs(x.differences().kind());
+    return {features, best.difference,
+            x.velocity(pairs.p) - (best.a * x.velocity(pairs.q) + best.b * x.velocity(pairs.r)),
+            best.squared_distance};
+  }
+  const Vec<Real> velocity =
+      x.velocity(features.vertex, features.from) - best.a * x.velocity(features.to, features.from);
+  const bool is_at_to = to_double(best.a) == 1;
+  if (features.combination == ClosestFeatures::Combination::vertices && is_at_to)
+    std::swap(features.from, features.to);
+  const bool in_first = features.vertex < second_primitive(x.differences().kind());
+  return {features, in_first ? best.difference : -best.difference, in_first ? velocity : -velocity,
+          best.squared_distance};
 }
 
 }  // namespace detail
 
 template <class Real>
 ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
-  ClosestPoints<Real> best;
+  detail::Candidate<Real> best;
   if (x.differences().kind() == Kind::vertex_triangle) {
     detail::consider_edge(x, 0, 1, 2, best);
     detail::consider_edge(x, 0, 2, 3, best);
@@ -115,7 +142,7 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
     detail::consider_edge(x, 3, 0, 1, best);
   }
   detail::consider_interiors(x, best);
-  return best;
+  return detail::points_of(x, best);
 }
 
 }  // namespace nearmiss::certified

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/moment.hpp"
@@ -24,6 +24,7 @@ class DistanceSearch {
   /// Encloses the smallest distance.
   Approach smallest() {
     look_at_ends();
+    descend(times_[0], times_[1]);
     for (int i = 0; i < most_gaps && required_ > 0; ++i) {
       const auto gap = first_gap();
       if (!gap) return {std::min(required_, upper_), upper_, best_time_, true};
@@ -37,6 +38,7 @@ class DistanceSearch {
   FirstTime first(double low, double width) {
     low_ = low;
     look_at_ends();
+    if (times_.size() == 2 && !is_low(times_[1]) && first_gap()) descend(times_[0], times_[1]);
     int slow_steps = 0;
     double last_width = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_gaps; ++i) {
@@ -46,7 +48,7 @@ class DistanceSearch {
       if (!gap) return {.never = true, .time = {1, 1}};
       const bool is_crossing = is_low(times_[gap->before + 1]);
       if (is_crossing && is_narrow(time_in(*gap), width)) break;
-      if (is_crossing ? !look_for_crossing(*gap, slow_steps >= 2) : !look_into(*gap)) break;
+      if (is_crossing ? !look_for_crossing(*gap, width, slow_steps >= 2) : !look_into(*gap)) break;
       slow_steps = is_crossing && 2 * gap->width > last_width && slow_steps < 2 ? slow_steps + 1 : 0;
       last_width = gap->width;
     }
@@ -56,10 +58,17 @@ class DistanceSearch {
   }
 
  private:
+  /// How far certified bounds around a time reach in one direction, at most `most`.
+  struct Reach {
+    double required = 0;  ///< the distance that is certain up to there
+    double most = 0, value = 0;
+  };
+
   struct SampledTime {
     Real t;
     Moment moment;
     bool is_covered = false;  ///< whether the step is covered from here to the next time
+    Reach ahead{}, behind{};  ///< as last determined
   };
 
   /// A part of the step that no certified bound covers. It lies between the range that the time `before`
@@ -72,11 +81,9 @@ class DistanceSearch {
   static constexpr int most_gaps = 300;
 
   void look_at_ends() {
-    times_.reserve(16);
     times_.push_back(look_at(Real(0)));
     if (is_low(times_[0])) return;
     times_.push_back(look_at(Real(1)));
-    descend(times_[0], times_[1]);
   }
 
   /// Whether the distance is certainly below `low_` at a time.
@@ -97,7 +104,8 @@ class DistanceSearch {
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
-    return resolves(time.moment) ? time : look_precisely(t);
+    if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
+    return time;
   }
   /// The same for a time between two others, either of which may be the double nearest to t.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
@@ -160,7 +168,15 @@ class DistanceSearch {
                   time);
   }
 
-  [[nodiscard]] double covered(const SampledTime& time, int direction, double most) const {
+  /// The time that is covered from a sampled time forward (1) or backward (-1), at most `most`.
+  double covered(SampledTime& time, int direction, double most) const {
+    Reach& reach = direction > 0 ? time.ahead : time.behind;
+    if (reach.required != required_ || reach.most < most)
+      reach = {required_, most, certified_time(time, direction, most)};
+    return std::min(reach.value, most);
+  }
+
+  [[nodiscard]] double certified_time(const SampledTime& time, int direction, double most) const {
     double farthest = 0;
     for (const Separation& separation : time.moment.separations) {
       farthest = std::max(farthest, certified_reach(separation, required_, direction, most));
@@ -246,6 +262,7 @@ class DistanceSearch {
         add_other_separations(time.moment, VerticesAt<Real>(differences_, time.t));
       else
         add_other_separations(time.moment, rough_vertices(time.t));
+      time.ahead = time.behind = {};
       return true;
     }
     if (time.moment.is_precise || covered > 0) return false;
@@ -279,21 +296,22 @@ class DistanceSearch {
   }
 
   /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives the next time;
-  /// once it is precise, twice its step, so that the crossing is enclosed from both sides. False if nothing more can be done.
-  bool look_for_crossing(const Gap& gap, bool halve) {
+  /// once it is precise, twice its step, or most of the width that suffices, so that the crossing is enclosed from both sides.
+  /// False if nothing more can be done.
+  bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
     const double from_a = time_to_low(a.moment);
     const double from_b = -time_to_low(b.moment);
-    if (2 * gap.covered_before < std::min(from_a > 0 ? from_a : gap.width, gap.width) &&
+    if (4 * gap.covered_before < std::min(from_a > 0 ? from_a : gap.width, gap.width) &&
         improve(a, gap.covered_before))
       return true;
     if (gap.covered_before == 0) return false;
     const auto is_inside = [&](double step) { return 0 < step && step < gap.width; };
     const bool take_a = is_inside(from_a) && (!is_inside(from_b) || from_a < from_b);
     double step = take_a ? from_a : from_b;
-    const bool is_precise = 32 * step < gap.width;
-    Real t = take_a ? a.t + Real(is_precise ? 2 * step : step) : b.t - Real(is_precise ? 2 * step : step);
+    if (32 * step < gap.width) step = std::max(2 * step, 0.4 * width);
+    Real t = take_a ? a.t + Real(step) : b.t - Real(step);
     const double open = gap.width - gap.covered_before;
     if (halve || !is_inside(step) || !(a.t + Real(gap.covered_before) < t && t < b.t)) {
       t = a.t + Real(gap.covered_before + 0.5 * open);
@@ -302,9 +320,24 @@ class DistanceSearch {
     if (!(a.t < t && t < b.t)) return false;
     constexpr double rough = 0x1p-40;
     const bool needs_precision = step * std::abs(a.moment.rate) < rough * differences_.total_reach();
-    const SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
+    SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
+    if (!is_resolved(next)) {
+      // The distance is certainly low a little later, unless it hardly changes.
+      const Real later = next.t + Real(2 * resolution * low_ / std::abs(next.moment.rate));
+      if (!(later < b.t)) return false;
+      next = look_precisely(later);
+      if (!is_resolved(next)) return false;
+    }
     insert(next);
     return true;
+  }
+
+  /// Upper bounds of the distance are rounded to double, with this relative precision.
+  static constexpr double resolution = 0x1p-46;
+
+  /// Whether it is known on which side of `low_` the distance is, as far as double tells.
+  [[nodiscard]] bool is_resolved(const SampledTime& time) const {
+    return std::abs(time.moment.upper - low_) > resolution * low_;
   }
 
   /// The time until the distance is `low_`, by Newton's method; 0 or NaN if that gives no time.
@@ -314,7 +347,7 @@ class DistanceSearch {
 
   const VertexDifferences& differences_;
   const NeededDistance& needed_;
-  std::vector<SampledTime> times_;
+  boost::container::small_vector<SampledTime, 8> times_;
   double upper_ = std::numeric_limits<double>::infinity();
   double required_ = std::numeric_limits<double>::infinity();
   double best_time_ = 0;

@@ -1,5 +1,8 @@
 #include "oracle/distance/separation.hpp"
 
+#include <cmath>
+#include <optional>
+
 #include "oracle/arithmetic/guess.hpp"
 
 namespace nearmiss::certified {
@@ -25,13 +28,22 @@ bool is_not_negative(const std::array<double, 4>& b) {
   return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
 }
 
+/// About the first root above 0 of a cubic that is positive at 0; nothing if a step shows that there is none.
+std::optional<double> first_root(const Powers<double>& p) {
+  const auto& [c0, c1, c2, c3] = p.c;
+  if (c3 != 0) return root_near_zero(p);
+  const double discriminant = c1 * c1 - 4 * c0 * c2;
+  if (!(discriminant >= 0)) return std::nullopt;
+  return 2 * c0 / (std::sqrt(discriminant) - c1);
+}
+
 /// An end in [0, most] up to which the cubic is certainly not negative. It is usually near the first root;
 /// the search is kept short for speed.
 double not_negative_until(const Powers<double>& p, double most) {
   const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
   if (!(p.c[0] > 0)) return 0;
   if (holds_until(most)) return most;
-  if (const auto root = root_near_zero(p); root && 0 < *root && *root < most) {
+  if (const auto root = first_root(p); root && 0 < *root && *root < most) {
     constexpr double less = 1 - 1e-3;
     if (holds_until(*root * less)) return *root * less;
   }

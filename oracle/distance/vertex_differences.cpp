@@ -14,34 +14,39 @@ constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 1}, {0, 2}, {0, 3
 VertexDifferences::VertexDifferences(const Query& query)
     : kind_(query.kind), exponent_(0), pairs_{}, total_reach_(0) {
   double largest = 0;
-  // Sets all differences of coordinates, times a factor; returns whether they are finite.
+  // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their magnitudes, are finite.
   const auto subtract = [&](double factor) {
     largest = 0;
-    bool finite = true;
+    double sum = 0;
     for (std::size_t pair = 0; pair < pairs.size(); ++pair)
       for (std::size_t time = 0; time < 2; ++time)
         for (std::size_t k = 0; k < 3; ++k) {
           const auto coordinate = [&](std::size_t i) { return factor * query.x[12 * time + 3 * i + k]; };
           const DoubleWord value = two_sum(coordinate(pairs[pair][0]), -coordinate(pairs[pair][1]));
           pairs_[pair].at[time][k] = value;
-          finite = finite && std::isfinite(value.hi) && std::isfinite(value.lo);
+          sum += std::abs(value.hi) + std::abs(value.lo);
           largest = std::max(largest, std::abs(value.hi));
         }
-    return finite;
+    return std::isfinite(sum);
   };
   if (!subtract(1)) {
-    subtract(0.5);
-    exponent_ = 1;
+    subtract(0x1p-6);
+    exponent_ = 6;
   }
   const int size = largest > 0 ? std::ilogb(largest) : 0;
   exponent_ += size;
-  const double half = std::ldexp(1.0, -size / 2);
-  const double other_half = std::ldexp(1.0, -size - -size / 2);
+  scale(-size);
+}
+
+void VertexDifferences::scale(int exponent) {
+  // In two factors, because 2^exponent need not be a double.
+  const double factor = std::ldexp(1.0, exponent / 2);
+  const double other_factor = std::ldexp(1.0, exponent - exponent / 2);
   for (VertexDifference& pair : pairs_) {
     double reach = 0;
     for (Vec<DoubleWord>& v : pair.at)
       for (DoubleWord& c : v) {
-        c = {c.hi * half * other_half, c.lo * half * other_half};
+        c = {c.hi * factor * other_factor, c.lo * factor * other_factor};
         reach = std::max(reach, std::abs(c.hi));
       }
     constexpr double root_of_three = 1.7320508075688777;  // rounded up

@@ -31,7 +31,7 @@ constexpr NormalPairs normal_pairs(Kind kind) {
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
 /// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference would
-/// overflow, the coordinates are halved first; the error of halving is far below that as well.
+/// overflow, or their sum, the coordinates are divided by 64 first; the error of that is far below as well.
 class VertexDifferences {
  public:
   explicit VertexDifferences(const Query& query);
@@ -44,13 +44,15 @@ class VertexDifferences {
   /// The sum of the reaches of all six pairs.
   [[nodiscard]] double total_reach() const { return total_reach_; }
 
-  /// A component of x_i - x_j at the start (0) or the end (1) of the step.
-  [[nodiscard]] DoubleWord at(std::size_t time, std::size_t i, std::size_t j, std::size_t k) const {
-    const DoubleWord& value = pair_of(i, j).at[time][k];
-    return i < j ? value : -value;
+  /// x_i - x_j at the start (0) or the end (1) of the step, for i < j.
+  [[nodiscard]] const Vec<DoubleWord>& at(std::size_t time, std::size_t i, std::size_t j) const {
+    return pair_of(i, j).at[time];
   }
 
  private:
+  /// Multiplies all differences by 2^exponent, and sets the reaches.
+  void scale(int exponent);
+
   struct VertexDifference {
     std::array<Vec<DoubleWord>, 2> at;
     double reach;
@@ -75,41 +77,43 @@ class VertexDifferences {
 template <class Real>
 class VerticesAt {
  public:
-  VerticesAt(const VertexDifferences& differences, const Real& t)
-      : differences_(differences), t_(t), early_(Real(1) - t) {}
+  VerticesAt(const VertexDifferences& differences, const Real& t) : differences_(differences) {
+    const Real early = Real(1) - t;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Real start = real(differences.at(0, i, j)[k]);
+          const Real end = real(differences.at(1, i, j)[k]);
+          positions_[i][j][k] = early * start + t * end;
+          positions_[j][i][k] = -positions_[i][j][k];
+          velocities_[i][j][k] = end - start;
+          velocities_[j][i][k] = -velocities_[i][j][k];
+        }
+  }
 
   [[nodiscard]] const VertexDifferences& differences() const { return differences_; }
 
   /// x_i - x_j.
-  [[nodiscard]] Vec<Real> position(std::size_t i, std::size_t j) const {
-    return of(i, j, [&](const Real& start, const Real& end) { return early_ * start + t_ * end; });
-  }
-  [[nodiscard]] Vec<Real> position(VertexPair pair) const { return position(pair.to, pair.from); }
+  [[nodiscard]] const Vec<Real>& position(std::size_t i, std::size_t j) const { return positions_[i][j]; }
+  [[nodiscard]] const Vec<Real>& position(VertexPair pair) const { return position(pair.to, pair.from); }
   /// The derivative of x_i - x_j by t.
-  [[nodiscard]] Vec<Real> velocity(std::size_t i, std::size_t j) const {
-    return of(i, j, [](const Real& start, const Real& end) { return end - start; });
-  }
-  [[nodiscard]] Vec<Real> velocity(VertexPair pair) const { return velocity(pair.to, pair.from); }
+  [[nodiscard]] const Vec<Real>& velocity(std::size_t i, std::size_t j) const { return velocities_[i][j]; }
+  [[nodiscard]] const Vec<Real>& velocity(VertexPair pair) const { return velocity(pair.to, pair.from); }
 
  private:
-  template <class Formula>
-  [[nodiscard]] Vec<Real> of(std::size_t i, std::size_t j, const Formula& formula) const {
-    const auto real = [&](std::size_t time, std::size_t k) {
-      const DoubleWord value = differences_.at(time, i, j, k);
-      if constexpr (std::is_same_v<Real, double>)
-        return value.hi;
-      else if constexpr (std::is_same_v<Real, DoubleWord>)
-        return value;
-      else
-        return Real(value.hi) + Real(value.lo);
-    };
-    Vec<Real> v;
-    for (std::size_t k = 0; k < 3; ++k) v[k] = formula(real(0, k), real(1, k));
-    return v;
+  using OfPairs = std::array<std::array<Vec<Real>, 4>, 4>;
+
+  static Real real(const DoubleWord& value) {
+    if constexpr (std::is_same_v<Real, double>)
+      return value.hi;
+    else if constexpr (std::is_same_v<Real, DoubleWord>)
+      return value;
+    else
+      return Real(value.hi) + Real(value.lo);
   }
 
   const VertexDifferences& differences_;
-  Real t_, early_;
+  OfPairs positions_, velocities_;
 };
 
 }  // namespace nearmiss::certified

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ccd/error.hpp"
+#include "oracle/subjects.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -19,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndAdaptive) {
-  EXPECT_EQ(built_in_subjects().size(), subjects().size() + 3);
+  EXPECT_EQ(built_in_subjects().size(), subjects().size() + exact_subjects().size() + 1);
   for (const SubjectInfo& info : built_in_subjects())
     EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_THAT([] { make_any_subject("wong"); }, ThrowsMessage<Error>(HasSubstr("exact")));
