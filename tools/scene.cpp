@@ -33,6 +33,7 @@ struct Options {
   TrialOptions trial{.subjects = {"basic", "wang"}};
   std::vector<std::string> bounds{"pair"};
   std::string leave_out = "all", thickness;
+  SeparationOption separation;
   bool list = false, weld = false, plan_only = false, verify_plan = false;
   fs::path export_to;
   RecordOptions record;
@@ -107,6 +108,10 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   std::string& again = info["again"];
   again += fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
   info["left out"] = options.leave_out;
+  if (options.separation.is_given()) {
+    info["separation"] = options.separation.text;
+    again += " --separation " + options.separation.text;
+  }
   if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
   if (!options.thickness.empty()) {
     info["thickness"] = options.thickness;
@@ -192,13 +197,16 @@ std::string describe(const Scene& scene) {
 }
 
 int run(Options options) {
-  if (options.plan_only) options.trial.subjects = {"wang"};
+  const double h = options.separation.apply({}).separation;
+  if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
   options.record.summary = !options.plan_only;
   const Stop stop(interrupted());
   (void)options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
+  if (h > 0) scene = with_separation(std::move(scene), h);
   SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
+  if (h > 0) expect_separations(all.subjects);
   const RunInfo info = run_info(options, all);
   const RunInfo plugins = plugin_environment(all.subjects);
   std::FILE* const text = options.record.json.text();
@@ -260,9 +268,10 @@ void add_plan_options(CLI::App& command, Options& options) {
                   "rest or in translation relative to each other")
       ->check(CLI::IsMember({"nothing", "boxes", "all"}))
       ->capture_default_str();
-  command.add_flag("--plan-only", options.plan_only,
-                   "Show only which pairs are left out and why, and how much work wang and the oracle have "
-                   "with the others");
+  command.add_flag(
+      "--plan-only", options.plan_only,
+      "Show only which pairs are left out and why, and how much work wang (with a separation: exact) and "
+      "the oracle have with the others");
   command.add_flag(
       "--verify-plan", options.verify_plan,
       "Also ask the oracle about all pairs that are left out; exit code 1 if a collision is lost");
@@ -288,6 +297,7 @@ void add_scene(CLI::App& app, int& exit_code) {
   add_scene_options(*command, *options);
   options->trial.add_to(*command);
   add_bound_options(*command, *options);
+  options->separation.add_to(*command);
   add_plan_options(*command, *options);
   options->record.add_to(*command);
   command->callback([options, command, &exit_code] {

@@ -47,6 +47,7 @@ struct MovingMesh {
   std::vector<std::array<int, 3>> triangles;
   /// Each edge of triangles and lines once, the smaller index first, in ascending order.
   std::vector<std::array<int, 2>> edges;
+  double separation = 0;  ///< of the queries of all pairs
 };
 
 /// Makes a moving mesh; `mesh` is the mesh at the start, `end` has the points at the end.

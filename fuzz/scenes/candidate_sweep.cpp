@@ -52,17 +52,23 @@ std::vector<SweptBox> sorted_boxes(const MovingMesh& mesh, Kind kind) {
 
 bool make_a_pair(const SweptBox& a, const SweptBox& b) { return a.side == Side::edge || a.side != b.side; }
 
-/// Whether two closed boxes meet along the y and z axes.
-bool meet_across_sweep(const SweptBox& a, const SweptBox& b) {
-  return a.lo[1] <= b.hi[1] && b.lo[1] <= a.hi[1] && a.lo[2] <= b.hi[2] && b.lo[2] <= a.hi[2];
+/// Whether the range of a begins more than h above the end of that of b along axis k. The difference is rounded once, which
+/// does not change the answer.
+bool begins_behind(const SweptBox& a, const SweptBox& b, std::size_t k, double h) {
+  return a.lo[k] - b.hi[k] > h;
 }
 
-void sweep(const std::vector<SweptBox>& all, CandidatePasser& passer) {
+/// Whether two closed boxes are at most h apart along axis k.
+bool are_near(const SweptBox& a, const SweptBox& b, std::size_t k, double h) {
+  return !begins_behind(a, b, k, h) && !begins_behind(b, a, k, h);
+}
+
+void sweep(const std::vector<SweptBox>& all, double h, CandidatePasser& passer) {
   for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = i + 1; j < all.size() && all[j].lo[0] <= all[i].hi[0]; ++j) {
+    for (std::size_t j = i + 1; j < all.size() && !begins_behind(all[j], all[i], 0, h); ++j) {
       const SweptBox& a = all[i];
       const SweptBox& b = all[j];
-      if (!make_a_pair(a, b) || !meet_across_sweep(a, b)) continue;
+      if (!make_a_pair(a, b) || !are_near(a, b, 1, h) || !are_near(a, b, 2, h)) continue;
       if (a.side == Side::triangle)
         passer.pass(b.primitive, a.primitive);
       else
@@ -76,7 +82,7 @@ std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const 
                                        const IsOver& is_over) {
   CandidatePasser passer(mesh, kind, sink, is_over);
   try {
-    sweep(sorted_boxes(mesh, kind), passer);
+    sweep(sorted_boxes(mesh, kind), mesh.separation, passer);
   } catch (const Stopped&) {
   }
   return passer.sharing();

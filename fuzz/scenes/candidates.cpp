@@ -57,6 +57,7 @@ std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t ro
 
 Query make_query(const MovingMesh& mesh, const Candidate& candidate) {
   Query query{.kind = candidate.kind};
+  query.separation = mesh.separation;
   for (int i = 0; i < 4; ++i) {
     const auto v = static_cast<std::size_t>(candidate.vertices[static_cast<std::size_t>(i)]);
     query.set_start(i, mesh.start[v]);

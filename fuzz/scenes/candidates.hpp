@@ -31,7 +31,8 @@ using CandidateSink = std::function<void(const Candidate&)>;
 /// Returns whether to end early.
 using IsOver = std::function<bool()>;
 
-/// Finds the pairs of a kind whose swept boxes meet (closed boxes: touching counts). The search is divided
+/// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every axis
+/// (oracle/filter/box.hpp; closed boxes: touching counts). The search is divided
 /// into parts, which can be searched in any order and by any thread. The parts only depend on the mesh, which
 /// must outlive this object.
 class CandidateFinder {

@@ -82,7 +82,8 @@ class FateTeller {
 }  // namespace
 
 std::pair<PairFate, bool> fate(const Query& query) {
-  const RelativeMotion motion = relative_motion(query);
+  // The tests of primitives in translation are about contact.
+  const RelativeMotion motion = query.separation > 0 ? RelativeMotion::other : relative_motion(query);
   if (motion == RelativeMotion::other) return {PairFate::asked, false};
   const auto meets = meets_by_translation(query);
   if (!meets) return {PairFate::asked, false};

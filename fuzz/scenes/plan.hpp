@@ -16,12 +16,12 @@ namespace nearmiss {
 enum class LeaveOut : std::uint8_t {
   nothing,  ///< all pairs without a common vertex are asked
   boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< also pairs at relative rest or in relative translation
+  all,      ///< also pairs at relative rest or in relative translation, if the question is contact
 };
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// The fate of a pair whose swept boxes meet, under LeaveOut::all; and, if it is not asked, whether it
+/// The fate of a pair whose swept boxes meet (or are at most the separation apart), under LeaveOut::all; and, if it is not asked, whether it
 /// collides.
 std::pair<PairFate, bool> fate(const Query& query);
 

@@ -118,7 +118,15 @@ void renumber(std::vector<std::array<int, n>>& primitives, const std::vector<int
 MovingMesh moving_mesh(const Scene& scene, std::size_t step) {
   Mesh mesh = scene.mesh;
   if (step > 0) mesh.points = scene.points(step);
-  return make_moving_mesh(std::move(mesh), scene.points(step + 1));
+  MovingMesh moving = make_moving_mesh(std::move(mesh), scene.points(step + 1));
+  moving.separation = scene.separation;
+  return moving;
+}
+
+Scene with_separation(Scene scene, double separation) {
+  scene.separation = separation;
+  scene.name += fmt::format("~{}", separation);
+  return scene;
 }
 
 std::string step_name(const Scene& scene, std::size_t step) {

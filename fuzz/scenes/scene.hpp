@@ -18,9 +18,13 @@ struct Scene {
   /// The points of a frame, which are read or computed on demand. Throws Error if the frame does not have the
   /// same primitives as the other frames.
   std::function<std::vector<Vector3<double>>(std::size_t frame)> points;
+  double separation = 0;  ///< of the queries of all pairs
 
   [[nodiscard]] std::size_t steps() const { return frames - 1; }
 };
+
+/// The scene with a separation h > 0, under the name NAME~H.
+Scene with_separation(Scene scene, double separation);
 
 /// One step of a scene.
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);

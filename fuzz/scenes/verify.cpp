@@ -49,7 +49,7 @@ Verification verify(const AskedPairs& pairs, const Subjects& subjects) {
   std::vector<Decision> decisions(queries.size());
   decide(queries, decisions);
   for (std::size_t i = 0; i < queries.size(); ++i)
-    found.wrong += decisions[i].collision != expected[i] ? 1 : 0;
+    found.wrong += decisions[i].collision != expected[i] || decisions[i].is_tie ? 1 : 0;
   std::vector<Verdict> verdicts(queries.size());
   for (const auto& subject : subjects) {
     subject->decide(queries, verdicts);

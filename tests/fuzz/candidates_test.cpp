@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <set>
 
 #include "fuzz/random.hpp"
@@ -47,10 +49,17 @@ std::multiset<Candidate> by_brute_force(const MovingMesh& mesh) {
   return found;
 }
 
-// With integer coordinates, many boxes only touch.
+/// A separation for a mesh with integer coordinates: contact, exact distances of boxes, and others.
+double separation_of(std::uint64_t seed) {
+  constexpr std::array separations{0.0, 1.0, 0.0, 2.0, 0.3, std::numeric_limits<double>::denorm_min()};
+  return separations[seed % separations.size()];
+}
+
+// With integer coordinates, many boxes only touch, or are exactly the separation apart.
 TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeet) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const MovingMesh mesh = random_mesh(seed, 60, 80);
+    MovingMesh mesh = random_mesh(seed, 60, 80);
+    mesh.separation = separation_of(seed);
     std::multiset<Candidate> found;
     find_candidates(mesh, [&](const Candidate& candidate) { found.insert(candidate); });
     const auto expected = by_brute_force(mesh);
@@ -62,7 +71,8 @@ TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeet) {
 
 TEST(Candidates, TheSweepFindsTheSamePairs) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const MovingMesh mesh = random_mesh(seed, 60, 80);
+    MovingMesh mesh = random_mesh(seed, 60, 80);
+    mesh.separation = separation_of(seed);
     for (const Kind kind : kinds) {
       std::multiset<Candidate> by_boxes;
       std::multiset<Candidate> by_sweep;

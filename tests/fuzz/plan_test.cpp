@@ -38,6 +38,21 @@ TEST(Plan, LosesNoCollisionHoweverMuchIsLeftOut) {
   }
 }
 
+TEST(Plan, WithASeparationLosesNoApproach) {
+  for (const double separation : {0.25, 1.0}) {
+    MovingMesh mesh = tetrahedra(3);
+    const std::size_t colliding = follow(mesh, LeaveOut::nothing).colliding.size();
+    mesh.separation = separation;
+    const PlanOutcome nothing = follow(mesh, LeaveOut::nothing);
+    const PlanOutcome all = follow(mesh, LeaveOut::all);
+    EXPECT_GT(nothing.colliding.size(), colliding);
+    EXPECT_EQ(all.colliding, nothing.colliding);
+    for (const Kind kind : kinds)
+      EXPECT_LT(all.funnels.at(kind)[PairFate::asked], nothing.funnels.at(kind)[PairFate::asked]);
+    EXPECT_TRUE(verify_plan(mesh, {}, 2, [](double) { return true; }).fine());
+  }
+}
+
 TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
   const MovingMesh mesh = grids(14);  // large enough for several parts of each kind
   const Plan plan(mesh, LeaveOut::all);
