@@ -43,6 +43,10 @@ Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 /// The same if the answer of the first method, a complete method, is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
+/// How the second method contradicts the earliest time of a query with a collision or a tie, such as "time (sturm: earlier)";
+/// "" if it agrees. It is asked at the ends of the narrowest enclosure.
+std::string time_disagreement(const Query& query);
+
 /// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its numbers.
 bool is_sampled(const Query& query, std::uint64_t one_in);
 

@@ -67,9 +67,8 @@ bool is_of_time_limit(std::string_view signature) {
                      [&](Kind kind) { return signature == fault_signature(kind, {.fault = Fault::time}); });
 }
 
-std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter) {
-  const std::string parts = answers.disagreement(by_filter);
-  return parts.empty() ? parts : signature(kind, parts);
+std::string disagreement_signature(Kind kind, std::string_view text) {
+  return text.empty() ? "" : signature(kind, text);
 }
 
 }  // namespace nearmiss

@@ -26,8 +26,8 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
 /// Whether the signature is that of a query over its time limit.
 bool is_of_time_limit(std::string_view signature);
 
-/// The signature of a disagreement between the exact methods, or between them and the filter if it decided.
-/// It lists the answers, such as "vt collision (no: filter; yes: exact, sturm, parity)"; "" if they agree.
-std::string disagreement_signature(Kind kind, const Answers& answers, std::optional<bool> by_filter);
+/// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists the answers
+/// (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if they agree.
+std::string disagreement_signature(Kind kind, std::string_view text);
 
 }  // namespace nearmiss

@@ -126,6 +126,7 @@ class Judging {
     OracleCounts& counts = result_.statistics.oracle[{batch_.kind, batch_.family}];
     ++counts.queries;
     counts.collisions += truth.collision() ? 1 : 0;
+    counts.ties += truth.is_tie() ? 1 : 0;
     ++counts.by_stage[static_cast<std::size_t>(truth.decision().stage)];
     counts.near_bounds += is_near_bounds(i) ? 1 : 0;
     if (asks_all_methods(i)) compare_methods(i, truth, counts);
@@ -148,6 +149,7 @@ class Judging {
     ++counts.compared;
     counts.compared_collisions += answers.collision() ? 1 : 0;
     counts.missed_by_parity += answers.missed_by_parity() ? 1 : 0;
+    counts.compared_times += truth.has_time() ? 1 : 0;
     std::string signature = truth.disagreement(answers);
     if (signature.empty()) return;
     ++result_.statistics.oracle_disagreements;

@@ -20,7 +20,9 @@ Answers Truth::ask_methods() const {
 }
 
 std::string Truth::disagreement(const Answers& answers) const {
-  return disagreement_signature(query_.kind, answers, decision_.by_filter());
+  std::string text = answers.disagreement(decision_.by_filter());
+  if (text.empty() && has_time()) text = time_disagreement(query_);
+  return disagreement_signature(query_.kind, text);
 }
 
 const std::string& Truth::contact() {

@@ -27,7 +27,10 @@ class Truth {
   /// The answers of all exact methods.
   [[nodiscard]] Answers ask_methods() const;
 
-  /// The signature of a disagreement between these answers and the decision; "" if they agree.
+  /// Whether there is an earliest time: a collision, or a distance of exactly the separation.
+  [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
+
+  /// The signature of a disagreement between these answers and the decision, or about the earliest time; "" if they agree.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether both answers are right, because the smallest distance is exactly h > 0.

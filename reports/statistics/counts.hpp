@@ -182,6 +182,9 @@ struct OracleCounts {
   std::uint64_t compared = 0;             ///< queries decided by all exact methods
   std::uint64_t compared_collisions = 0;  ///< collisions among `compared`
   std::uint64_t missed_by_parity = 0;     ///< collisions among `compared` that have an even number of roots
+  std::uint64_t compared_times =
+      0;  ///< earliest times among `compared` that a second method has confirmed or contradicted
+  std::uint64_t ties = 0;  ///< queries whose smallest distance is exactly the separation
 
   static constexpr auto counters() {
     return std::tuple{Counter{"queries", &OracleCounts::queries},
@@ -194,7 +197,9 @@ struct OracleCounts {
                       Counter{"near_bounds", &OracleCounts::near_bounds},
                       Counter{"compared", &OracleCounts::compared},
                       Counter{"compared_collisions", &OracleCounts::compared_collisions},
-                      Counter{"missed_by_parity", &OracleCounts::missed_by_parity}};
+                      Counter{"missed_by_parity", &OracleCounts::missed_by_parity},
+                      Counter{"compared_times", &OracleCounts::compared_times},
+                      Counter{"ties", &OracleCounts::ties}};
   }
 
   void merge(const OracleCounts& other) { merge_counters(*this, other); }

@@ -175,8 +175,8 @@ TEST(Judge, ABoundThatTakesTooLongIsLate) {
 
 TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {
   const Answers answers = ask_all(hit);
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, true), "");
-  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers, false),
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(true)), "");
+  EXPECT_EQ(disagreement_signature(Kind::edge_edge, answers.disagreement(false)),
             "ee collision (no: filter; yes: exact, sturm, parity)");
 }
 
