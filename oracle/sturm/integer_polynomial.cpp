@@ -4,6 +4,24 @@
 
 namespace nearmiss::sturm {
 
+namespace {
+
+/// The number of changes between the signs of successive elements, zeros left out.
+template <class Sequence, class Sign>
+int variations(const Sequence& sequence, const Sign& sign_of) {
+  int changes = 0;
+  int last = 0;
+  for (const auto& each : sequence) {
+    const int sign = sign_of(each);
+    if (sign == 0) continue;
+    changes += last != 0 && sign != last ? 1 : 0;
+    last = sign;
+  }
+  return changes;
+}
+
+}  // namespace
+
 IntegerPolynomial::IntegerPolynomial(std::vector<Integer> coefficients) : c_(std::move(coefficients)) {
   while (!c_.empty() && c_.back() == 0) c_.pop_back();
 }
@@ -33,6 +51,15 @@ int IntegerPolynomial::sign_on(const Dyadic& lo, const Dyadic& hi) const {
     shift += exponent;
   }
   return least > 0 ? 1 : most < 0 ? -1 : 0;
+}
+
+// The roots of f in (0, 1) are those of (1 + t)^degree f(1 / (1 + t)) for t > 0: its coefficients are those of f in reverse
+// order, as a polynomial in 1 + t.
+int IntegerPolynomial::most_roots_inside() const {
+  std::vector<Integer> shifted(c_.rbegin(), c_.rend());
+  for (std::size_t i = 0; i + 1 < shifted.size(); ++i)
+    for (std::size_t j = shifted.size() - 1; j > i; --j) shifted[j - 1] += shifted[j];
+  return variations(shifted, [](const Integer& c) { return c.sign(); });
 }
 
 IntegerPolynomial IntegerPolynomial::derivative() const {
@@ -128,19 +155,11 @@ std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, co
 }
 
 int sign_variations(const std::vector<IntegerPolynomial>& sequence, const Dyadic& t) {
-  int variations = 0;
-  int last = 0;
-  for (const IntegerPolynomial& p : sequence) {
-    const int sign = p.sign_at(t);
-    if (sign == 0) continue;
-    variations += last != 0 && sign != last ? 1 : 0;
-    last = sign;
-  }
-  return variations;
+  return variations(sequence, [&](const IntegerPolynomial& p) { return p.sign_at(t); });
 }
 
-/// Tarski's query: the sum over the roots of f in (lo, hi) of the sign of g there; f is square-free and not
-/// zero at the ends. The result depends on g only modulo f.
+/// Tarski's query: the sum over the distinct roots of f in (lo, hi) of the sign of g there; f is not zero at
+/// the ends. The result depends on g only modulo f.
 int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const Dyadic& lo, const Dyadic& hi) {
   const auto sequence =
       remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
@@ -236,15 +255,17 @@ int SturmRoot::sign(const IntegerPolynomial& g) const {
 
 std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {
   std::vector<SturmRoot> roots;
-  IntegerPolynomial rest = square_free(f);
+  IntegerPolynomial rest = f;
   const Dyadic zero{0, 0};
   const Dyadic one{1, 0};
   for (const Dyadic& end : {zero, one}) {
     if (rest.sign_at(end) != 0) continue;
     roots.emplace_back(end);
-    rest = without_root(rest, end);
+    while (rest.sign_at(end) == 0) rest = without_root(rest, end);
   }
-  isolate(SturmSequence(rest), zero, one, roots);
+  const int most = rest.most_roots_inside();
+  if (most == 1) roots.emplace_back(rest, zero, one);
+  if (most > 1) isolate(SturmSequence(square_free(rest)), zero, one, roots);
   return roots;
 }
 

@@ -26,6 +26,9 @@ class IntegerPolynomial {
   [[nodiscard]] int sign_at(const Dyadic& t) const;
   /// The sign on all of [lo, hi], for 0 <= lo < hi, if interval arithmetic shows it; else 0.
   [[nodiscard]] int sign_on(const Dyadic& lo, const Dyadic& hi) const;
+  /// The number of roots in (0, 1), counted with multiplicity, or more than that by an even number (Descartes' rule of
+  /// signs).
+  [[nodiscard]] int most_roots_inside() const;
   [[nodiscard]] IntegerPolynomial derivative() const;
 
   IntegerPolynomial operator+(const IntegerPolynomial& other) const;
@@ -47,8 +50,8 @@ class IntegerPolynomial {
   std::vector<Integer> c_;
 };
 
-/// A real root in [0, 1]: a dyadic number, or the only root of a square-free polynomial in an open interval
-/// at whose ends it is not zero.
+/// A real root in [0, 1]: a dyadic number, or the only root, a simple one, of a polynomial in an open interval at whose ends
+/// it is not zero.
 class SturmRoot {
  public:
   explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_(std::move(value)) {}
