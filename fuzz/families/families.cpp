@@ -122,7 +122,7 @@ std::vector<Family> joined(const std::vector<std::vector<Family>>& themes) {
 std::span<const Family> families() {
   static const std::vector<Family> all =
       joined({random_families(), file_families(), motion_families(), crossed_families(), root_families(),
-              extreme_families(), range_families()});
+              time_families(), extreme_families(), range_families()});
   return all;
 }
 
