@@ -1,8 +1,8 @@
-// Queries with a separation h > 0: the primitives come within h at a time, or by a distance, that is hard to find. Unless a
-// family says otherwise, all numbers are short, and what it says is exact.
+// Queries with a separation h > 0 that the primitives hardly reach, or reach at a time that is hard to find. Numbers are short, so
+// that distances and times are exactly those that a family names.
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "fuzz/families/facing.hpp"
 #include "fuzz/families/tables.hpp"
@@ -33,12 +33,13 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// The pairs of other families that are apart, and h = (1 ± 2^x) times the smallest distance: its double upwards, or the one
-/// below it downwards. If x is -54, h is one of the two doubles next to the smallest distance.
+/// A pair of another family that is apart, and h = (1 + 2^x) d or (1 - 2^x) times the double below d, where d is the smallest
+/// distance rounded up to a double. If x is -54, h is one of the two doubles.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
-  const Family base = find_family(bases[static_cast<std::size_t>(random.integer(0, bases.size() - 1))]);
+  const auto number = static_cast<std::size_t>(random.integer(0, static_cast<int>(bases.size()) - 1));
+  const Family base = find_family(bases[number], families());
   const double off = power_of_two(x);
   const bool is_above = random.one_in(2);
   for (;;) {
@@ -51,8 +52,8 @@ Query near_separation(Random& random, Kind kind, double x) {
   }
 }
 
-/// The closest features keep the distance h while they pass each other sideways, or rest; or the distance is h at t = 0, before
-/// they part, or at t = 1. It is never smaller. In half of the queries, h is then moved by x ulps.
+/// The smallest distance is exactly h. The closest features rest or move sideways, or the distance is h at t = 0 before they
+/// part, or at t = 1 after they come near. In half of the queries, h is then moved by x ulps.
 Query tied_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const bool is_at_end = random.one_in(3);
@@ -84,14 +85,14 @@ Query slow_approach(Random& random, Kind kind, double x) {
   return placed_apart(random, facing(kind, contact, power_of_two(x) * approaching(random), h), h);
 }
 
-/// Sides of which the closest point moves along: the first ones begin or cease to be part of the closest features.
+/// Which sides begin or cease to be part of the closest features.
 struct Sides {
   bool q, r;
 };
 
-/// About 2^x before the distance is h, and falls, the closest points come from an end of a side to its inside, or from its
-/// inside to its end. In the first case, the weight is 2^x when the distance is h, and 0 at the change. In the second case, the
-/// angle between the side and the plane is about 2^x.
+/// The distance is h at a time inside the step, and falls. About 2^x before, the closest points came from an end of a side to
+/// its inside, or from its inside to its end. In the first case, the weight is 2^x when the distance is h. In the second case,
+/// the slope of the side is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -118,7 +119,7 @@ Query changed_features(Random& random, Kind kind, double x) {
 
 // --- the start of the step ------------------------------------------------------------------------------
 
-/// At t = 0 the distance is h, or (1 ± 2^x) h, and the primitives approach each other, part, or keep the distance.
+/// The distance is h or (1 ± 2^x) h at t = 0. Then the primitives approach each other, part, or move sideways.
 Query starts_near_separation(Random& random, Kind kind, double x) {
   const double h = short_separation(random);
   const int side = random.integer(-1, 1);
@@ -131,8 +132,8 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. Either they come within h, or they pass each other at a distance of h, or of a
-/// little more or less: by 1/8, or by all of h if that is less.
+/// Primitives of size 1 to 4, and h about 4 * 10^x. Half of them come within h. The others pass each other at a distance of h,
+/// or of 1/8 more or less. If h is less than 1/8, these distances are 2 h and 0.
 Query sized_separation(Random& random, Kind kind, double x) {
   constexpr double least_that_turns = 0x1p-42;  // so that 53 bits are enough
   const double h = 4 * power_of_ten(x);
@@ -147,37 +148,31 @@ Query sized_separation(Random& random, Kind kind, double x) {
   return rescaled(random, h < least_that_turns ? query : turned(random, query));
 }
 
-Family in_reach(Family family) {
-  family.planted = true;
-  return family;
-}
-
-/// The families of queries with a separation; exact arithmetic decides many of them, and is slow.
 std::vector<Family> with_own_separations(std::vector<Family> families) {
-  for (Family& family : families) {
-    family.has_separation = true;
-    family.block_cases = 3;
-  }
+  for (Family& family : families) family.has_separation = true;
   return families;
 }
 
 }  // namespace
 
 std::vector<Family> approach_families() {
-  return with_own_separations({
+  Family near =
       with_parameter("near-separation", "h is just above or below the smallest distance",
-                     {"h differs from the smallest distance by 2^x of it", -54, -4, true, near_separation}),
+                     {"h differs from the smallest distance by 2^x of it", -54, -4, true, near_separation});
+  near.block_cases = 3;  // the exact distance is slow
+  return with_own_separations({
+      std::move(near),
       with_parameter("tied-separation", "the smallest distance is exactly h, or h is then moved",
                      {"ulps by which half of the separations are moved = x", 1, 64, true, tied_separation}),
-      in_reach(with_parameter("reached-separation",
-                              "the distance falls to exactly h between every pair of features",
-                              {"binary places of the time = x", 1, 32, true, reached_separation})),
-      in_reach(with_parameter(
+      with_collisions(with_parameter("reached-separation",
+                                     "the distance falls to exactly h between every pair of features",
+                                     {"binary places of the time = x", 1, 32, true, reached_separation})),
+      with_collisions(with_parameter(
           "slow-approach", "the distance falls to h slowly",
           {"speed of the approach / size of the primitives = 2^x", -40, -10, true, slow_approach})),
-      in_reach(with_parameter("changed-features",
-                              "the closest features change shortly before the distance falls to h",
-                              {"the change is about 2^x before", -40, -5, true, changed_features})),
+      with_collisions(with_parameter("changed-features",
+                                     "the closest features change shortly before the distance falls to h",
+                                     {"the change is about 2^x before", -40, -5, true, changed_features})),
       with_parameter("starts-near-separation", "the distance at t = 0 is below, at or above h",
                      {"if it is not h, it differs by 2^x of h", -40, -1, true, starts_near_separation}),
       with_parameter("sized-separation", "h is far smaller or larger than the primitives",
