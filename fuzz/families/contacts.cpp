@@ -170,7 +170,8 @@ Query turned(Random& random, Query query) {
   for (std::size_t i = 0; i < 24; i += 3) {
     const Vector point{query.x[i], query.x[i + 1], query.x[i + 2]};
     const Vector to = signs.cwiseProduct(rotation * point);
-    for (int k = 0; k < 3; ++k) query.x[i + static_cast<std::size_t>(k)] = to[(first_axis + k) % 3];
+    for (int k = 0; k < 3; ++k)
+      query.x[i + static_cast<std::size_t>(k)] = to[(first_axis + k) % 3] + 0.0;  // no -0
   }
   query.separation *= length;
   return query;
