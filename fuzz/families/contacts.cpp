@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace nearmiss {
 
@@ -144,9 +145,36 @@ Query placed(Random& random, Query query) {
     const Vector offset = random.integer_vector(1 << 20);
     for (std::size_t i = 0; i < 24; ++i) query.x[i] += offset[static_cast<int>(i % 3)];
   }
+  return rescaled(random, query);
+}
+
+Query rescaled(Random& random, Query query) {
   const double scale = std::ldexp(1.0, random.integer(-40, 20));
   for (double& c : query.x) c *= scale;
+  query.separation *= scale;
   return shuffled(random, query);
+}
+
+Query turned(Random& random, Query query) {
+  // The rows are orthogonal, and all of the same length.
+  static const std::array<std::pair<Eigen::Matrix3d, double>, 5> rotations{
+      {{Eigen::Matrix3d{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1},
+       {Eigen::Matrix3d{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}, 3},
+       {Eigen::Matrix3d{{3, 4, 0}, {-4, 3, 0}, {0, 0, 5}}, 5},
+       {Eigen::Matrix3d{{2, 3, 6}, {3, -6, 2}, {6, 2, -3}}, 7},
+       {Eigen::Matrix3d{{1, 4, 8}, {4, 7, -4}, {8, -4, 1}}, 9}}};
+  const auto& [rotation, length] = rotations[static_cast<std::size_t>(random.integer(0, 4))];
+  const int first_axis = random.integer(0, 2);
+  Vector signs;
+  for (double& each : signs) each = random.one_in(2) ? -1 : 1;
+  for (std::size_t i = 0; i < 24; i += 3) {
+    const Vector point{query.x[i], query.x[i + 1], query.x[i + 2]};
+    const Vector to = signs.cwiseProduct(rotation * point);
+    for (int k = 0; k < 3; ++k)
+      query.x[i + static_cast<std::size_t>(k)] = to[(first_axis + k) % 3] + 0.0;  // no -0
+  }
+  query.separation *= length;
+  return query;
 }
 
 Query shuffled(Random& random, const Query& query) {
@@ -159,7 +187,7 @@ Query shuffled(Random& random, const Query& query) {
     if (random.one_in(2)) std::swap(order[2], order[3]);
     if (random.one_in(2)) order = {order[2], order[3], order[0], order[1]};
   }
-  Query result{.kind = query.kind};
+  Query result = query;
   for (int i = 0; i < 4; ++i) {
     result.set_start(i, query.start(order[static_cast<std::size_t>(i)]));
     result.set_end(i, query.end(order[static_cast<std::size_t>(i)]));

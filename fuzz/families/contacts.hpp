@@ -82,9 +82,18 @@ void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity
 /// velocity below 2^17, meet() makes a query of them that touches exactly.
 Contact integer_contact(Random& random, Kind kind);
 
-/// Scales and shuffles a query of integers, after moving one in four by an integer vector. The scale is a
-/// power of two, so all of this is exact.
+/// The sign with which x0 - base = β r + sign α q at a contact.
+constexpr double alpha_sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
+
+/// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
+Query rescaled(Random& random, Query query);
+
+/// The same, after moving one query of integers in four by an integer vector.
 Query placed(Random& random, Query query);
+
+/// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the matrix is
+/// of integers. This is exact if four bits of every coordinate are free.
+Query turned(Random& random, Query query);
 
 /// The same query with the vertices of each primitive in a random order.
 Query shuffled(Random& random, const Query& query);
@@ -104,5 +113,14 @@ double extent(const Query& query);
 
 /// The power of two nearest to 10^x. Multiplying by it is exact.
 double power_of_ten(double x);
+
+/// 2^x for a whole number x.
+inline double power_of_two(double x) { return std::ldexp(1.0, static_cast<int>(x)); }
+
+/// 1 or -1.
+inline double random_sign(Random& random) { return random.one_in(2) ? -1 : 1; }
+
+/// A time from first / 16 to last / 16.
+inline double sixteenths(Random& random, int first, int last) { return random.integer(first, last) / 16.0; }
 
 }  // namespace nearmiss

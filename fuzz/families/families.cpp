@@ -52,9 +52,16 @@ Family with_parameter(std::string name, std::string about, Parameter parameter) 
   return {std::move(name), std::move(about), false, make, std::move(parameter)};
 }
 
+Family with_collisions(Family family) {
+  family.planted = true;
+  return family;
+}
+
 Family at_value(const Family& family, double value) {
   const Parameter& parameter = parameter_of(family);
-  const std::string name = fmt::format("{}@{}", family.name, value);
+  const auto separation = std::min(family.name.find('~'), family.name.size());
+  const std::string name =
+      fmt::format("{}@{}{}", family.name.substr(0, separation), value, family.name.substr(separation));
   if (!(parameter.lo <= value && value <= parameter.hi) || (parameter.whole && value != std::round(value)))
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
@@ -122,7 +129,7 @@ std::vector<Family> joined(const std::vector<std::vector<Family>>& themes) {
 std::span<const Family> families() {
   static const std::vector<Family> all =
       joined({random_families(), file_families(), motion_families(), crossed_families(), root_families(),
-              extreme_families(), range_families()});
+              time_families(), extreme_families(), range_families()});
   return all;
 }
 

@@ -38,6 +38,9 @@ struct Family {
 /// A family with a parameter.
 Family with_parameter(std::string name, std::string about, Parameter parameter);
 
+/// The family whose queries all are collisions by construction.
+Family with_collisions(Family family);
+
 /// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so only the parameter
 /// changes along a sweep. Throws Error if the family has no parameter, or not this value.
 Family at_value(const Family& family, double value);

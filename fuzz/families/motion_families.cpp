@@ -154,21 +154,16 @@ Query touch_twice(Random& random, Kind kind) {
   return placed(random, query);
 }
 
-Family in_contact(Family family) {
-  family.planted = true;
-  return family;
-}
-
 }  // namespace
 
 std::vector<Family> motion_families() {
   return {
-      in_contact(with_parameter("far-end", "exact contact at t = 1, after a long motion",
-                                {"size of the primitives = 10^x", -6, 6, false, far_end})),
-      in_contact(with_parameter("far-start", "exact contact at t = 0, before a long motion",
-                                {"size of the primitives = 10^x", -6, 6, false, far_start})),
-      in_contact(with_parameter("first-moment", "exact contact at t < 2^-49, but not at t = 0",
-                                {"contact is at about t = 2^x", -110, -50, true, first_moment})),
+      with_collisions(with_parameter("far-end", "exact contact at t = 1, after a long motion",
+                                     {"size of the primitives = 10^x", -6, 6, false, far_end})),
+      with_collisions(with_parameter("far-start", "exact contact at t = 0, before a long motion",
+                                     {"size of the primitives = 10^x", -6, 6, false, far_start})),
+      with_collisions(with_parameter("first-moment", "exact contact at t < 2^-49, but not at t = 0",
+                                     {"contact is at about t = 2^x", -110, -50, true, first_moment})),
       {.name = "one-point",
        .about = "each primitive is one point at rest, the same or up to four ulps apart",
        .make = one_point},

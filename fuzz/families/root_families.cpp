@@ -11,9 +11,6 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The sign with which x0 - base = β r + sign α q at the contact.
-double sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
-
 /// An exact contact at t = 0 or t = 1. One coordinate of that time is then moved by x ulps.
 Query end_contact(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
@@ -49,7 +46,7 @@ Query even_roots(Random& random, Kind kind, double x) {
   move_to_origin(kind, contact, within(sampler.vector()) - stay);
 
   const Vector rates = sampler.vector();  // rates of the weights
-  const double alpha_rate = sign(kind) * rates[0];
+  const double alpha_rate = alpha_sign(kind) * rates[0];
   const double beta_rate = rates[1];
   const Vector along = beta_rate * contact.r.at(contact.time) + alpha_rate * contact.q.at(contact.time);
   Query query = meet(kind, contact, contact.velocity(kind) + along);
@@ -75,7 +72,7 @@ Query triple_root(Random& random, Kind kind, double x) {
   for (int i = 0; i < 3; ++i) {
     G.row(i) = random.integer_vector(2);
     C.row(i) = random.integer_vector(4);
-    if (i > 0) C(i, 0) = sign(kind) * contact.alpha * C(i, 1) + contact.beta * C(i, 2);
+    if (i > 0) C(i, 0) = alpha_sign(kind) * contact.alpha * C(i, 1) + contact.beta * C(i, 2);
   }
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   J(0, 1) = random.one_in(4) ? 0 : 1;

@@ -12,6 +12,7 @@ std::vector<Family> extreme_families();
 std::vector<Family> root_families();
 std::vector<Family> range_families();
 std::vector<Family> motion_families();
+std::vector<Family> time_families();
 std::vector<Family> file_families();
 std::vector<Family> crossed_families();
 std::vector<Family> approach_families();

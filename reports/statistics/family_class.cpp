@@ -10,20 +10,45 @@ namespace {
 constexpr std::array<std::string_view, 7> ordinary{"uniform", "uniform-end", "uniform-slow", "mesh",
                                                    "floats",  "decimals",    "kilometres"};
 
-constexpr std::array<std::string_view, 20> degenerate{"planted",       "planted-ulp",  "grazing",
-                                                      "parallel",      "sliver",       "planar",
-                                                      "small-integer", "degenerate",   "near-parallel-edges",
-                                                      "needle",        "rigid",        "end-contact",
-                                                      "even-roots",    "triple-root",  "far-end",
-                                                      "far-start",     "first-moment", "one-point",
-                                                      "touch-twice",   "crossed"};
+constexpr std::array<std::string_view, 31> degenerate{"planted",
+                                                      "planted-ulp",
+                                                      "grazing",
+                                                      "parallel",
+                                                      "sliver",
+                                                      "planar",
+                                                      "small-integer",
+                                                      "degenerate",
+                                                      "near-parallel-edges",
+                                                      "needle",
+                                                      "rigid",
+                                                      "end-contact",
+                                                      "even-roots",
+                                                      "triple-root",
+                                                      "far-end",
+                                                      "far-start",
+                                                      "first-moment",
+                                                      "one-point",
+                                                      "touch-twice",
+                                                      "crossed",
+                                                      "close-roots",
+                                                      "touch-once",
+                                                      "border-first",
+                                                      "return-later",
+                                                      "slow-contact",
+                                                      "near-separation",
+                                                      "tied-separation",
+                                                      "reached-separation",
+                                                      "slow-approach",
+                                                      "changed-features",
+                                                      "starts-near-separation"};
 
-constexpr std::array<std::string_view, 12> extreme{"small",          "stiff",
-                                                   "aspect",         "offset",
-                                                   "scale",          "overflow",
-                                                   "mixed-scale",    "static-pair",
-                                                   "near-overflow",  "near-overflow-planted",
-                                                   "near-underflow", "near-underflow-planted"};
+constexpr std::array<std::string_view, 13> extreme{"small",           "stiff",
+                                                   "aspect",          "offset",
+                                                   "scale",           "overflow",
+                                                   "mixed-scale",     "static-pair",
+                                                   "near-overflow",   "near-overflow-planted",
+                                                   "near-underflow",  "near-underflow-planted",
+                                                   "sized-separation"};
 
 template <std::size_t size>
 bool contains(const std::array<std::string_view, size>& names, std::string_view name) {

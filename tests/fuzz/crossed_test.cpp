@@ -15,6 +15,8 @@
 namespace nearmiss::crossed {
 namespace {
 
+using testing::at_rest;
+
 constexpr std::uint64_t seed = 5;
 
 /// Calls check(levels, query, index) for queries of both kinds.
@@ -43,13 +45,6 @@ TEST(Crossed, TouchesWhereItsFactorsSaySo) {
     EXPECT_TRUE(collides(query)) << index << ' ' << to_text(levels);
   });
   EXPECT_GT(touching, 10000);
-}
-
-/// The query from its start to a time, as nearly as double allows.
-Query at_rest(Query query, int time) {
-  const std::size_t from = time == 0 ? 0 : 12;
-  for (std::size_t i = 0; i < 12; ++i) query.x[12 - from + i] = query.x[from + i];
-  return query;
 }
 
 TEST(Crossed, ContactIsAtTheTimeOfItsFactor) {

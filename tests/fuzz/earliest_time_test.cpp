@@ -1,4 +1,4 @@
-// The time of the first contact: what certified arithmetic knows about it, and comparisons with any time.
+// The time of the first contact or approach: what certified arithmetic knows about it, and comparisons with any time.
 #include "oracle/earliest_time.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,9 @@
 
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
+#include "oracle/sturm/separation.hpp"
 #include "oracle/sturm/sturm.hpp"
+#include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -28,12 +30,24 @@ std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow
 }
 
 class EarliestTimes : public ::testing::TestWithParam<Family> {};
-INSTANTIATE_TEST_SUITE_P(All, EarliestTimes, ::testing::ValuesIn(families().begin(), families().end()),
-                         [](const auto& each) {
-                           std::string name = each.param.name;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, EarliestTimes,
+                         ::testing::ValuesIn(all_families().begin(), all_families().end()),
+                         testing::name_of_test);
+
+/// The second method's answers to the questions of EarliestTime about [0, time).
+struct Happened {
+  bool at_most;  ///< contact, or a distance of at most h
+  bool below;    ///< contact, or a distance below h
+};
+
+Happened before(const Query& query, double time) {
+  if (query.separation == 0) {
+    const bool contact = meet_before(query, time);
+    return {contact, contact};
+  }
+  const auto [at_most, below] = time > 1 ? reach(query) : reach_before(query, time);
+  return {at_most, below};
+}
 
 TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
   const Family& family = GetParam();
@@ -47,8 +61,11 @@ TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
     EXPECT_LE(known.lo, narrow.lo) << i;
     EXPECT_LE(narrow.hi, known.hi) << i;
     EXPECT_LE(narrow.hi, above(narrow.lo)) << i;
-    for (const double at : times_around(known, narrow))
-      EXPECT_EQ(time->is_before(at), meet_before(query, at)) << family.name << ':' << i << " at " << at;
+    for (const double at : times_around(known, narrow)) {
+      const Happened happened = before(query, at);
+      EXPECT_EQ(time->is_before(at), happened.at_most) << family.name << ':' << i << " at " << at;
+      EXPECT_EQ(time->makes_late(at), happened.below) << family.name << ':' << i << " at " << at;
+    }
   }
 }
 

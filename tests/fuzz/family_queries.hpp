@@ -1,15 +1,33 @@
 // Queries of a family.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "fuzz/families/families.hpp"
 
+namespace nearmiss {
+
+/// Prints a parameter in a test's name.
+inline void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
+
+}  // namespace nearmiss
+
 namespace nearmiss::testing {
+
+/// The name of a test whose parameter is a family.
+inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 /// The number of queries among 0 .. 399 of a family, with seed 5, that have a property: `nearmiss family NAME
 /// --seed 5`.
@@ -40,6 +58,28 @@ inline std::vector<Vector3<double>> edges(const Query& query, int time) {
   const auto x = [&](int i) { return time == 0 ? query.start(i) : query.end(i); };
   if (query.kind == Kind::edge_edge) return {x(1) - x(0), x(3) - x(2)};
   return {x(2) - x(1), x(3) - x(1), x(3) - x(2)};
+}
+
+/// The longest of the edges at t = 0 or t = 1.
+inline double longest_edge(const Query& query, int time) {
+  double longest = 0;
+  for (const auto& edge : edges(query, time)) longest = std::max(longest, edge.norm());
+  return longest;
+}
+
+/// The primitives at rest in their positions at a time, which are exact for t = 0 and t = 1, and rounded otherwise.
+inline Query at_rest(Query query, double time) {
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double place = (1 - time) * query.x[i] + time * query.x[12 + i];
+    query.x[i] = query.x[12 + i] = place;
+  }
+  return query;
+}
+
+/// The same motion backwards.
+inline Query reversed(Query query) {
+  std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
+  return query;
 }
 
 }  // namespace nearmiss::testing

@@ -10,24 +10,10 @@
 namespace nearmiss {
 namespace {
 
+using testing::at_rest;
 using testing::count_of_400;
-using testing::edges;
-
-/// The primitives at rest in their positions at t = 0 or t = 1.
-Query at_rest(Query query, int time) {
-  for (int i = 0; i < 4; ++i) {
-    const Vector3<double> place = time == 0 ? query.start(i) : query.end(i);
-    query.set_start(i, place);
-    query.set_end(i, place);
-  }
-  return query;
-}
-
-double longest_edge(const Query& query, int time) {
-  double longest = 0;
-  for (const auto& edge : edges(query, time)) longest = std::max(longest, edge.norm());
-  return longest;
-}
+using testing::longest_edge;
+using testing::reversed;
 
 /// Whether the difference of start and end needs more bits than a double has, for some coordinate.
 bool motion_is_rounded(const Query& query) {
@@ -94,18 +80,12 @@ TEST(OnePoint, PrimitivesArePointsAtRestAndHalfOfThemAreOne) {
   EXPECT_LT(one, 250);
 }
 
-Query backwards(const Query& query) {
-  Query result = query;
-  std::rotate(result.x.begin(), result.x.begin() + 12, result.x.end());
-  return result;
-}
-
 TEST(TouchTwice, MostTouchAtTwoTimes) {
   EXPECT_EQ(count_of_400("touch-twice", collides_exactly), 400);
   EXPECT_GT(count_of_400("touch-twice",
                          [](const Query& query) {
                            const double first = earliest_time(query)->enclosure().hi;
-                           const double last = 1 - earliest_time(backwards(query))->enclosure().hi;
+                           const double last = 1 - earliest_time(reversed(query))->enclosure().hi;
                            return last - first >= 1.0 / 16;
                          }),
             300);

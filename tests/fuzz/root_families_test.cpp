@@ -13,25 +13,14 @@
 namespace nearmiss {
 namespace {
 
+using testing::at_rest;
 using testing::count_of_400;
+using testing::reversed;
 
 /// The number of queries, among 200 of a kind, that have a property.
 template <class Property>
 int count_of_200(std::string_view family, Kind kind, const Property& has_property) {
   return count_of_400(family, [&](const Query& query) { return query.kind == kind && has_property(query); });
-}
-
-/// The primitives at rest in their positions at t = 0 or t = 1.
-Query at_rest(Query query, int time) {
-  for (std::size_t i = 0; i < 12; ++i)
-    query.x[12 * static_cast<std::size_t>(1 - time) + i] = query.x[12 * static_cast<std::size_t>(time) + i];
-  return query;
-}
-
-Query reversed(const Query& query) {
-  Query result = query;
-  std::rotate(result.x.begin(), result.x.begin() + 12, result.x.end());
-  return result;
 }
 
 TEST(EndContact, IsExactlyAtAnEndOfTheStep) {

@@ -1,0 +1,74 @@
+#include "fuzz/families/facing.hpp"
+
+#include <cmath>
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+constexpr int largest = 4;
+
+/// A vector that points away from the plane, to the side of the sign of `level`.
+Vector vector_away(Random& random, double level) {
+  const Vector in_plane = vector_in_plane(random);
+  return in_plane + level * random.integer(1, largest) * Vector::UnitZ();
+}
+
+}  // namespace
+
+Vector vector_in_plane(Random& random) {
+  const int x = random.integer(-largest, largest);
+  const int y = random.integer(-largest, largest);
+  return {1.0 * x, 1.0 * y, 0};
+}
+
+Closest draw_closest(Random& random, Kind kind) {
+  return static_cast<Closest>(random.integer(0, kind == Kind::edge_edge ? 3 : 2));
+}
+
+bool is_closest(Kind kind, Closest closest, bool is_side_q) {
+  if (closest == Closest::vertices) return false;
+  if (closest != Closest::vertex_and_edge) return true;
+  return is_side_q == (kind == Kind::vertex_triangle);
+}
+
+Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level) {
+  const bool rests = random.one_in(2);
+  // A triangle is the second primitive; of edges, q belongs to the first.
+  const auto side = [&](bool is_q) {
+    const double away = is_q && kind == Kind::edge_edge ? level : -level;
+    const auto draw = [&] {
+      return is_closest(kind, closest, is_q) ? vector_in_plane(random) : vector_away(random, away);
+    };
+    const Vector start = draw();
+    return Path{start, rests ? start : draw()};
+  };
+  Contact contact{};
+  contact.time = time;
+  contact.q = side(true);
+  contact.r = side(false);
+  if (closest == Closest::parallel_edges) {
+    const double sign = random.one_in(2) ? -1 : 1;
+    contact.r = scaled(contact.q, std::ldexp(sign, random.integer(-1, 1)));
+  }
+  const int eighths = random.integer(1, 6);
+  const int most = kind == Kind::vertex_triangle && closest != Closest::vertex_and_edge ? 7 - eighths : 7;
+  const int others = random.integer(1, most);
+  contact.alpha = is_closest(kind, closest, true) ? eighths / 8.0 : 0;
+  contact.beta = is_closest(kind, closest, false) ? others / 8.0 : 0;
+  move_to_origin(kind, contact, random.integer_vector(random.one_in(2) ? 0 : largest));
+  return contact;
+}
+
+Query facing(Kind kind, const Contact& contact, const Vector& w, double gap) {
+  Query query = meet(kind, contact, contact.velocity(kind) + w);
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + gap * Vector::UnitZ());
+    query.set_end(i, query.end(i) + gap * Vector::UnitZ());
+  }
+  return query;
+}
+
+}  // namespace nearmiss

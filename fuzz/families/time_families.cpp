@@ -1,0 +1,235 @@
+// Contact whose time is hard to find: roots of F close together, a root at which the primitives only touch, an easily missed
+// contact before an easy one, and slow motion. Contact is exact.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/families/facing.hpp"
+#include "fuzz/families/planned_roots.hpp"
+#include "fuzz/families/tables.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+// --- chosen roots ---------------------------------------------------------------------------------------
+
+/// Strictly inside the triangle, or inside both edges.
+Weights inside(Random& random, Kind kind) {
+  const int whole = random.integer(5, 8);
+  const int alpha = random.integer(1, whole - 2);
+  const int beta = random.integer(1, kind == Kind::vertex_triangle ? whole - 1 - alpha : whole - 1);
+  return {whole, alpha, beta};
+}
+
+/// Outside, but by at most 2/5 of each side.
+Weights outside(Random& random, Kind kind) {
+  for (;;) {
+    const int whole = random.integer(5, 8);
+    const int alpha = random.integer(-2, whole + 2);
+    const int beta = random.integer(-2, whole + 2);
+    const Weights weights{whole, alpha, beta};
+    if (!weights.are_inside(kind)) return weights;
+  }
+}
+
+/// On an edge of the triangle, or an end of one edge inside the other; in one of three cases, at a vertex of each.
+Weights border(Random& random, Kind kind) {
+  const int whole = random.integer(5, 8);
+  const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
+  return kind == Kind::edge_edge && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
+}
+
+/// Draws the roots until F is not zero at all times. They are then placed at the origin or on a path of integers.
+template <class Draw>
+Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& draw) {
+  std::array<PlannedRoot, 3> roots = draw();
+  while (!are_independent(kind, roots)) roots = draw();
+  return rescaled(random, with_roots(kind, base, roots));
+}
+
+/// Two or three roots of F whose neighbours are 1 to 3 times 2^x apart. At some of them, the place is outside of the
+/// primitives.
+Query close_roots(Random& random, Kind kind, double x) {
+  const double gap = power_of_two(x);
+  const bool has_third = !random.one_in(3);
+  double time = sixteenths(random, 0, 8);
+  std::array<Factor, 3> factors{};
+  for (Factor& factor : factors) {
+    factor = Factor::vanishing_at(time);
+    time += gap * random.integer(1, 3);
+  }
+  if (!has_third) factors[2] = Factor::constant();
+  const int inside_at =
+      random.integer(1, has_third ? 7 : 3);  // one bit for each root, and at least one of them
+  const Path base{random.integer_vector(64), random.integer_vector(64)};
+  return with_drawn_roots(random, kind, base, [&] {
+    std::array<PlannedRoot, 3> roots{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector direction = random.integer_vector(2);
+      const bool is_inside = (inside_at >> i & 1) != 0;
+      roots[i] = {factors[i], direction, is_inside ? inside(random, kind) : outside(random, kind)};
+    }
+    return roots;
+  });
+}
+
+/// The first contact is on the border in two queries of three, inside otherwise, and the sides are parallel 2^x before or
+/// after it. The second contact is inside.
+Query border_first(Random& random, Kind kind, double x) {
+  const double first = sixteenths(random, 1, 12);
+  const double second = first + sixteenths(random, 1, 3);
+  const double parallel = first + random_sign(random) * power_of_two(x);
+  const bool at_border = !random.one_in(3);
+  const Path base{random.integer_vector(64), random.integer_vector(64)};
+  return with_drawn_roots(random, kind, base, [&] {
+    const auto root = [&](double time, const Weights& weights) {
+      return PlannedRoot{Factor::vanishing_at(time), random.integer_vector(2), weights};
+    };
+    const Weights first_place = at_border ? border(random, kind) : inside(random, kind);
+    const Weights second_place = inside(random, kind);
+    const int alpha = random.integer(-2, 2);
+    const int beta = random.integer(-2, 2);
+    const PlannedRoot first_root = root(first, first_place);
+    const PlannedRoot second_root = root(second, second_place);
+    return std::array{first_root, second_root, root(parallel, {0, alpha, beta})};
+  });
+}
+
+/// Contact at t = 0, or at t = 2^x / (1 + 2^x), then departure, and a second contact later. At the first contact, the points
+/// of contact pass each other along an axis on which everything else is at rest, so that the tiny numbers are exact.
+Query return_later(Random& random, Kind kind, double x) {
+  const Factor first{random.one_in(2) ? 0 : -power_of_two(x), 1};
+  const double second = sixteenths(random, 4, 16);
+  const bool has_third = random.one_in(2);
+  const double third = sixteenths(random, 1, 3);
+  const Vector axis = Vector::Unit(random.integer(0, 2));
+  const Vector others = Vector::Ones() - axis;
+  const auto across = [&](int size) -> Vector { return random.integer_vector(size).cwiseProduct(others); };
+  const Vector start = across(64);
+  const Vector end = across(64);
+  return with_drawn_roots(random, kind, {start, end}, [&] {
+    const bool is_border = random.one_in(4);
+    const Weights first_place = is_border ? border(random, kind) : inside(random, kind);
+    const Weights second_place = inside(random, kind);
+    const Weights third_place = outside(random, kind);
+    const Vector second_direction = across(2);
+    const Vector third_direction = across(2);
+    const double first_sign = random_sign(random);
+    return std::array{PlannedRoot{first, first_sign * axis, first_place},
+                      PlannedRoot{Factor::vanishing_at(second), second_direction, second_place},
+                      PlannedRoot{has_third ? Factor::vanishing_at(third) : Factor::constant(),
+                                  third_direction, third_place}};
+  });
+}
+
+// --- touching at one time -------------------------------------------------------------------------------
+
+/// Tangential contact. If the first primitive is moved by δ `inward`, the primitives meet at two times near the contact; if it
+/// is moved the other way, they never meet.
+struct Graze {
+  Contact contact;
+  Vector w;  ///< velocity of the first point of contact relative to the second
+  Vector inward;
+};
+
+Path at_rest() { return {Vector::Zero(), Vector::Zero()}; }
+
+/// The sides lie in the plane z = 0 at the contact, and leave it with velocities q' and r' along z. The weights change at
+/// rates α' and β', so that F = N (δ - (β' r' + sign α' q') (t - time)²), where N is the normal.
+Graze graze_face(Random& random, Kind kind, double time) {
+  for (;;) {
+    const Vector q = vector_in_plane(random);
+    const Vector r = vector_in_plane(random);
+    const int q_velocity = random.integer(-4, 4);
+    const int r_velocity = random.integer(-4, 4);
+    const double alpha_rate = alpha_sign(kind) * random.integer(-4, 4);
+    const int beta_rate = random.integer(-4, 4);
+    const double curvature = beta_rate * r_velocity + alpha_rate * q_velocity;
+    if (curvature == 0 || q.cross(r).isZero()) continue;
+    const int eighths = random.integer(1, 6);
+    const int others = random.integer(1, kind == Kind::vertex_triangle ? 7 - eighths : 7);
+    const Contact contact{.base = at_rest(),
+                          .q = passing(q, q_velocity * Vector::UnitZ(), time),
+                          .r = passing(r, r_velocity * Vector::UnitZ(), time),
+                          .alpha = eighths / 8.0,
+                          .beta = others / 8.0,
+                          .time = time};
+    return {contact, beta_rate * r + alpha_rate * q, std::copysign(1, curvature) * Vector::UnitZ()};
+  }
+}
+
+/// Everything is in the plane z = 0: a vertex and an edge touch. The edge turns about the point of contact, from the direction
+/// of x towards y, and the vertex passes this point along x. It stays on one side of the edge, and the third vertex of the
+/// triangle, or the other end of the vertex's edge, keeps the primitives apart at all other times.
+Graze graze_edge(Random& random, Kind kind, double time) {
+  const int length = random.integer(1, 4);
+  const double turn = random_sign(random) * random.integer(1, 4);
+  const double speed = random_sign(random) * random.integer(1, 4);
+  const double side = std::copysign(1, turn * speed);  // of the edge, where the vertex is not
+  const Path edge = passing(length * Vector::UnitX(), turn * Vector::UnitY(), time);
+  const double away = alpha_sign(kind) * side * random.integer(1, 4);
+  const Path multiple = scaled(edge, random.integer(-1, 1));
+  const Path other{multiple.start + away * Vector::UnitY(), multiple.end + away * Vector::UnitY()};
+  const double weight = random.integer(1, 7) / 8.0;
+  const bool is_triangle = kind == Kind::vertex_triangle;
+  const Contact contact{.base = at_rest(),
+                        .q = is_triangle ? edge : other,
+                        .r = is_triangle ? other : edge,
+                        .alpha = is_triangle ? weight : 0,
+                        .beta = is_triangle ? 0 : weight,
+                        .time = time};
+  return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
+}
+
+/// Half of the queries touch at one time. In the others, the first primitive is moved by 2^x, towards the second one or away.
+Query touch_once(Random& random, Kind kind, double x) {
+  const double time = sixteenths(random, 1, 15);
+  auto [contact, w, inward] =
+      random.one_in(3) ? graze_edge(random, kind, time) : graze_face(random, kind, time);
+  const bool touches = random.one_in(2);
+  const Vector shift =
+      touches ? Vector(Vector::Zero()) : Vector(random_sign(random) * power_of_two(x) * inward);
+  move_to_origin(kind, contact, random.integer_vector(4) - contact.velocity(kind));
+  Query query = meet(kind, contact, contact.velocity(kind) + w);
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + shift);
+    query.set_end(i, query.end(i) + shift);
+  }
+  return rescaled(random, turned(random, query));
+}
+
+// --- slow motion ----------------------------------------------------------------------------------------
+
+/// Primitives of size 1 to 4 approach each other with a speed of about 2^x.
+Query slow_contact(Random& random, Kind kind, double x) {
+  const double time = sixteenths(random, 1, 15);
+  const Contact contact = facing_contact(random, kind, draw_closest(random, kind), time);
+  const Vector sideways = vector_in_plane(random);
+  const Vector w = sideways - random.integer(1, 4) * Vector::UnitZ();
+  return rescaled(random, turned(random, facing(kind, contact, power_of_two(x) * w, 0)));
+}
+
+}  // namespace
+
+std::vector<Family> time_families() {
+  return {
+      with_collisions(
+          with_parameter("close-roots", "two or three roots of F close together; the primitives meet at some",
+                         {"neighbouring roots are 1 to 3 times 2^x apart", -40, -4, true, close_roots})),
+      with_parameter("touch-once", "the primitives touch at one time, or pass each other by a tiny distance",
+                     {"half of the queries are moved by about 2^x", -40, -8, true, touch_once}),
+      with_collisions(with_parameter(
+          "border-first", "contact of nearly degenerate primitives or on their border, then contact inside",
+          {"time from the first contact to parallel sides = 2^x", -40, -5, true, border_first})),
+      with_collisions(
+          with_parameter("return-later", "contact at or right after t = 0, departure, and a second contact",
+                         {"half of the first contacts are at about t = 2^x", -49, -10, true, return_later})),
+      with_collisions(with_parameter(
+          "slow-contact", "exact contact of primitives that hardly move",
+          {"speed of the approach / size of the primitives = 2^x", -40, -10, true, slow_contact})),
+  };
+}
+
+}  // namespace nearmiss

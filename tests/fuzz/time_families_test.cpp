@@ -1,0 +1,223 @@
+// The families of contacts at times that are hard to find keep their promises, exactly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fuzz/families/contacts.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/features.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/sturm/primitives.hpp"
+#include "oracle/sturm/sturm.hpp"
+#include "tests/fuzz/family_queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::at_rest;
+using testing::count_of_400;
+using testing::first_queries;
+using testing::reversed;
+
+std::string at(const char* family, int x) { return std::string(family) + "@" + std::to_string(x); }
+
+/// The time of the first contact, which must be a double.
+double first_time(const Query& query) {
+  const auto [lo, hi] = earliest_time(query)->enclosure();
+  EXPECT_EQ(lo, hi);
+  return lo;
+}
+
+/// The time of the last contact, for times that are multiples of 2^-52.
+double last_time(const Query& query) { return 1 - first_time(reversed(query)); }
+
+bool is_sixteenths(double time) { return 16 * time == std::floor(16 * time); }
+
+/// The number of different roots of F in [0, time).
+std::ptrdiff_t roots_before(const Query& query, double time) {
+  const auto roots = sturm::roots_in_unit_interval(sturm::Primitives(query).F());
+  return std::count_if(roots.begin(), roots.end(),
+                       [&](const sturm::SturmRoot& root) { return root.sign(sturm::after(time)) < 0; });
+}
+
+// --- close-roots ----------------------------------------------------------------------------------------
+
+/// The first root of F, which is a multiple of 1/16.
+double first_root(const Query& query) {
+  int sixteenths = 0;
+  while (roots_before(query, (sixteenths + 1) / 16.0) == 0) ++sixteenths;
+  return sixteenths / 16.0;
+}
+
+TEST(CloseRoots, AllRootsAreInTheStepAndAsCloseAsTheParameterSays) {
+  for (const int x : {-40, -20, -4})
+    for (const Query& query : first_queries(at("close-roots", x), 200)) {
+      const double first = first_root(query);
+      const double gap = std::ldexp(1.0, x);
+      const auto roots = roots_before(query, 2);
+      EXPECT_TRUE(roots == 2 || roots == 3) << roots;
+      EXPECT_EQ(roots_before(query, first + gap), 1);
+      EXPECT_GE(roots_before(query, first + 4 * gap), 2);
+      EXPECT_EQ(roots_before(query, first + 7 * gap), roots);
+    }
+}
+
+TEST(CloseRoots, TheFirstContactIsExactlyAtARoot) {
+  for (const int x : {-40, -20, -4})
+    for (const Query& query : first_queries(at("close-roots", x), 200)) {
+      const double time = first_time(query);
+      EXPECT_EQ(roots_before(query, std::nextafter(time, 2)), roots_before(query, time) + 1);
+    }
+}
+
+TEST(CloseRoots, ContactIsAtAnyOfTheRoots) {
+  for (const std::ptrdiff_t earlier : {0, 1, 2})
+    EXPECT_GT(
+        count_of_400("close-roots",
+                     [&](const Query& query) { return roots_before(query, first_time(query)) == earlier; }),
+        30)
+        << earlier;
+  for (const int contacts : {1, 2, 3})
+    EXPECT_GT(count_of_400("close-roots",
+                           [&](const Query& query) { return count_roots(query).distinct == contacts; }),
+              30)
+        << contacts;
+}
+
+// --- touch-once -----------------------------------------------------------------------------------------
+
+TEST(TouchOnce, HalfTouchExactlyAtOneTime) {
+  for (const int x : {-40, -12}) {
+    const int once = count_of_400(at("touch-once", x), [](const Query& query) {
+      if (!collides_exactly(query) || !earliest_time(query)->enclosure().lo) return false;
+      const auto [lo, hi] = earliest_time(query)->enclosure();
+      return lo == hi && is_sixteenths(lo) &&
+             earliest_time(reversed(query))->enclosure() == Enclosure{1 - lo, 1 - lo};
+    });
+    EXPECT_GT(once, 160) << x;
+    EXPECT_LT(once, 240) << x;
+  }
+}
+
+TEST(TouchOnce, ManyTouchInADoubleRootAndManyInAPlane) {
+  EXPECT_GT(count_of_400("touch-once",
+                         [](const Query& query) {
+                           const RootCount roots = count_roots(query);
+                           return roots.distinct == 1 && roots.with_multiplicity == 2;
+                         }),
+            90);
+  EXPECT_GT(count_of_400("touch-once", [](const Query& query) { return count_roots(query).planar; }), 90);
+}
+
+TEST(TouchOnce, AQuarterPassesAtATinyDistance) {
+  for (const int x : {-40, -12}) {
+    const int apart = count_of_400(at("touch-once", x), [&](const Query& query) {
+      if (collides_exactly(query)) return false;
+      EXPECT_LT(minimum_distance(query).hi, std::ldexp(extent(query), x + 1));
+      return true;
+    });
+    EXPECT_GT(apart, 70) << x;
+    EXPECT_LT(apart, 140) << x;
+  }
+}
+
+TEST(TouchOnce, AQuarterMeetsFor2ToThe20) {
+  const int twice = count_of_400("touch-once@-40", [](const Query& query) {
+    if (!collides_exactly(query)) return false;
+    const double between =
+        1 - earliest_time(reversed(query))->enclosure().lo - earliest_time(query)->enclosure().lo;
+    return 0x1p-24 < between && between < 0x1p-17;
+  });
+  EXPECT_GT(twice, 70);
+  EXPECT_LT(twice, 140);
+}
+
+// --- border-first ---------------------------------------------------------------------------------------
+
+TEST(BorderFirst, ThePrimitivesMeetAtTwoTimes) {
+  for (const int x : {-40, -5})
+    EXPECT_EQ(count_of_400(at("border-first", x),
+                           [](const Query& query) {
+                             const double first = first_time(query);
+                             return count_roots(query).distinct == 2 && is_sixteenths(first) &&
+                                    last_time(query) >= first + 1.0 / 16;
+                           }),
+              400)
+        << x;
+}
+
+TEST(BorderFirst, TheSecondContactIsInsideAndTwoThirdsOfTheFirstAreNot) {
+  const auto is_inside = [](const Query& query) {
+    return contact_features(query)->location == ContactFeatures::Location::interior;
+  };
+  EXPECT_EQ(count_of_400("border-first", [&](const Query& query) { return is_inside(reversed(query)); }),
+            400);
+  const int inside = count_of_400("border-first", is_inside);
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(inside, 170);
+}
+
+TEST(BorderFirst, TheSidesAreParallelAsNearTheFirstContactAsTheParameterSays) {
+  for (const int x : {-40, -5})
+    EXPECT_EQ(count_of_400(at("border-first", x),
+                           [&](const Query& query) {
+                             sturm::Primitives primitives(query);
+                             const auto is_parallel_at = [&](double time) {
+                               const sturm::Dyadic dyadic{sturm::Integer(std::ldexp(time, 52)), 52};
+                               return primitives.area().sign_at(dyadic) == 0;
+                             };
+                             const double first = first_time(query);
+                             const double off = std::ldexp(1.0, x);
+                             return is_parallel_at(first - off) != is_parallel_at(first + off);
+                           }),
+              400)
+        << x;
+}
+
+// --- return-later ---------------------------------------------------------------------------------------
+
+TEST(ReturnLater, TheFirstContactIsAtTheStartOrAsSoonAsTheParameterSays) {
+  for (const auto& [x, soon] : {std::pair(-49, "1/562949953421313"), {-10, "1/1025"}}) {
+    int at_start = 0;
+    for (const Query& query : first_queries(at("return-later", x), 400)) {
+      const std::string time = earliest_time(query)->rational();
+      EXPECT_TRUE(time == "0" || time == soon) << time;
+      at_start += time == "0" ? 1 : 0;
+    }
+    EXPECT_GT(at_start, 160);
+    EXPECT_LT(at_start, 240);
+  }
+}
+
+TEST(ReturnLater, ThereIsASecondContactInside) {
+  for (const int x : {-49, -10})
+    for (const Query& query : first_queries(at("return-later", x), 400)) {
+      EXPECT_EQ(count_roots(query).distinct, 2);
+      EXPECT_GE(last_time(query), 0.25);
+      EXPECT_EQ(contact_features(reversed(query))->location, ContactFeatures::Location::interior);
+    }
+}
+
+// --- slow-contact ---------------------------------------------------------------------------------------
+
+TEST(SlowContact, IsExactlyAtAMultipleOfASixteenth) {
+  for (const int x : {-40, -10})
+    for (const Query& query : first_queries(at("slow-contact", x), 400)) {
+      const double time = first_time(query);
+      EXPECT_TRUE(is_sixteenths(time) && 0 < time && time < 1) << time;
+    }
+}
+
+TEST(SlowContact, ThePrimitivesStartAsNearAsTheParameterSays) {
+  for (const int x : {-40, -10})
+    for (const Query& query : first_queries(at("slow-contact", x), 400)) {
+      const double distance = minimum_distance(at_rest(query, 0)).hi / std::ldexp(extent(query), x);
+      EXPECT_LT(distance, 8);
+      EXPECT_GT(distance, 1.0 / 1024);
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,117 @@
+// Families of contact whose queries get a separation, by the names NAME~H and NAME~drawn.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "fuzz/families/contacts.hpp"
+#include "fuzz/families/families.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(WithSeparation, ANumberIsTheSeparationOfEveryQuery) {
+  for (const char* family : {"uniform", "aspect", "aspect@8"})
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const Query query = make_query(find_family(family), 3, i);
+      EXPECT_EQ(query.separation, 0);
+      EXPECT_EQ(make_query(find_family(std::string(family) + "~0.125"), 3, i), with_separation(query, 0.125));
+    }
+}
+
+TEST(WithSeparation, DrawnLeavesTheCoordinatesAsTheyAre) {
+  for (const char* family : {"uniform", "aspect", "aspect@8", "one-point", "crossed"})
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const Query query = make_query(find_family(std::string(family) + "~drawn"), 3, i);
+      EXPECT_EQ(query.x, make_query(find_family(family), 3, i).x);
+      EXPECT_GT(query.separation, 0);
+    }
+}
+
+TEST(WithSeparation, DrawnIsAPureFunctionOfSeedAndIndex) {
+  const Family family = find_family("uniform~drawn");
+  const Query query = make_query(family, 1, 1000);
+  for (std::uint64_t i = 0; i < 10; ++i) (void)make_query(family, 1, i);
+  EXPECT_EQ(make_query(family, 1, 1000), query);
+  EXPECT_EQ(make_query(find_family("uniform~drawn"), 1, 1000), query);
+  EXPECT_NE(make_query(family, 1, 1002).separation, query.separation);
+}
+
+TEST(WithSeparation, DrawnIsFromAMillionthOfTheExtentToAllOfIt) {
+  int powers_of_two = 0;
+  int small = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Query query = make_query(find_family("stiff~drawn"), 5, i);
+    const double ratio = query.separation / extent(query);
+    EXPECT_LE(0.5e-6, ratio);  // a power of two is rounded down
+    EXPECT_LE(ratio, 1);
+    int exponent = 0;
+    powers_of_two += std::frexp(query.separation, &exponent) == 0.5 ? 1 : 0;
+    small += ratio < 1e-3 ? 1 : 0;
+  }
+  EXPECT_GT(powers_of_two, 60);
+  EXPECT_LT(powers_of_two, 140);
+  EXPECT_GT(small, 150);
+  EXPECT_LT(small, 250);
+}
+
+TEST(WithSeparation, ItIsPositiveForPrimitivesWithoutExtentAndInRangeForHugeOnes) {
+  for (const char* family : {"one-point~drawn", "overflow~drawn", "scale@-1074~drawn", "scale@1023~drawn"})
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const double h = make_query(find_family(family), 1, i).separation;
+      EXPECT_TRUE(0 < h && std::isfinite(h)) << family << ' ' << i;
+    }
+}
+
+TEST(WithSeparation, NoFamilyIsPlanted) {
+  EXPECT_TRUE(find_family("planted").planted);
+  EXPECT_FALSE(find_family("planted~drawn").planted);
+  EXPECT_FALSE(find_family("planted").has_separation);
+  EXPECT_TRUE(find_family("planted~drawn").has_separation);
+}
+
+TEST(WithSeparation, NamesAreReadBack) {
+  for (const char* name :
+       {"uniform~drawn", "uniform~0.5", "aspect@8~drawn", "aspect@8~0x1p-3", "scale@-3~1e-9"})
+    EXPECT_EQ(find_family(name).name, name);
+}
+
+TEST(WithSeparation, ASweepNamesTheValueBeforeTheSeparation) {
+  for (const char* separation : {"~drawn", "~0.5"}) {
+    const Family family = find_family(std::string("stiff") + separation);
+    std::vector<std::string> names;
+    for (const Family& step : sweep(family, 3)) names.push_back(step.name);
+    const std::string end = separation;
+    EXPECT_THAT(names, ::testing::ElementsAre("stiff@-16" + end, "stiff@0" + end, "stiff@16" + end));
+    for (const Family& step : sweep(family, 3))
+      for (std::uint64_t i = 0; i < 20; ++i)
+        EXPECT_EQ(make_query(step, 1, i), make_query(find_family(step.name), 1, i)) << step.name;
+  }
+}
+
+TEST(WithSeparation, BadSeparationsAreNamed) {
+  const auto expect_refused = [](const std::string& name, const std::string& words) {
+    EXPECT_THAT([&] { find_family(name); }, ThrowsMessage<Error>(HasSubstr(words)));
+  };
+  expect_refused("uniform~0",
+                 "family 'uniform~0': found the separation 0, expected a positive number or drawn");
+  expect_refused("uniform~-1", "family 'uniform~-1': found the separation -1, expected ");
+  expect_refused("uniform~inf", "family 'uniform~inf': found 'inf', expected ");
+  expect_refused("uniform~", "family 'uniform~': found '', expected ");
+  expect_refused("uniform~1~1", "family 'uniform~1~1': found '1~1', expected ");
+  expect_refused("aspect~drawn@8", "family 'aspect~drawn@8': found 'drawn@8', expected ");
+  expect_refused("aspect@17~1", "found the family 'aspect@17', expected a number from 0 to 16 behind the @");
+  expect_refused("uniforms~1", "unknown family 'uniforms', expected one of uniform, ");
+  for (const Family& family : separation_families())
+    expect_refused(family.name + "~1", "family '" + family.name +
+                                           "~1': found a separation, expected none: the family has its own");
+}
+
+}  // namespace
+}  // namespace nearmiss
