@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndAdaptive) {
-  EXPECT_EQ(built_in_subjects().size(), subjects().size() + 3);
+  EXPECT_EQ(built_in_subjects().size(), subjects().size() + 4);
   for (const SubjectInfo& info : built_in_subjects())
     EXPECT_EQ(make_any_subject(info.name)->name(), info.name);
   EXPECT_THAT([] { make_any_subject("wong"); }, ThrowsMessage<Error>(HasSubstr("exact")));
