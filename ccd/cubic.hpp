@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <tuple>
 
 #include "ccd/motion.hpp"
@@ -83,10 +85,46 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F, cons
   }
 }
 
+// The nodes of F, 0, its critical points in (0, 1) and 1, and F's values there. Interval i is between nodes i and i + 1.
+template <class T>
+struct Nodes {
+  std::array<T, 4> time{0}, value;
+  std::size_t last;  // the last interval
+
+  template <class Steps = AllSteps>
+  explicit Nodes(const Cubic<T>& F, const Steps& steps = {}) {
+    CandidateTimes<T, 2> critical;
+    find_critical_times(critical, F, steps);
+    last = static_cast<std::size_t>(critical.count);
+    value[0] = F.d;
+    for (std::size_t i = 0; i < last; ++i) {
+      time[i + 1] = critical.values[i];
+      value[i + 1] = F(critical.values[i]);
+    }
+    time[last + 1] = 1;
+    value[last + 1] = F(T(1));
+  }
+};
+
 // The step that searches interval i of the count + 1 intervals. A single interval is never left out.
 constexpr Step interval_step(std::size_t i, std::size_t count) {
   if (count == 0) return Step::solver;
   return i == 0 ? Step::first_interval : i == count ? Step::last_interval : Step::middle_interval;
+}
+
+// The time with |F| <= μ that represents the roots in interval i, if there is one.
+template <class T, class Steps = AllSteps>
+std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu,
+                                  const Steps& steps = {}) {
+  using std::abs;
+  if (!steps.does(interval_step(i, nodes.last))) return std::nullopt;
+  const Step left = i == 0 ? Step::solver_start : Step::double_roots;
+  const Step right = i == nodes.last ? Step::solver_end : Step::double_roots;
+  const auto& [time, value, last] = nodes;
+  if (at_most(T(abs(value[i])), mu, steps) && steps.does(left)) return time[i];
+  if (at_most(T(abs(value[i + 1])), mu, steps) && steps.does(right)) return time[i + 1];
+  if ((value[i] < 0) == (value[i + 1] < 0)) return std::nullopt;
+  return refine_root(F, time[i], time[i + 1], value[i], value[i + 1], mu, steps);
 }
 
 }  // namespace detail
@@ -138,34 +176,11 @@ T clearance(const Cubic<T>& F) {
 /// If |F| is above μ on all of [0, 1], there are no such times.
 template <class T, class Steps = AllSteps>
 CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
-  using std::abs;
   CandidateTimes<T, 3> roots;
   if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
-  const T end = F(T(1));
-
-  CandidateTimes<T, 2> critical;
-  detail::find_critical_times(critical, F, steps);
-  const auto last = static_cast<std::size_t>(critical.count);  // the last interval
-  std::array<T, 4> node{0};
-  std::array<T, 4> value{F.d};
-  for (std::size_t i = 0; i < last; ++i) {
-    node[i + 1] = critical.values[i];
-    value[i + 1] = F(critical.values[i]);
-  }
-  node[last + 1] = 1;
-  value[last + 1] = end;
-  for (std::size_t i = 0; i <= last; ++i) {
-    if (!steps.does(detail::interval_step(i, last))) continue;
-    const Step left = i == 0 ? Step::solver_start : Step::double_roots;
-    const Step right = i == last ? Step::solver_end : Step::double_roots;
-    if (at_most(T(abs(value[i])), mu, steps) && steps.does(left)) {
-      roots.add(node[i]);
-    } else if (at_most(T(abs(value[i + 1])), mu, steps) && steps.does(right)) {
-      roots.add(node[i + 1]);
-    } else if ((value[i] < 0) != (value[i + 1] < 0)) {
-      roots.add(detail::refine_root(F, node[i], node[i + 1], value[i], value[i + 1], mu, steps));
-    }
-  }
+  const detail::Nodes<T> nodes(F, steps);
+  for (std::size_t i = 0; i <= nodes.last; ++i)
+    if (const auto t = detail::root_in_interval(F, nodes, i, mu, steps)) roots.add(*t);
   return roots;
 }
 

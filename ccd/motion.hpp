@@ -37,6 +37,13 @@ struct Moving {
   [[nodiscard]] Vector3<T> at(T t) const { return interpolated(x(), t, v()); }
 };
 
+/// The time in which a gap closes at a given speed, at most `most`; 0 if the gap is not positive.
+template <class T>
+T closing_time(T gap, T speed, T most) {
+  if (!(gap > 0)) return 0;
+  return gap < most * speed ? T(gap / speed) : most;
+}
+
 /// The power-of-two frame in which a pair is computed: differences of coordinates are multiplied by
 /// 2^exponent. If a difference would overflow, the coordinates themselves are multiplied by 2^-4 first.
 struct Frame {

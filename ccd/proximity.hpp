@@ -38,8 +38,9 @@ struct Configuration {
   /// Barycentric test: every weight in [0, N·N].
   template <class Steps = AllSteps>
   [[nodiscard]] bool inside(const Steps& steps = {}) const {
-    return std::all_of(weights.begin(), weights.end(),
-                       [&](T w) { return at_most(T(0), w, steps) && at_most(w, NN, steps); });
+    return !steps.does(Step::inside) || std::all_of(weights.begin(), weights.end(), [&](T w) {
+      return at_most(T(0), w, steps) && at_most(w, NN, steps);
+    });
   }
 
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).

@@ -31,6 +31,8 @@ enum class Step : std::uint8_t {
   middle_interval,       ///< the middle one of three intervals
   last_interval,         ///< the last of two or three intervals
   residual,              ///< a root has |F| <= μ; without this step, a Newton step below 2^-20 is enough
+  // proximity.hpp
+  inside,  ///< barycentric test; in advance.hpp, also that of the point below the origin
   // wang.hpp
   proximity,      ///< area, height and barycentric tests
   proximity_end,  ///< the same tests at t = 1
@@ -47,6 +49,19 @@ enum class Step : std::uint8_t {
   ve_equal,    ///< KKT case 3
   ve_zero,     ///< KKT case 4
   vv,          ///< KKT case 5
+  // wang_time.hpp
+  time_rounding,  ///< the rounding errors of distances along axes and diagonals
+  earliest_root,  ///< the first root that may be a contact; without this step, the last one
+  beside_root,  ///< the time is one at which |F| is above the residual; without this step, the computed root
+  lower_end,    ///< this time is before the root; without this step, after it
+  // advance.hpp
+  advance_rounding,    ///< the rounding errors of a step
+  separation,          ///< the distance is compared with h; without this step, with 0
+  separation_in_full,  ///< h as it is; without this step, the root of its square in float
+  whole_step,          ///< velocities are those of the whole step; without this step, of the rest of it
+  cannot_tell,         ///< no end of the advancement is unknown; without this step, no collision
+  // wang_time.hpp, advance.hpp
+  last_vertex,  ///< the last difference of vertices; without this step, it may go anywhere
   // everywhere
   ties,  ///< comparisons that accept are non-strict
 };

@@ -19,7 +19,7 @@ namespace nearmiss {
 /// Which test accepted a pair.
 enum class Stage : std::uint8_t {
   none,         ///< no collision was reported
-  proximity,    ///< area, height and barycentric tests of VT or EE
+  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, their distance
   ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
   ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
   ve_equal,     ///< VE, KKT case 3: two components of the edge have the same magnitude

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "ccd/advance.hpp"
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
@@ -13,6 +14,7 @@
 #include "ccd/subject.hpp"
 #include "ccd/tight_tolerances.hpp"
 #include "ccd/wang.hpp"
+#include "ccd/wang_time.hpp"
 
 namespace nearmiss {
 
@@ -25,8 +27,8 @@ double own_bound(const Query& query) {
 }
 
 /// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
-/// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and a constant
-/// `claims_bound`.
+/// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
+/// `claims_bound`, `takes_separation` and `time_sort`.
 template <class Policy>
 class BuiltInSubject final : public Subject {
  public:
@@ -55,6 +57,8 @@ class BuiltInSubject final : public Subject {
   }
 
   [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
+  [[nodiscard]] bool takes_separation() const override { return Policy::takes_separation; }
+  [[nodiscard]] TimeSort time_sort() const override { return Policy::time_sort; }
 
  private:
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
@@ -70,6 +74,8 @@ class BuiltInSubject final : public Subject {
 template <bool plane_culling>
 struct Basic {
   static constexpr bool claims_bound = false;
+  static constexpr bool takes_separation = false;
+  static constexpr TimeSort time_sort = TimeSort::estimate;
 
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
@@ -94,6 +100,8 @@ struct Empty : Basic<false> {
 template <WangOptions options, class Steps = AllSteps>
 struct Wang {
   static constexpr bool claims_bound = true;
+  static constexpr bool takes_separation = false;
+  static constexpr TimeSort time_sort = TimeSort::none;
 
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& given) {
@@ -112,6 +120,36 @@ struct Wang {
                  ? wang<Kind::vertex_triangle, double, options>(query, given, steps).hit
                  : wang<Kind::edge_edge, double, options>(query, given, steps).hit;
     });
+  }
+};
+
+template <WangOptions options>
+struct WangTime : Wang<options> {
+  static constexpr TimeSort time_sort = TimeSort::lower_bound;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& given) {
+    return wang_time<kind, double, options>(query, given);
+  }
+};
+
+struct Advance {
+  static constexpr bool claims_bound = true;
+  static constexpr bool takes_separation = true;
+  static constexpr TimeSort time_sort = TimeSort::lower_bound;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
+    return advance<kind, double>(query);
+  }
+  static double distance_bound(const Query& query, const std::optional<double>& /*given*/) {
+    const double bound = query.kind == Kind::vertex_triangle
+                             ? advance_distance_bound<Kind::vertex_triangle, double>(query)
+                             : advance_distance_bound<Kind::edge_edge, double>(query);
+    return std::nextafter(bound, std::numeric_limits<double>::infinity());
+  }
+  static double needed_tolerance(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::quiet_NaN();
   }
 };
 
@@ -138,6 +176,9 @@ constexpr std::array registry{
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightSteps>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),
+    entry<WangTime<WangOptions{true, VeCulling::per_root}>>(
+        "wang-time", "wang with a lower bound of the earliest time of contact"),
+    entry<Advance>("advance", "conservative advancement: steps in time that cannot be too long"),
 };
 
 }  // namespace

@@ -44,10 +44,13 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   Subjects subjects;
   subjects.push_back(make_any_subject(subject));
   CampaignPlan plan;
-  if (way == uniform) plan.families = {find_family("uniform")};
-  if (way == all_families) plan.families.assign(families().begin(), families().end());
+  const Subject& defect = *subjects.front();
+  if (way == uniform) plan.families = families_for(defect, std::array{find_family("uniform")});
+  if (way == all_families) plan.families = families_for(defect, families());
+  if (way == all_families && defect.takes_separation())
+    plan.families.insert(plan.families.end(), separation_families().begin(), separation_families().end());
   if (way == search)
-    plan.families = {miss_search(*subjects.front(), stop), far_search(*subjects.front(), stop)};
+    plan.families = families_for(defect, std::array{miss_search(defect, stop), far_search(defect, stop)});
   plan.seed = options.seed;
   plan.jobs = options.jobs;
   stop.limit(parse_duration(options.time, "--time"));
@@ -86,11 +89,13 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   return result;
 }
 
-/// "0.12 s  12,345", with a star for a refuted bound; "-" if nothing was found.
+/// "0.12 s  12,345", with a mark for a failure that is no miss; "-" if nothing was found.
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
-  const bool bound = *hunt.failure == name(Finding::What::refuted_bound);
-  return fmt::format("{:.2f} s {:>12}{}", hunt.seconds, with_separators(hunt.cases), bound ? "*" : "");
+  const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"
+                                : *hunt.failure == name(Finding::What::late)        ? "+"
+                                                                                    : "";
+  return fmt::format("{:.2f} s {:>12}{}", hunt.seconds, with_separators(hunt.cases), mark);
 }
 
 std::string table(const std::vector<Hunt>& results, const std::vector<std::string>& ways) {
@@ -114,9 +119,8 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
   text += fmt::format("{:<24}", fmt::format("found, of {}", subjects.size()));
   for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
   return text +
-         "\n\nTime and cases up to the first miss; *: up to the first refuted bound. Of a directed search, "
-         "evaluations: at most "
-         "this many.\n";
+         "\n\nTime and cases up to the first miss; *: up to the first refuted bound; +: up to the first late "
+         "time. Of a directed search, evaluations: at most this many.\n";
 }
 
 int run(const Options& options) {

@@ -17,7 +17,20 @@ std::uint64_t index_of(const Finding& finding) {
   return index;
 }
 
+/// Whether a finding is a failure of the subject's promises.
+bool counts(Finding::What what) {
+  return what == Finding::What::false_negative || what == Finding::What::refuted_bound ||
+         what == Finding::What::late;
+}
+
 }  // namespace
+
+std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact) {
+  std::vector<Family> chosen(of_contact.begin(), of_contact.end());
+  if (!subject.takes_separation()) return chosen;
+  for (const Family& family : of_contact) chosen.push_back(with_separation(family, drawn_separation));
+  return chosen;
+}
 
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const Stop& stop) {
@@ -27,8 +40,7 @@ std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const S
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
         for (Finding& each : result.findings) {
-          if (each.what != Finding::What::false_negative && each.what != Finding::What::refuted_bound)
-            continue;
+          if (!counts(each.what)) continue;
           const std::uint64_t cases = cases_up_to(plan, each.family, index_of(each));
           if (first && first->cases <= cases) continue;
           const double part =

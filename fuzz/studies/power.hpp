@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "fuzz/trial/campaign.hpp"
 
@@ -17,7 +19,10 @@ struct FirstFailure {
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 
-/// Runs a campaign until a subject misses a collision or its distance bound is refuted; nothing if the
+/// Families of contact for a subject; if it takes a separation, also the same families with drawn separations.
+std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact);
+
+/// Runs a campaign until a subject misses a collision, its distance bound is refuted, or its time is late; nothing if the
 /// campaign ends before.
 std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const Subjects& subjects,
                                                const Stop& stop);

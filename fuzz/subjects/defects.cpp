@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "ccd/advance.hpp"
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
 #include "ccd/wang.hpp"
+#include "ccd/wang_time.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {
@@ -35,6 +37,8 @@ constexpr std::array tolerance_table{
     NamedTolerance{"eta", &Tolerances<double>::eta, 1, false},
 };
 
+constexpr std::uint64_t bit_of(Step step) { return std::uint64_t{1} << static_cast<unsigned>(step); }
+
 /// Steps with some left out, and with multiples of the paper's tolerances for double.
 struct DefectiveSteps {
   std::uint64_t left_out = 0;  ///< one bit for each step
@@ -54,7 +58,7 @@ struct DefectiveSteps {
     return steps;
   }
 
-  [[nodiscard]] bool does(Step step) const { return (left_out >> static_cast<unsigned>(step) & 1) == 0; }
+  [[nodiscard]] bool does(Step step) const { return (left_out & bit_of(step)) == 0; }
 
   template <class T>
   [[nodiscard]] Tolerances<T> tolerances(T B) const {
@@ -68,52 +72,74 @@ struct DefectiveSteps {
   }
 };
 
+/// The sound subjects of which defects are made.
+enum class Sound : std::uint8_t { wang, wang_time, advance };
+constexpr std::array<std::string_view, 3> sound_names{"wang", "wang-time", "advance"};
+
+/// What makes a sound subject defective.
+struct Change {
+  Sound sound = Sound::wang;
+  DefectiveSteps steps = {};
+  bool in_float = false;  ///< of wang-time, the time alone
+};
+
+template <Kind kind>
+Verdict decide_by(const Change& change, const Query& query, const DefectiveSteps& steps) {
+  if (change.sound == Sound::advance) return advance<kind, double>(query, steps);
+  if (change.sound == Sound::wang_time) {
+    Verdict verdict = wang_time<kind, double, WangOptions{}>(query, std::nullopt, steps);
+    if (verdict.hit && change.in_float) verdict.time = detail::contactless_until<kind, float>(query, steps);
+    return verdict;
+  }
+  return change.in_float ? wang<kind, float, WangOptions{}>(query, std::nullopt, steps)
+                         : wang<kind, double, WangOptions{}>(query, std::nullopt, steps);
+}
+
 class DefectiveSubject final : public Subject {
  public:
-  DefectiveSubject(std::string_view name, const DefectiveSteps& steps, bool in_float)
-      : name_(name), steps_(steps), in_float_(in_float) {}
+  DefectiveSubject(std::string_view name, const Change& change)
+      : name_(name),
+        change_(change),
+        sound_(make_subject(sound_names[static_cast<std::size_t>(change.sound)])) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
 
   using Subject::decide;
   [[nodiscard]] Verdict decide(const Query& query) const override {
     if (!is_finite(query)) refuse_coordinates(name_);
-    return decide(query, steps_);
+    return decide(query, change_.steps);
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
-    return wang_->distance_bound(query);
+    return sound_->distance_bound(query);
   }
+  [[nodiscard]] bool takes_separation() const override { return sound_->takes_separation(); }
+  [[nodiscard]] TimeSort time_sort() const override { return sound_->time_sort(); }
 
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
-    return least_loosening([&](double s) { return decide(query, steps_.loosened(s)).hit; });
+    if (change_.sound == Sound::advance) return sound_->needed_tolerance(query);
+    return least_loosening([&](double s) { return decide(query, change_.steps.loosened(s)).hit; });
   }
 
  private:
   [[nodiscard]] Verdict decide(const Query& query, const DefectiveSteps& steps) const {
-    return in_float_ ? decide_in<float>(query, steps) : decide_in<double>(query, steps);
-  }
-
-  template <class T>
-  static Verdict decide_in(const Query& query, const DefectiveSteps& steps) {
-    return query.kind == Kind::vertex_triangle
-               ? wang<Kind::vertex_triangle, T, WangOptions{}>(query, std::nullopt, steps)
-               : wang<Kind::edge_edge, T, WangOptions{}>(query, std::nullopt, steps);
+    return query.kind == Kind::vertex_triangle ? decide_by<Kind::vertex_triangle>(change_, query, steps)
+                                               : decide_by<Kind::edge_edge>(change_, query, steps);
   }
 
   std::string name_;
-  DefectiveSteps steps_;
-  bool in_float_;
-  std::unique_ptr<Subject> wang_ = make_subject("wang");
+  Change change_;
+  std::unique_ptr<Subject> sound_;
 };
 
 struct LeftOut {
   std::string_view name, about;
   std::array<Step, 3> steps;  ///< the left-out steps; one is repeated if there are fewer than three
+  Sound of = Sound::wang;
 };
 
-constexpr LeftOut left_out(std::string_view name, Step step, std::string_view about) {
-  return {name, about, {step, step, step}};
+constexpr LeftOut left_out(std::string_view name, Step step, std::string_view about, Sound of = Sound::wang) {
+  return {name, about, {step, step, step}, of};
 }
 
 constexpr std::array left_out_table{
@@ -148,11 +174,39 @@ constexpr std::array left_out_table{
     left_out("ve-zero", Step::ve_zero, "vertex-edge without KKT case 4"),
     left_out("vv", Step::vv, "no vertex-vertex tests"),
     left_out("ties", Step::ties, "comparisons that accept are strict"),
+    left_out("inside", Step::inside,
+             "a root counts wherever the vertex or the edges are in the common plane"),
     LeftOut{"start", "t = 0 is tested nowhere", {Step::solver_start, Step::ve_start, Step::ve_start}},
     LeftOut{"end", "t = 1 is tested nowhere", {Step::solver_end, Step::proximity_end, Step::ve_end}},
+    left_out("later-root", Step::earliest_root, "the time of the last root in place of the first",
+             Sound::wang_time),
+    left_out("upper-end", Step::lower_end, "the upper end of the root's interval", Sound::wang_time),
+    left_out("middle", Step::beside_root, "the middle of the root's interval", Sound::wang_time),
+    left_out("time-rounding", Step::time_rounding, "the time of a plane without its rounding errors",
+             Sound::wang_time),
+    left_out("time-vertex", Step::last_vertex, "the time of a plane without the last vertex",
+             Sound::wang_time),
+    left_out("step-rounding", Step::advance_rounding, "steps without their rounding errors", Sound::advance),
+    left_out("step-vertex", Step::last_vertex, "steps without the last vertex", Sound::advance),
+    left_out("rest-of-step", Step::whole_step, "velocities of the rest of the step", Sound::advance),
+    left_out("lines", Step::inside, "the distance of planes and lines, not of triangles and edges",
+             Sound::advance),
+    left_out("boxes-at-start", Step::both_ends, "boxes are compared at t = 0 alone", Sound::advance),
+    left_out("contact", Step::separation, "the separation is added to boxes alone", Sound::advance),
+    left_out("float-separation", Step::separation_in_full, "the square of the separation in float",
+             Sound::advance),
+    left_out("gives-up", Step::cannot_tell, "no collision after the last iteration", Sound::advance),
 };
 
-constexpr std::string_view in_float_name = "float";
+/// Defects in float, and the subjects of which they are made.
+struct InFloat {
+  std::string_view name, about;
+  Sound of;
+};
+constexpr std::array in_float_table{
+    InFloat{"float", "float, with the tolerances for double", Sound::wang},
+    InFloat{"time-float", "the time of a computation in float", Sound::wang_time},
+};
 
 /// Applies the factor in "TOLERANCE*FACTOR" to `steps`; false if `name` has another form.
 bool take_factor(std::string_view name, DefectiveSteps& steps) {
@@ -182,7 +236,8 @@ std::vector<Defect> make_library() {
   }
   for (const LeftOut& each : left_out_table)
     library.push_back({fmt::format("{}{}", prefix, each.name), std::string(each.about)});
-  library.push_back({fmt::format("{}{}", prefix, in_float_name), "float, with the tolerances for double"});
+  for (const InFloat& each : in_float_table)
+    library.push_back({fmt::format("{}{}", prefix, each.name), std::string(each.about)});
   return library;
 }
 
@@ -202,17 +257,23 @@ std::span<const Defect> defects() {
 std::unique_ptr<Subject> try_make_defect(std::string_view name) {
   if (!name.starts_with(prefix)) return nullptr;
   const std::string_view defect = name.substr(prefix.size());
-  DefectiveSteps steps;
-  bool known = defect == in_float_name || take_factor(defect, steps);
+  Change change;
+  bool known = take_factor(defect, change.steps);
+  for (const InFloat& each : in_float_table) {
+    if (each.name != defect) continue;
+    known = true;
+    change = {.sound = each.of, .in_float = true};
+  }
   for (const LeftOut& each : left_out_table) {
     if (each.name != defect) continue;
     known = true;
-    for (const Step step : each.steps) steps.left_out |= std::uint64_t{1} << static_cast<unsigned>(step);
+    change.sound = each.of;
+    for (const Step step : each.steps) change.steps.left_out |= bit_of(step);
   }
   if (!known)
     throw Error(
         fmt::format("unknown defect '{}', expected one that 'nearmiss subjects' lists", excerpt(name)));
-  return std::make_unique<DefectiveSubject>(name, steps, defect == in_float_name);
+  return std::make_unique<DefectiveSubject>(name, change);
 }
 
 }  // namespace nearmiss

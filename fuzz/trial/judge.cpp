@@ -62,6 +62,7 @@ std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdi
     outcome.time = time_error(verdict, truth);
     return {outcome, std::nullopt};
   }
+  if (verdict.stage == Stage::unknown) return {outcome, std::nullopt};
   const BoundAnswer unit = ask_unit(truth.query());
   outcome.verdict.fault = unit.fault;
   outcome.verdict.fault_code = unit.fault_code;

@@ -194,7 +194,7 @@ function drawPower() {
   const rows = [...new Set(report.power.map((hunt) => hunt.subject))].map((subject) =>
     ({ subject, ...Object.fromEntries(report.power.filter((hunt) => hunt.subject === subject).map((hunt) => [hunt.way, hunt])) }));
   const cell = (hunt) => !hunt ? "" : !hunt.failure ? "–"
-    : `${short(hunt.seconds)} s, ${integer(hunt.cases)}${hunt.failure === "refuted-bound" ? " *" : ""}`;
+    : `${short(hunt.seconds)} s, ${integer(hunt.cases)}${{ "refuted-bound": " *", late: " +" }[hunt.failure] ?? ""}`;
   const found = (way) => rows.filter((row) => row[way]?.failure).length;
   fillTable(element("power"), [
     text(`defect (${rows.length})`, "subject"),

@@ -13,7 +13,7 @@ namespace nearmiss {
 struct Hunt {
   std::string subject, way;
   /// The failure that was found, if any; without a failure, the members below are meaningless.
-  std::optional<std::string> failure = {};  ///< "false-negative" or "refuted-bound"
+  std::optional<std::string> failure = {};  ///< "false-negative", "refuted-bound" or "late"
   double seconds = 0;
   std::uint64_t cases = 0;
   std::string provenance = {};

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
 
 #include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
@@ -61,6 +63,61 @@ TEST(Defects, DecideAsWangDoesWhereNothingIsWrong) {
     }
     ASSERT_EQ(same->distance_bound(query), wang->distance_bound(query));
   });
+}
+
+TEST(Defects, PromiseWhatTheSoundSubjectPromises) {
+  const std::map<std::string, std::string> sound{{"defect:vv", "wang"},
+                                                 {"defect:inside", "wang"},
+                                                 {"defect:later-root", "wang-time"},
+                                                 {"defect:time-float", "wang-time"},
+                                                 {"defect:lines", "advance"}};
+  const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+  for (const auto& [defect, name] : sound) {
+    const auto defective = try_make_defect(defect);
+    const auto subject = make_subject(name);
+    EXPECT_EQ(defective->time_sort(), subject->time_sort()) << defect;
+    EXPECT_EQ(defective->takes_separation(), subject->takes_separation()) << defect;
+    EXPECT_EQ(defective->distance_bound(query), subject->distance_bound(query)) << defect;
+  }
+}
+
+/// The number of queries of `uniform` and of `uniform` with separations on which a defect answers or times otherwise than the
+/// sound subject.
+int differences(const std::string& defect, const std::string& sound) {
+  const auto defective = try_make_defect(defect);
+  const auto subject = make_subject(sound);
+  int count = 0;
+  for (const char* family : {"uniform", "uniform~drawn"})
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      const Query query = make_query(find_family(family), 7, i);
+      const Verdict verdict = defective->decide(query);
+      const Verdict expected = subject->decide(query);
+      count += verdict.hit != expected.hit || (verdict.hit && verdict.time != expected.time) ? 1 : 0;
+    }
+  return count;
+}
+
+TEST(Defects, OfTimesChangeSomeAnswers) {
+  for (const char* defect :
+       {"later-root", "upper-end", "middle", "time-rounding", "time-vertex", "time-float"})
+    EXPECT_GT(differences(std::string("defect:") + defect, "wang-time"), 0) << defect;
+  for (const char* defect : {"step-rounding", "step-vertex", "rest-of-step", "lines", "boxes-at-start",
+                             "contact", "float-separation"})
+    EXPECT_GT(differences(std::string("defect:") + defect, "advance"), 0) << defect;
+}
+
+TEST(Defects, GivingUpIsWrongOnlyWhereTheAdvancementDoesNotEnd) {
+  EXPECT_EQ(differences("defect:gives-up", "advance"), 0);
+  const auto sound = make_subject("advance");
+  const auto defect = try_make_defect("defect:gives-up");
+  int given_up = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const Query query = make_query(find_family("parallel"), 7, i);
+    const Verdict verdict = sound->decide(query);
+    EXPECT_EQ(defect->decide(query).hit, verdict.hit && verdict.stage != Stage::unknown) << i;
+    given_up += verdict.stage == Stage::unknown ? 1 : 0;
+  }
+  EXPECT_GT(given_up, 0);
 }
 
 TEST(Defects, MultiplyTheirOwnTolerance) {

@@ -57,6 +57,28 @@ TEST(Judge, AReportBeyondTheClaimedBoundFailsAndNoOther) {
   EXPECT_EQ(failure_with_bound(0, hit), std::nullopt);
 }
 
+/// A subject that never can tell, and claims the bound 0 nevertheless.
+class Undecided final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {true, Stage::unknown, 0}; }
+  using Subject::decide;
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+
+ private:
+  std::string name_ = "undecided";
+};
+
+TEST(Judge, ASubjectThatCannotTellClaimsNoBound) {
+  const Undecided subject;
+  EXPECT_EQ(Judge(subject).failure(stops_above), std::nullopt);
+  Truth truth(stops_above);
+  const Outcome outcome = Judge(subject).judge(subject.decide(stops_above), truth, Counts());
+  EXPECT_FALSE(outcome.collision);
+  EXPECT_FALSE(outcome.bound_refuted);
+  EXPECT_EQ(outcome.ratio, 0);
+}
+
 TEST(Judge, ABoundThatIsNoDistanceIsAFaultOfAFalsePositiveAlone) {
   for (const double bound : {nan, -1.0, -infinity}) {
     EXPECT_EQ(failure_with_bound(bound, stops_above), (Failure{Finding::What::fault, "vt error 0"})) << bound;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
 
@@ -18,7 +22,7 @@ std::optional<FirstFailure> first_failure(const std::string& subject, const std:
   return find_first_failure(plan, subjects, Stop::never());
 }
 
-TEST(FirstFailure, IsAMissOrARefutedBound) {
+TEST(FirstFailure, IsAMissARefutedBoundOrALateTime) {
   const auto miss = first_failure("defect:vertex-edge", "planted");
   ASSERT_TRUE(miss);
   EXPECT_EQ(miss->finding.what, Finding::What::false_negative);
@@ -29,6 +33,11 @@ TEST(FirstFailure, IsAMissOrARefutedBound) {
   const auto refuted = first_failure("defect:lambda2*0", "degenerate");
   ASSERT_TRUE(refuted);
   EXPECT_EQ(refuted->finding.what, Finding::What::refuted_bound);
+
+  const auto late = first_failure("defect:upper-end", "uniform");
+  ASSERT_TRUE(late);
+  EXPECT_EQ(late->finding.what, Finding::What::late);
+  EXPECT_GT(late->finding.ratio, 0);
 }
 
 /// The number of cases of a family, one after the other, until a subject misses a collision.
@@ -46,7 +55,23 @@ TEST(FirstFailure, IsCountedUpToTheCaseItself) {
   }
 }
 
-TEST(FirstFailure, IsNothingWhereThereIsNone) { EXPECT_FALSE(first_failure("wang", "planted")); }
+TEST(FirstFailure, IsNothingWhereThereIsNone) {
+  EXPECT_FALSE(first_failure("wang", "planted"));
+  EXPECT_FALSE(first_failure("advance", "uniform~drawn"));
+}
+
+TEST(FamiliesFor, HaveSeparationsTooForASubjectThatTakesThem) {
+  const auto names = [](const char* subject) {
+    std::vector<std::string> found;
+    const std::array of_contact{find_family("uniform"), find_family("planted")};
+    for (const Family& family : families_for(*make_any_subject(subject), of_contact))
+      found.push_back(family.name);
+    return found;
+  };
+  EXPECT_EQ(names("defect:vv"), (std::vector<std::string>{"uniform", "planted"}));
+  EXPECT_EQ(names("defect:contact"),
+            (std::vector<std::string>{"uniform", "planted", "uniform~drawn", "planted~drawn"}));
+}
 
 }  // namespace
 }  // namespace nearmiss

@@ -73,6 +73,10 @@ class Scaled final : public Subject {
 
   [[nodiscard]] bool claims_bound() const override { return algorithm_ != Algorithm::basic; }
 
+  [[nodiscard]] TimeSort time_sort() const override {
+    return algorithm_ == Algorithm::basic ? TimeSort::estimate : TimeSort::none;
+  }
+
   [[nodiscard]] double needed_tolerance(const Query& query) const override {
     if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();
     const Arithmetic arithmetic(epsilon_exponent_);

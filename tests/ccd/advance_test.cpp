@@ -1,0 +1,121 @@
+// Conservative advancement on queries whose distances and times are known.
+#include "ccd/advance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ccd/subject.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+using testing::scaled;
+
+Verdict decide(const Query& query) { return make_subject("advance")->decide(query); }
+
+/// Reported within the separation, at a time from `time` - 1e-12 up to `time`.
+void expect_just_before(const Query& query, double separation, double time) {
+  const Verdict verdict = decide(with_separation(query, separation));
+  EXPECT_EQ(verdict.stage, Stage::proximity);
+  EXPECT_LE(verdict.time, time);
+  EXPECT_GE(verdict.time, time - 1e-12);
+}
+
+/// Two edges along x and y that are at rest, with the first at (x, y, z).
+Query edges_at(double x, double y, double z) {
+  const Vector3<double> a(x, y, z), b(x + 1, y, z), c(0, 0, 0), d(0, 1, 0);
+  return make_query(Kind::edge_edge, {a, b, c, d}, {a, b, c, d});
+}
+
+TEST(Advance, IsJustBeforeContact) {
+  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0, 0.5);
+  expect_just_before(falling_vertex(0, 0, 3, -1), 0, 0.75);
+  expect_just_before(falling_edge(1, -3), 0, 0.25);
+}
+
+TEST(Advance, IsJustBeforeTheDistanceIsTheSeparation) {
+  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5, 0.25);  // of the face
+  expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);        // of an edge: 3, 4, 5
+  expect_just_before(falling_vertex(-2, -3, 11, -1), 7, 5.0 / 12);   // of a corner: 2, 3, 6, 7
+  expect_just_before(falling_edge(1, -3), 0.5, 0.125);
+}
+
+TEST(Advance, IsZeroForPrimitivesThatStartWithinTheSeparation) {
+  EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
+  EXPECT_EQ(decide(with_separation(falling_vertex(0.25, 0.25, 0.5, 1), 0.75)).time, 0);
+  EXPECT_EQ(decide(with_separation(falling_edge(1, 2), 1e300)).time, 0);
+  for (const Kind kind : kinds) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+}
+
+TEST(Advance, DoesNotReportWhatStaysFartherAway) {
+  EXPECT_FALSE(decide(falling_vertex(2, 2, 1, -1)).hit);
+  EXPECT_FALSE(decide(with_separation(falling_vertex(0.25, 0.25, 2, 1), 0.999)).hit);
+  EXPECT_FALSE(decide(with_separation(falling_vertex(-2, -3, 7, 5), 6.164)).hit);  // √38
+  EXPECT_TRUE(decide(with_separation(falling_vertex(-2, -3, 7, 5), 6.165)).hit);
+}
+
+TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
+  const auto expect_distance = [](const Query& query, double distance) {
+    EXPECT_TRUE(decide(with_separation(query, distance * (1 + 1e-9))).hit) << distance;
+    EXPECT_FALSE(decide(with_separation(query, distance * (1 - 1e-9))).hit) << distance;
+  };
+  expect_distance(edges_at(-0.5, 0.5, 2), 2);  // the lines' nearest points
+  expect_distance(edges_at(3, 0.5, 4), 5);     // an end and the other edge
+  expect_distance(edges_at(2, 4, 6), 7);       // two ends
+  expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
+}
+
+TEST(Advance, ReportsNothingBeyondItsBound) {
+  const Query touching = falling_vertex(0.25, 0.25, 0, 0);
+  const double bound = make_subject("advance")->distance_bound(touching);
+  EXPECT_GT(bound, 0);
+  EXPECT_LT(bound, 1e-13);
+  EXPECT_TRUE(decide(falling_vertex(0.25, 0.25, bound / 8, bound / 8)).hit);
+  EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, bound, bound)).hit);
+}
+
+// The triangle turns about the line x = 0 below a vertex at rest. Corners reach the vertex's height at once, but the plane never
+// comes nearer than that.
+TEST(Advance, CannotTellWhereOnlyAPartApproaches) {
+  const Query query = make_query(Kind::vertex_triangle, {{0, 0, 1e-9}, {-1, 0, 0}, {1, -1, 0}, {1, 1, 0}},
+                                 {{0, 0, 1e-9}, {-1, 0, -1}, {1, -1, 1}, {1, 1, 1}});
+  const Verdict verdict = decide(query);
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_EQ(verdict.stage, Stage::unknown);
+  EXPECT_GT(verdict.time, 1e-7);
+  EXPECT_LT(verdict.time, 1);
+}
+
+TEST(Advance, DoesNotDependOnTheUnitOfLength) {
+  for (const Query& query : {falling_vertex(0.3, 0.1, 0.7, -1.1), falling_edge(0.7, -1.1)}) {
+    const double time = decide(with_separation(query, 0.1)).time;
+    EXPECT_GT(time, 0);
+    for (const double factor : {0x1p-1000, 0x1p-90, 0x1p90, 0x1p1020})
+      EXPECT_EQ(decide(with_separation(scaled(query, factor), 0.1 * factor)).time, time) << factor;
+  }
+}
+
+TEST(Advance, AllowsForDifferencesThatOverflow) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const Query query = scaled(falling_vertex(0.25, 0.25, 1, -1), most);
+  expect_just_before(query, 0, 0.5);
+  expect_just_before(query, most / 2, 0.25);
+  EXPECT_TRUE(std::isfinite(make_subject("advance")->distance_bound(query)));
+}
+
+TEST(DifferencePolygon, HasTheDistanceOfThePrimitives) {
+  const DifferencePolygon<Kind::edge_edge, double> polygon(edges_at(3, 0.5, 4));
+  const auto corners = polygon.at(0.5);
+  EXPECT_EQ(corners[0] + corners[2], corners[1] + corners[3]);  // a parallelogram
+  EXPECT_EQ((nearest_point<Kind::edge_edge, double>(corners).squared_distance), 25);
+  EXPECT_EQ(polygon.X, 4);
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,91 @@
+// The lower bound of the time that wang-time gives, on queries whose times are known.
+#include "ccd/wang_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ccd/subject.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+using testing::scaled;
+
+Verdict decide(const Query& query) { return make_subject("wang-time")->decide(query); }
+
+/// A time from `time` - 1e-10 up to `time`.
+void expect_just_before(const Query& query, double time) {
+  const Verdict verdict = decide(query);
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_LE(verdict.time, time);
+  EXPECT_GE(verdict.time, time - 1e-10);
+}
+
+TEST(WangTime, IsJustBeforeContact) {
+  expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5);
+  expect_just_before(falling_vertex(0.25, 0.25, 1, 0), 1);
+  expect_just_before(falling_vertex(0, 0, 3, -1), 0.75);
+  expect_just_before(falling_edge(1, -3), 0.25);
+}
+
+TEST(WangTime, IsZeroForContactAtTheStart) {
+  EXPECT_EQ(decide(falling_vertex(0.25, 0.25, 0, 1)).time, 0);
+  EXPECT_EQ(decide(falling_edge(0, 1)).time, 0);
+  for (const Kind kind : kinds) EXPECT_EQ(decide(Query{.kind = kind}).time, 0);
+}
+
+TEST(WangTime, IsThatOfAPlaneForMotionInOnePlane) {
+  const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 1, 0);
+  expect_just_before(make_query(Kind::vertex_triangle, {{-1, 0.25, 0}, o, a, b}, {{1, 0.25, 0}, o, a, b}),
+                     0.5);
+  expect_just_before(make_query(Kind::vertex_triangle, {{1, 1, 0}, o, a, b}, {{0, 0, 0}, o, a, b}), 0.5);
+  const Vector3<double> c(0, -1, 0);
+  expect_just_before(
+      make_query(Kind::edge_edge, {{2, 0, 0}, {3, 0, 0}, b, c}, {{-2, 0, 0}, {-1, 0, 0}, b, c}), 0.5);
+}
+
+// No axis and no diagonal is a normal of the edge from (1, 0, 0) to (0, 3, 0).
+TEST(WangTime, IsZeroIfNoPlaneSeparatesMotionInOnePlane) {
+  const Vector3<double> o(0, 0, 0), a(1, 0, 0), b(0, 3, 0);
+  const Query query = make_query(Kind::vertex_triangle, {{0.6, 1.5, 0}, o, a, b}, {{0, 0, 0}, o, a, b});
+  EXPECT_TRUE(decide(query).hit);
+  EXPECT_EQ(decide(query).time, 0);
+}
+
+// The plane of the triangle is z = t y. The vertex is in it at t = 1/4, beside the triangle, and at t = 3/4, inside.
+TEST(WangTime, LeavesOutARootThatIsNoContact) {
+  const Vector3<double> o(0, 0, 0), a(1, 0, 0);
+  const Query query = make_query(Kind::vertex_triangle, {{0.875, 1.5, 0.1875}, o, a, {0, 3, 0}},
+                                 {{-0.025, 0.5, 0.6875}, o, a, {0, 3, 3}});
+  EXPECT_LT((detail::separated_until(make_pair<Kind::vertex_triangle, double>(query), AllSteps())), 0.25);
+  expect_just_before(query, 0.75);
+}
+
+TEST(WangTime, DoesNotDependOnTheUnitOfLength) {
+  for (const Query& query : {falling_vertex(0.3, 0.1, 0.7, -1.1), falling_edge(0.7, -1.1)}) {
+    const double time = decide(query).time;
+    EXPECT_GT(time, 0);
+    for (const double factor : {0x1p-1000, 0x1p-90, 0x1p90, 0x1p1020})
+      EXPECT_EQ(decide(scaled(query, factor)).time, time) << factor;
+  }
+}
+
+TEST(WangTime, DoesNotDependOnAGivenBound) {
+  const Query query = falling_vertex(0.3, 0.1, 0.7, -1.1);
+  EXPECT_EQ(make_subject("wang-time@1e3")->decide(query).time, decide(query).time);
+}
+
+// If only a given bound makes a pair collide, it has no contact before the end.
+TEST(WangTime, IsOneWithoutContact) {
+  const Query query = falling_vertex(0.25, 0.25, 2, 1);
+  const Verdict verdict =
+      wang_time<Kind::vertex_triangle, double, WangOptions{false, VeCulling::none}>(query, 1e6);
+  EXPECT_TRUE(verdict.hit);
+  EXPECT_EQ(verdict.time, 1);
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,126 @@
+// The subjects of ccd/ that give times, on all families.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "fuzz/families/families.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "oracle/earliest_time.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// Counts of `count` queries of a family for each kind, with seed 3.
+std::vector<Counts> counts_of(const std::string& subject, const Family& family, std::uint64_t count) {
+  Subjects subjects;
+  subjects.push_back(make_any_subject(subject));
+  std::vector<Counts> found;
+  for (const Kind kind : kinds) {
+    Batch batch{.kind = kind, .family = family.name, .timed = false};
+    for (std::uint64_t i = 0; batch.queries.size() < count; ++i)
+      if (kind_of(i) == kind) batch.queries.push_back(make_query(family, 3, i));
+    batch.provenance = [&](std::size_t i) {
+      return family.name + ":3:" + std::to_string(2 * i + static_cast<std::size_t>(kind));
+    };
+    const TrialResult result = hold_trial(subjects, batch);
+    for (const Finding& finding : result.findings)
+      ADD_FAILURE() << subject << ": " << name(finding.what) << ", " << finding.provenance;
+    found.push_back(result.statistics.counts.at({subject, kind, family.name}));
+  }
+  return found;
+}
+
+/// The number of queries of a family, for each kind; fewer if they are slow.
+std::uint64_t cases(const Family& family, std::uint64_t usual) {
+  return family.block_cases < 25 ? usual / 10 : usual;
+}
+
+class TimesOf : public ::testing::TestWithParam<Family> {};
+INSTANTIATE_TEST_SUITE_P(AllFamilies, TimesOf,
+                         ::testing::ValuesIn(all_families().begin(), all_families().end()),
+                         [](const auto& each) {
+                           std::string name = each.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(TimesOf, WangTimeMissesNothingAndIsNeverLate) {
+  if (GetParam().has_separation) GTEST_SKIP() << "wang-time takes no separation";
+  for (const Counts& counts : counts_of("wang-time", GetParam(), cases(GetParam(), 1000)))
+    EXPECT_EQ(counts.times_given, counts.collisions);
+}
+
+TEST_P(TimesOf, WangTimeDecidesAsWang) {
+  const auto wang = make_any_subject("wang");
+  const auto timed = make_any_subject("wang-time");
+  for (std::uint64_t i = 0; i < cases(GetParam(), 1000); ++i) {
+    const Query query = with_separation(make_query(GetParam(), 3, i), 0);
+    const Verdict expected = wang->decide(query);
+    const Verdict verdict = timed->decide(query);
+    ASSERT_EQ(verdict.hit, expected.hit) << i;
+    ASSERT_EQ(verdict.stage, expected.stage) << i;
+    ASSERT_EQ(verdict.rejection, expected.rejection) << i;
+    ASSERT_EQ(timed->distance_bound(query), wang->distance_bound(query)) << i;
+  }
+}
+
+TEST_P(TimesOf, AdvanceMissesNothingAndIsNeverLateOrBeyondItsBound) {
+  for (const Counts& counts : counts_of("advance", GetParam(), cases(GetParam(), 1000)))
+    EXPECT_EQ(counts.times_given, counts.collisions);
+}
+
+TEST_P(TimesOf, AdvanceIsSoundWithSeparations) {
+  if (GetParam().has_separation) GTEST_SKIP() << "the family has its own separations";
+  const Family family = with_separation(GetParam(), drawn_separation);
+  for (const Counts& counts : counts_of("advance", family, cases(GetParam(), 400)))
+    EXPECT_EQ(counts.times_given, counts.collisions);
+}
+
+TEST(TimesOfSubjects, AreNearWhereNothingIsHard) {
+  const std::map<std::string, double> largest{{"wang-time", 1e-8}, {"advance", 1e-9}};
+  for (const auto& [subject, error] : largest)
+    for (const Counts& counts : counts_of(subject, find_family("uniform"), 5000)) {
+      EXPECT_GT(counts.collisions, 100) << subject;
+      EXPECT_LT(counts.early_quantile(0.99).to, error) << subject;
+      EXPECT_EQ(counts.stuck, 0) << subject;
+    }
+}
+
+TEST(TimesOfSubjects, AreOfTheSortThatEachPromises) {
+  const std::map<std::string, TimeSort> sorts{
+      {"basic", TimeSort::estimate},        {"basic-plain", TimeSort::estimate},
+      {"basic:float", TimeSort::estimate},  {"wang", TimeSort::none},
+      {"wang-eps", TimeSort::none},         {"wang-plain", TimeSort::none},
+      {"wang-tight", TimeSort::none},       {"wang:dd", TimeSort::none},
+      {"wang-time", TimeSort::lower_bound}, {"advance", TimeSort::lower_bound},
+      {"adaptive", TimeSort::none}};
+  for (const auto& [name, sort] : sorts) EXPECT_EQ(make_any_subject(name)->time_sort(), sort) << name;
+}
+
+TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {
+  for (const char* name : {"basic", "wang", "wang-time", "wang:dd", "adaptive"})
+    EXPECT_FALSE(make_any_subject(name)->takes_separation()) << name;
+  for (const char* name : {"advance", "exact"})
+    EXPECT_TRUE(make_any_subject(name)->takes_separation()) << name;
+}
+
+// The time of basic is that of the root which it accepts.
+TEST(TimesOfSubjects, BasicGivesTheTimeOfContact) {
+  const auto basic = make_any_subject("basic");
+  int hits = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Query query = make_query(find_family("uniform"), 3, i);
+    const Verdict verdict = basic->decide(query);
+    if (!verdict.hit) continue;
+    ++hits;
+    EXPECT_NEAR(verdict.time, earliest_time(query)->known().lo, 1e-12) << i;
+  }
+  EXPECT_GT(hits, 100);
+}
+
+}  // namespace
+}  // namespace nearmiss
