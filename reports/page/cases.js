@@ -18,8 +18,8 @@ function drawShrunk(finding) {
   return made("div", [command(finding.again), queryText(finding.shrunk), copyQuery(finding.shrunk), original]);
 }
 
-const picture = (query) => ({
-  title: "t = 0, t* or closest, t = 1", text: (r) => drawPicture(r.kind, r[query], r.time, r.toi),
+const picture = (query, title = "t = 0, t* or closest, t = 1") => ({
+  title, text: (r) => drawPicture(r.kind, r[query], r.time, r.toi),
 });
 
 function drawFindings() {
@@ -59,7 +59,7 @@ function drawExtremeTimes() {
   const isLate = ({ subject, kind, side }) => side === "after" && report.subjects[subject][kind].late > 0;
   const what = (r) => (isLate(r) ? "late" : r.side === "early" ? "early" : "after t*");
   fillTable(element("extreme-times"), [
-    picture("query"),
+    picture("query", "t = 0, toi and t*, t = 1"),
     { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`, isLate(r) ? { class: "bad" } : {}),
       made("div", `${what(r)} by ${short(r.error)} of the step`), made("div", `from ${r.provenance}`)]) },
     { title: "query", text: (r) => made("div", [queryText(r.query), copyQuery(r.query)]) },

@@ -3,8 +3,8 @@
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
 /** The two sorts of time, told apart by two looks. */
-const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks } });
-const solidOrDashed = bySort([[1, 0], [4, 3]]);
+const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
+  legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
 
 /** The subjects, by kind, that gave times. */
 const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
@@ -48,20 +48,21 @@ function drawEarliness() {
   const own = { x, color: hue, tooltip };
   const tick = (field, width) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width }, encoding: { ...own, y: y(field) } });
   const late = rows.filter((row) => row.late > 0);
-  const text = { data: { values: earlinessLabels(rows, ends, axis.scale.domain, size) },
-    mark: { type: "text", fontSize: labelSize, color: look.title.color }, encoding: { x, y: y("median"), text: { field: "subject" } } };
+  const labels = earlinessLabels(rows, ends, axis.scale.domain, size);
+  const text = (mark) => ({ data: { values: labels }, mark: { type: "text", fontSize: labelSize, ...mark },
+    encoding: { x, y: y("median"), text: { field: "subject" } } });
   return draw("earliness", "For each subject that gives times, the run time of a query, and how far its times are from the exact ones.", {
     width: size[0], height: size[1], data: { values: rows },
     layer: [
       { data: { values: rows.filter((row) => front.includes(row.subject)) },
-        mark: { type: "line", interpolate: "step-after", strokeDash: [8, 5], color: words.labelColor }, encoding: { x, y: y("q99") } },
-      { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("median"), y2: { field: "y.largest" }, strokeDash: { ...solidOrDashed, legend: null } } },
+        mark: { type: "line", interpolate: "step-after", strokeDash: [8, 5], color: color("--soft") }, encoding: { x, y: y("q99") } },
+      { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("median"), y2: { field: "y.largest" }, strokeDash: bySort([[1, 0], [4, 3]]) } },
       tick("q99", 14), tick("largest", 7),
       { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
         encoding: { ...own, y: y("median"), shape: bySort(["circle", "diamond"]) } },
       { data: { values: late }, mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1,
         color: color("--bad"), stroke: color("--paper") }, encoding: { x, y: y("median"), tooltip } },
-      text,
+      text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") }),
     ],
   });
 }
@@ -78,14 +79,14 @@ function drawTimes() {
   const byFamily = element("times-by-family").checked;
   const rows = (byFamily ? countRows(true) : classRows()).filter((row) => subjects.has(row.subject));
   const ifGiven = (column) => ({ ...column, text: (r) => (r.times_given > 0 ? column.text(r) : "–") });
-  const ends = (title, field) => ifGiven({ title, number: (r) => r[field][1], text: (r) => r[field].map((x) => short(Number(x.toPrecision(2)))).join("–") });
+  const upperEnd = (title, field) => ifGiven({ title, number: (r) => r[field][1], text: (r) => short(r[field][1]) });
   const invalid = (r) => r.faults.invalid ?? 0;
   fillTable(element("times"), [
     text("subject", "subject"), text("kind", "kind"), text("class", "class"), ...(byFamily ? [text("family", "family")] : []),
-    { title: "sort of time", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, count("times", "times_given"), lateTimes, count("stuck", "stuck"),
+    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, count("times", "times_given"), lateTimes, count("stuck", "stuck"),
     { title: "invalid", number: invalid, text: (r) => integer(invalid(r)), bad: (r) => invalid(r) > 0 }, count("unknown", "unknown"),
-    ends("early: median", "median_early"), ends("99 %", "q99_early"), ifGiven(number("most", "max_early")),
-    ifGiven(number("after t*: most", "max_after")), ends("99 % travelled / B", "q99_travelled"),
+    upperEnd("early: median", "median_early"), upperEnd("99 %", "q99_early"), ifGiven(number("most", "max_early")),
+    ifGiven(number("after t*", "max_after")), upperEnd("travelled / B", "q99_travelled"),
   ], rows, true);
 }
 
@@ -104,31 +105,44 @@ function binsOfErrors(row) {
   ];
 }
 
+/** A strip for each chosen subject and kind, all over the same axis. */
 function drawTimeErrors() {
-  const all = timedRows().flatMap(binsOfErrors);
+  const rows = timedRows();
+  const all = rows.flatMap(binsOfErrors);
   const used = all.filter((bin) => bin.count > 0).map((bin) => bin.place);
   const [first, last] = [Math.min(0, ...used) - 3, Math.max(0, ...used) + 3];
-  const values = all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last);
   // The border of bin i is at place i - 1/2; a tick stands at every fourth power of ten.
   const [lowest, ratio] = [report.histogram_borders[1], report.histogram_borders[2] / report.histogram_borders[1]];
   const perTick = Math.round(4 / Math.log10(ratio));
   const ticks = [0];
   for (let place = perTick + 0.5; place < last || -place > first; place += perTick) ticks.push(place, -place);
-  const label = `datum.value === 0 ? '0' : (datum.value < 0 ? '−' : '') + format(${lowest} * pow(${ratio}, abs(datum.value) - 0.5), '.0e')`;
+  const label = `datum.value === 0 ? '0' : (datum.value < 0 ? '−' : '') + format(${lowest} * pow(${ratio}, abs(datum.value) - 0.5), '~g')`;
   const x = { field: "place", type: "quantitative", title: "toi − t*", scale: { domain: [first, last], nice: false },
-    axis: { values: ticks.filter((place) => place >= first && place <= last), labelExpr: label, labelAngle: -40 } };
-  const border = { data: { values: [{ place: 0.5 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 }, encoding: { x } };
-  const panel = (kind) => ({
-    width: panelWidth(420, 190), height: 220, title: kindTitles[kind],
-    layer: [
-      { transform: [{ filter: `datum.kind === "${kind}"` }], mark: { type: "line", interpolate: "step", strokeWidth: 2 },
-        encoding: { x, color: chosenColor(), strokeDash: solidOrDashed,
-          y: { field: "count", type: "quantitative", title: "times", scale: { type: "symlog" }, axis: { tickCount: 6, format: "~d" } },
-          tooltip: [{ field: "subject" }, { field: "sort", title: "time" }, { field: "error" }, { field: "count", title: "times" }] } },
-      border,
-    ],
+    axis: { values: ticks.filter((place) => place >= first && place <= last), labelExpr: label } };
+  const names = chosenNames().filter((name) => rows.some((row) => row.subject === name));
+  const most = Math.max(...all.map((bin) => bin.count));
+  const strips = (kind, isFirst) => ({
+    title: kindTitles[kind], transform: [{ filter: `datum.kind === "${kind}"` }],
+    facet: { row: { field: "row", title: null, sort: names.map((name) => rowName(rows, name)),
+      header: isFirst ? { labelAngle: 0, labelAlign: "left", labelPadding: 12 } : { labels: false } } },
+    spacing: 6,
+    spec: {
+      width: panelWidth(400, 330), height: 44,
+      layer: [
+        { mark: { type: "area", interpolate: "step", line: { strokeWidth: 1 }, opacity: 0.6 },
+          encoding: { x, color: { ...chosenColor(), legend: null },
+            y: { field: "count", type: "quantitative", title: null, stack: null, scale: { type: "symlog", domain: [0, most] }, axis: { values: [0, 10, 1000, 100000], labelExpr: "format(datum.value, '~s')" } },
+            tooltip: [{ field: "subject" }, { field: "error" }, { field: "count", title: "times" }] } },
+        { data: { values: [{ place: 0.5 }] }, mark: { type: "rule", color: color("--bad") }, encoding: { x } },
+      ],
+    },
   });
-  return draw("time-errors", "The number of times at each difference from the exact earliest time, on both sides of 0.", {
-    data: { values }, hconcat: ["vt", "ee"].filter((kind) => all.some((bin) => bin.kind === kind)).map(panel),
-  });
+  const kinds = ["vt", "ee"].filter((kind) => rows.some((row) => row.kind === kind));
+  const values = all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last)
+    .map((bin) => ({ ...bin, row: rowName(rows, bin.subject) }));
+  return draw("time-errors", "The number of times at each difference from the exact earliest time, on both sides of 0.",
+    { data: { values }, hconcat: kinds.map((kind, i) => strips(kind, i === 0)) });
 }
+
+/** The name of a subject's strip: with the sort of its times. */
+const rowName = (rows, subject) => `${subject} (${rows.find((row) => row.subject === subject).sort})`;
