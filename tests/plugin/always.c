@@ -1,4 +1,5 @@
-/* A complete plug-in. The return value of its answers, its sort of time and its claimed distance bound are set when it is compiled. */
+/* A complete plug-in. The return value of its answers, its sort of time, whether it takes a
+ * separation, and its claimed distance bound are set when it is compiled. */
 #include <stddef.h>
 #include <stdlib.h>
 
