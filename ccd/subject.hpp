@@ -86,6 +86,11 @@ enum class TimeSort : std::uint8_t {
   lower_bound,  ///< a time that is not after it: nothing happens before
 };
 
+/// Names of the sorts of time in reports, in order.
+inline constexpr std::array<std::string_view, 3> time_sort_names{"none", "estimate", "lower-bound"};
+
+constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
+
 /// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
 struct Contract {
   bool apart_at_start = false;  ///< at t = 0, the distance of the primitives is more than the separation

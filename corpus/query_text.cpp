@@ -29,12 +29,6 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-std::size_t count_of_words(std::string_view line) {
-  std::size_t count = 0;
-  while (!next_word(line).empty()) ++count;
-  return count;
-}
-
 /// A finite double or float. Throws Error that says what was expected.
 template <class Number>
 Number parse(std::string_view text, std::string_view where, std::string_view expected) {
@@ -102,16 +96,16 @@ float parse_float(std::string_view text, std::string_view where) {
   return parse<float>(text, where, "a number in the range of float");
 }
 
-void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {
-  std::string_view rest = line;
+namespace {
+
+/// Parses the first words of a line into `numbers`. Returns the number of all words.
+std::size_t parse_words(std::string_view line, std::span<double> numbers, std::string_view where) {
   std::size_t count = 0;
-  for (auto word = next_word(rest); !word.empty(); word = next_word(rest), ++count)
+  for (auto word = next_word(line); !word.empty(); word = next_word(line), ++count)
     if (count < numbers.size()) numbers[count] = parse_number(word, where);
-  if (count != numbers.size())
-    throw Error(fmt::format("{}: found {} numbers, expected {}", where, count, numbers.size()));
+  return count;
 }
 
-namespace {
 
 double checked_separation(double separation, std::string_view where) {
   if (separation >= 0) return separation + 0.0;  // -0 is 0
@@ -120,6 +114,11 @@ double checked_separation(double separation, std::string_view where) {
 }
 
 }  // namespace
+
+void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where) {
+  if (const std::size_t count = parse_words(line, numbers, where); count != numbers.size())
+    throw Error(fmt::format("{}: found {} numbers, expected {}", where, count, numbers.size()));
+}
 
 double parse_separation(std::string_view text, std::string_view where) {
   return checked_separation(parse_number(text, where), where);
@@ -160,10 +159,9 @@ std::string to_readable(const Query& query) {
 
 Query parse_line(Kind kind, std::string_view line, std::string_view where) {
   std::array<double, 25> numbers{};
-  const std::size_t count = count_of_words(line);
+  const std::size_t count = parse_words(line, numbers, where);
   if (count != 24 && count != 25)
     throw Error(fmt::format("{}: found {} numbers, expected 24, or 25 with a separation", where, count));
-  parse_numbers(line, std::span(numbers).first(count), where);
   Query query{.kind = kind};
   std::copy_n(numbers.begin(), query.x.size(), query.x.begin());
   query.separation = checked_separation(numbers.back(), where);

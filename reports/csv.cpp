@@ -47,18 +47,16 @@ void add_column(CsvColumns& columns, std::string heading, const Number& number) 
                      }});
 }
 
-/// Adds the two columns of a range; `range` computes its ends from the counters.
+/// Adds the two columns of a range; `range` computes it from the counters.
 template <class Range>
 void add_range(CsvColumns& columns, const std::string& name, const Range& range) {
-  add_column(columns, name + "_from", [range](const Counts& counts) { return range(counts).first; });
-  add_column(columns, name + "_to", [range](const Counts& counts) { return range(counts).second; });
+  add_column(columns, name + "_from", [range](const Counts& counts) { return range(counts).from; });
+  add_column(columns, name + "_to", [range](const Counts& counts) { return range(counts).to; });
 }
 
 void add_quantile(CsvColumns& columns, const std::string& name, double part) {
-  add_range(columns, name + "_fp_distance_over_bound", [part](const Counts& counts) {
-    const Bin bin = counts.ratio_quantile(part);
-    return std::pair(bin.from, bin.to);
-  });
+  add_range(columns, name + "_fp_distance_over_bound",
+            [part](const Counts& counts) { return counts.ratio_quantile(part); });
 }
 
 std::string upper_bound_of_misses(const CsvRow& row) {
@@ -74,7 +72,7 @@ void add_computed(CsvColumns& columns, std::uint64_t Counts::*counter) {
     add_column(columns, "false_positive_rate", &Counts::false_positive_rate);
     add_range(columns, "false_positive_rate", [](const Counts& c) {
       const ConfidenceInterval interval = clopper_pearson(c.false_positives, c.others());
-      return std::pair(interval.lo, interval.hi);
+      return Bin{interval.lo, interval.hi};
     });
   }
   if (counter == &Counts::refuted_bounds) {
@@ -93,12 +91,10 @@ void add_times(CsvColumns& columns, std::uint64_t Counts::*counter) {
   if (counter != &Counts::stuck) return;
   add_column(columns, "unknown", &Counts::unknown);
   for (const auto& [name, part] : {std::pair{"median_early", 0.5}, {"q99_early", 0.99}})
-    add_range(columns, name, [part](const Counts& counts) {
-      const Bin bin = counts.early_quantile(part);
-      return std::pair(bin.from, bin.to);
-    });
+    add_range(columns, name, [part](const Counts& counts) { return counts.early_quantile(part); });
   add_column(columns, "max_early", &Counts::max_early);
   add_column(columns, "max_after", &Counts::max_after);
+  add_range(columns, "q99_travelled", [](const Counts& counts) { return counts.travelled.quantile(0.99); });
 }
 
 void add_counter(CsvColumns& columns, const Counter<Counts, std::uint64_t>& counter) {

@@ -33,31 +33,42 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The time at which the page shows a query: at the first contact, or without contact when the primitives are
-/// closest.
+/// The time at which the page shows a query: t*, or when the primitives are closest if there is none.
 double moment(const Query& query) {
-  auto contact = earliest_time(query);
-  return contact ? contact->enclosure(1e-6).lo : closest_time(query);
+  auto earliest = earliest_time(query);
+  return earliest ? earliest->enclosure().lo : closest_time(query);
+}
+
+/// The 24 coordinates; a separation other than 0 follows, as in a query file.
+ordered_json numbers_json(const Query& query) {
+  ordered_json json = query.x;
+  if (query.separation != 0) json.push_back(query.separation);
+  return json;
 }
 
 ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bool is_new) {
   const Finding& finding = each.finding;
-  return {{"what", name(finding.what)},
-          {"subject", finding.subject},
-          {"signature", finding.signature},
-          {"new", is_new},
-          {"seen", each.seen},
-          {"kind", short_name(finding.query.kind)},
-          {"family", finding.family},
-          {"provenance", finding.provenance},
-          {"ratio", finding.ratio},
-          {"shrunk", finding.shrunk.x},
-          {"explanation", to_text(explain(finding.shrunk))},
-          {"time", moment(finding.shrunk)},
-          {"original", finding.query.x},
-          {"again", replay_command(campaign, each)},
-          {"file", "cases/" + each.shrunk.file},
-          {"original_file", "cases/" + each.original.file}};
+  ordered_json json{{"what", name(finding.what)},
+                    {"subject", finding.subject},
+                    {"signature", finding.signature},
+                    {"new", is_new},
+                    {"seen", each.seen},
+                    {"kind", short_name(finding.query.kind)},
+                    {"family", finding.family},
+                    {"provenance", finding.provenance},
+                    {"ratio", finding.what == Finding::What::late ? 0 : finding.ratio},
+                    {"shrunk", numbers_json(finding.shrunk)},
+                    {"explanation", to_text(explain(finding.shrunk))},
+                    {"time", moment(finding.shrunk)},
+                    {"original", numbers_json(finding.query)},
+                    {"again", replay_command(campaign, each)},
+                    {"file", "cases/" + each.shrunk.file},
+                    {"original_file", "cases/" + each.original.file}};
+  if (finding.what == Finding::What::late) {
+    json["late_by"] = finding.ratio;
+    json["toi"] = finding.time;
+  }
+  return json;
 }
 
 ordered_json farthest_json(const ShownFarthest& each) {
@@ -69,9 +80,21 @@ ordered_json farthest_json(const ShownFarthest& each) {
           {"ratio", each.far.ratio},
           {"bound_of_distances", name(each.unit)},
           {"provenance", each.far.provenance},
-          {"query", each.far.query.x},
+          {"query", numbers_json(each.far.query)},
           {"time", moment(each.far.query)},
           {"file", "farthest/" + each.exported.file}};
+}
+
+ordered_json extreme_time_json(const ShownTime& each) {
+  const double time = moment(each.far.query);
+  return {{"subject", each.subject},
+          {"kind", short_name(each.kind)},
+          {"side", each.is_early ? "early" : "after"},
+          {"error", each.far.ratio},
+          {"provenance", each.far.provenance},
+          {"query", numbers_json(each.far.query)},
+          {"time", time},
+          {"toi", each.given(time)}};
 }
 
 /// The rates of each subject and kind in the baseline and now.
@@ -168,6 +191,9 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(statistics))
     json["farthest"].push_back(farthest_json(each));
+  json["extreme_times"] = ordered_json::array();
+  for (const ShownTime& each : extreme_times(statistics))
+    json["extreme_times"].push_back(extreme_time_json(each));
   if (auto rows = deciders_json(statistics); !rows.empty()) json["deciders"] = std::move(rows);
   if (const auto ladder = ladder_json(statistics)) json["ladder"] = *ladder;
   add_pictures(json, campaign);

@@ -23,7 +23,7 @@ struct ReportContext {
 
 /// Everything that the page shows: summary_json by shown family (family.hpp); the headline, a verdict on each subject,
 /// error against run time, the histogram's borders, the names of the stages, the first findings of each signature and the
-/// farthest false positives with the names of their case files; and the sections of `context`.
+/// farthest false positives with the names of their case files, the earliest and latest times; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the files of a report:

@@ -69,13 +69,16 @@ Query SeparationOption::apply(const Query& query) const {
   return is_given() ? with_separation(query, parse_separation(text, "--separation")) : query;
 }
 
+void expect_separation(const Subject& subject) {
+  if (!subject.takes_separation())
+    throw Error(
+        fmt::format("{}: answers for contact only, expected subjects that take a separation "
+                    "(nearmiss subjects)",
+                    subject.name()));
+}
+
 void expect_separations(const Subjects& subjects) {
-  for (const auto& subject : subjects)
-    if (!subject->takes_separation())
-      throw Error(
-          fmt::format("{}: answers for contact only, expected subjects that take a separation "
-                      "(nearmiss subjects)",
-                      subject->name()));
+  for (const auto& subject : subjects) expect_separation(*subject);
 }
 
 void add_bound_option(CLI::App& command, std::string& bound) {

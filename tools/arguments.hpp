@@ -40,7 +40,8 @@ struct SeparationOption {
   [[nodiscard]] Query apply(const Query& query) const;
 };
 
-/// Throws Error if a subject does not take a separation.
+/// Throws Error if the subject does not take a separation, or if one of them does not.
+void expect_separation(const Subject& subject);
 void expect_separations(const Subjects& subjects);
 
 /// --bound B: one bound for every pair.

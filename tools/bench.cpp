@@ -30,6 +30,7 @@ struct Options {
   std::vector<std::filesystem::path> paths;
   std::vector<std::string> subjects{"basic", "wang"};
   PluginLimitOptions limits;
+  SeparationOption separation;
   std::uint64_t queries = 20000;
   int runs = 31;
   JsonOutput json;
@@ -51,25 +52,32 @@ double median(RunTimes times) {
   return times[times.size() / 2];
 }
 
+/// The name of an input, with the separation if one is given.
+std::string named(std::string name, const SeparationOption& separation) {
+  return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
+}
+
 /// The first `count` queries of each kind in a family whose boxes meet.
-Input family_input(std::string_view name, std::uint64_t count) {
+Input family_input(std::string_view name, std::uint64_t count, const SeparationOption& separation) {
   const Family family = find_family(name);
-  Input input{std::string(name), {}};
+  Input input{named(std::string(name), separation), {}};
   for (std::uint64_t index = 0;
        std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) { return input.queries[kind].size() < count; });
        ++index) {
-    const Query query = make_query(family, 1, index);
+    const Query query = separation.apply(make_query(family, 1, index));
     if (auto& same = input.queries[query.kind]; same.size() < count && boxes_meet(query))
       same.push_back(query);
   }
   return input;
 }
 
-Input file_input(const std::filesystem::path& path) {
+Input file_input(const std::filesystem::path& path, const SeparationOption& separation) {
   const auto whole = path.lexically_normal();
-  Input input{(whole.has_filename() ? whole : whole.parent_path()).filename().string(), {}};
+  const auto last = (whole.has_filename() ? whole : whole.parent_path()).filename();
+  Input input{named(last.string(), separation), {}};
   read_cases(path, [&](const Case& each) {
-    if (boxes_meet(each.query)) input.queries[each.query.kind].push_back(each.query);
+    const Query query = separation.apply(each.query);
+    if (boxes_meet(query)) input.queries[query.kind].push_back(query);
   });
   if (input.queries.empty())
     throw Error(
@@ -127,10 +135,18 @@ std::vector<RunTimes> together(const std::vector<std::vector<RunTimes>>& by_kind
 
 std::vector<Input> inputs_of(const Options& options) {
   std::vector<Input> inputs;
-  for (const auto& path : options.paths) inputs.push_back(file_input(path));
+  for (const auto& path : options.paths) inputs.push_back(file_input(path, options.separation));
   for (const std::string_view name : {"uniform", "uniform-end", "uniform-slow"})
-    inputs.push_back(family_input(name, options.queries));
+    inputs.push_back(family_input(name, options.queries, options.separation));
   return inputs;
+}
+
+bool any_separation(const std::vector<Input>& inputs) {
+  for (const Input& input : inputs)
+    for (const auto& [kind, queries] : input.queries)
+      for (const Query& query : queries)
+        if (query.separation > 0) return true;
+  return false;
 }
 
 /// A number with some decimals, as a table shows it.
@@ -181,6 +197,7 @@ int run(const Options& options) {
   limits.stop = &stop;
   const Subjects subjects = make_subjects(options.subjects, limits);
   const std::vector<Input> inputs = inputs_of(options);
+  if (any_separation(inputs)) expect_separations(subjects);
   const std::string over = "/" + subjects.front()->name();
   std::FILE* const out = options.json.text();
   fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
@@ -209,6 +226,7 @@ void add_bench(CLI::App& app, int& exit_code) {
                       "Files and folders of cases to time in addition to the random inputs");
   add_subject_option(*command, options->subjects);
   options->limits.add_to(*command);
+  options->separation.add_to(*command);
   add_count_option(*command, "--queries", options->queries, 1, std::uint64_t{1} << 32,
                    "Number of random queries of each kind");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");

@@ -32,8 +32,8 @@ constexpr const char* about =
     "Try: nearmiss fuzz --subject basic,wang --cases 100000";
 
 constexpr const char* exit_codes =
-    "\nExit codes: 0 fine; 1 the results have a false negative, a refuted bound, an oracle disagreement,\n"
-    "or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be written (one\n"
+    "\nExit codes: 0 fine; 1 the results have a false negative, a late time, a refuted bound, an oracle\n"
+    "disagreement or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be written (one\n"
     "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
     "not answer are counted, and are no reason for 1.";
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "ccd/error.hpp"
@@ -35,12 +36,33 @@ std::string vertices(const Query& query, std::size_t time, Form language) {
   return text;
 }
 
+/// What happens first at t*, in words: "The primitives touch".
+std::string what_happens(const Query& query) {
+  return query.separation == 0
+             ? "The primitives touch"
+             : fmt::format("The primitives come within {} of each other", to_exact(query.separation));
+}
+
 std::string what_is_true(const Query& query) {
-  auto contact = earliest_time(query);
-  if (!contact) return "The primitives do not touch at any t in [0, 1].";
-  const auto [lo, hi] = contact->enclosure();
-  if (lo == hi) return fmt::format("The primitives touch, first at t = {}.", to_exact(lo));
-  return fmt::format("The primitives touch, first between t = {} and t = {}.", to_hex(lo), to_hex(hi));
+  auto earliest = earliest_time(query);
+  if (!earliest && query.separation == 0) return "The primitives do not touch at any t in [0, 1].";
+  if (!earliest)
+    return fmt::format("The distance of the primitives is more than {} at all t in [0, 1].",
+                       to_exact(query.separation));
+  const auto [lo, hi] = earliest->enclosure();
+  if (lo == hi) return fmt::format("{}, first at t = {}.", what_happens(query), to_exact(lo));
+  return fmt::format("{}, first between t = {} and t = {}.", what_happens(query), to_hex(lo), to_hex(hi));
+}
+
+/// The largest double that is not a late time. Throws Error if the distance first only touches h, because an answer after
+/// that may be right.
+double largest_time(const Query& query) {
+  auto earliest = *earliest_time(query);
+  const double lo = earliest.enclosure().lo;
+  if (earliest.makes_late(std::nextafter(lo, 2.0))) return lo;
+  throw Error(
+      "--as: the distance is first exactly the separation and then above it, expected a query with one right "
+      "time");
 }
 
 std::string what_was_answered(const Finding& finding) {
@@ -51,6 +73,8 @@ std::string what_was_answered(const Finding& finding) {
       return "reported a collision, although the primitives are farther apart than the bound that it claims";
     case Finding::What::fault:
       return fmt::format("gave no answer ({})", printable(finding.signature));
+    case Finding::What::late:
+      return "gave a later time as one before which nothing happens";
     default:
       throw Error(fmt::format("--as: found a finding of the kind {}, expected a failure of a subject",
                               name(finding.what)));
@@ -81,23 +105,58 @@ Form parse_form(std::string_view text, std::string_view option) {
   throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
 }
 
+namespace {
+
+/// The function of the reader that the test calls.
+struct Asked {
+  std::string name, returns;
+  std::string type;  ///< in C++
+};
+
+Asked asked(const Finding& finding) {
+  if (finding.what == Finding::What::late)
+    return {"time_of_impact", "the time before which nothing happens, by your detector", "double"};
+  const bool is_contact = finding.shrunk.separation == 0;
+  return {"detects",
+          is_contact ? "whether your detector reports a collision"
+                     : "whether your detector reports that the primitives come within the separation",
+          "bool"};
+}
+
+/// What must be true of the call's result.
+std::string expectation(const Finding& finding, const std::string& call, Form language) {
+  if (finding.what == Finding::What::late)
+    return fmt::format("{} <= {}", call, literal(largest_time(finding.shrunk), language));
+  const bool collision = collides(finding.shrunk);
+  return language == Form::python ? (collision ? "" : "not ") + call
+                                  : fmt::format("{} == {}", call, collision);
+}
+
+}  // namespace
+
 std::string pasted_test(const Finding& finding, Form language) {
   const Query& query = finding.shrunk;
-  const bool collision = collides(query);
+  const bool has_separation = query.separation != 0;
+  const Asked function = asked(finding);
+  const std::string call = fmt::format("{}(start, end{})", function.name,
+                                       has_separation ? ", " + literal(query.separation, language) : "");
+  const std::string expected = expectation(finding, call, language);
   const std::string name = query.kind == Kind::vertex_triangle ? "test_vertex_triangle" : "test_edge_edge";
   const std::string start = vertices(query, 0, language);
   const std::string end = vertices(query, 1, language);
   if (language == Form::python)
     return fmt::format(
-        "{}# Write a function detects(start, end) that returns whether your detector reports a collision.\n"
-        "def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n    assert {}detects(start, end)\n",
-        comment(finding, "#"), name, start, end, collision ? "" : "not ");
+        "{}# Write a function {}(start, end{}) that returns {}.\n"
+        "def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n    assert {}\n",
+        comment(finding, "#"), function.name, has_separation ? ", separation" : "", function.returns, name,
+        start, end, expected);
   return fmt::format(
-      "{}// Write a function `detects` that returns whether your detector reports a collision.\n"
-      "bool detects(const double (&start)[4][3], const double (&end)[4][3]);\n\n"
+      "{}// Write a function `{}` that returns {}.\n"
+      "{} {}(const double (&start)[4][3], const double (&end)[4][3]{});\n\n"
       "bool {}() {{\n  const double start[4][3] = {{\n{}  }};\n  const double end[4][3] = {{\n{}  }};\n"
-      "  return detects(start, end) == {};\n}}\n",
-      comment(finding, "//"), name, start, end, collision);
+      "  return {};\n}}\n",
+      comment(finding, "//"), function.name, function.returns, function.type, function.name,
+      has_separation ? ", double separation" : "", name, start, end, expected);
 }
 
 }  // namespace nearmiss::tools

@@ -22,8 +22,9 @@ Form parse_form(std::string_view text, std::string_view option);
 ///     bool test_vertex_triangle();  // whether `detects` gives the right answer
 ///
 /// In Python, the test is `test_vertex_triangle()`, which asserts it, and the points are lists. For a pair of edges, its
-/// name is test_edge_edge. `language` is not case_file. Throws Error for a finding of the
-/// oracle, which shows no truth.
+/// name is test_edge_edge. A query with a separation adds `double separation` to the arguments. If a time is late, the function
+/// is `double time_of_impact` with the same arguments, and must not give a time after t*. `language` is not case_file. Throws
+/// Error for a finding of the oracle, which shows no truth, and for a late time behind a distance of exactly the separation.
 std::string pasted_test(const Finding& finding, Form language);
 
 }  // namespace nearmiss::tools

@@ -27,13 +27,16 @@ struct Options {
   std::filesystem::path in, out;
   std::string subject = "wang", form = "case";
   PluginLimitOptions limits;
+  SeparationOption separation;
 };
 
-Case read_one(const std::filesystem::path& path) {
+/// The only case of a file, with the separation if one is given.
+Case read_one(const Options& options) {
   std::vector<Case> cases;
-  read_cases(path, [&](Case&& each) { cases.push_back(std::move(each)); });
+  read_cases(options.in, [&](Case&& each) { cases.push_back(std::move(each)); });
   if (cases.size() != 1)
-    throw Error(fmt::format("{}: found {} queries, expected one", path.string(), cases.size()));
+    throw Error(fmt::format("{}: found {} queries, expected one", options.in.string(), cases.size()));
+  cases.front().query = options.separation.apply(cases.front().query);
   return cases.front();
 }
 
@@ -48,16 +51,18 @@ Finding find_failure(const Case& each, const Subject& subject) {
             .query = each.query,
             .provenance = each.name,
             .signature = failure->signature};
-  throw Error(fmt::format(
-      "{}: {} does not fail, expected a missed collision, a report beyond its bound, no answer or an "
-      "oracle disagreement",
-      each.name, subject.name()));
+  throw Error(
+      fmt::format("{}: {} does not fail, expected a missed collision, a late time, a report beyond its "
+                  "bound, no answer or an "
+                  "oracle disagreement",
+                  each.name, subject.name()));
 }
 
 /// The subject, which is asked only queries that keep its contract, or only others, as this query does.
 std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();
+  if (query.separation > 0) expect_separation(subject);
   const bool keeps = keeps_contract(subject.rounded(query), subject.contract());
   return std::move(keeps ? sides.front() : sides.back());
 }
@@ -83,7 +88,7 @@ void write(const std::string& text, const Options& options, const std::string& b
 
 void run(const Options& options) {
   const Form form = parse_form(options.form, "--as");
-  const Case each = read_one(options.in);
+  const Case each = read_one(options);
   const auto subject = made_for(each.query, options);
   Finding finding = find_failure(each, *subject);
   finding.shrunk = shrunk_query(finding, subject.get());
@@ -106,6 +111,7 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
       ->add_option("--subject", options->subject, "A name (see nearmiss subjects), or the path of a plug-in")
       ->capture_default_str();
   options->limits.add_to(*command);
+  options->separation.add_to(*command);
   command->add_option("-o,--output", options->out, "Write to this file instead of stdout")->type_name("FILE");
   command
       ->add_option(
@@ -115,7 +121,7 @@ void add_shrink(CLI::App& app, int& /*exit_code*/) {
       ->capture_default_str();
   command->footer(
       "\nTwo failures are the same if their kind is, and the features of the first contact (of a missed "
-      "collision),\n"
+      "collision or of a\nlate time), "
       "the stage that accepted (of a report beyond the bound), or the fault (of no answer).\n"
       "Example: nearmiss shrink corpus/cases/rounding/vt-planted.case --subject basic");
   command->callback([options] { run(*options); });

@@ -44,8 +44,10 @@ TimeDifference difference(double time, EarliestTime& earliest) {
 std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth) const {
   const TimeSort sort = subject_.time_sort();
   if (sort == TimeSort::none || std::isnan(verdict.time)) return std::nullopt;
+  const bool promised = sort == TimeSort::lower_bound;
   const auto [magnitude, sign] = difference(verdict.time, truth.time());
-  TimeError error{.late = sort == TimeSort::lower_bound && truth.time().makes_late(verdict.time),
+  TimeError error{.promised = promised,
+                  .late = promised && truth.time().makes_late(verdict.time),
                   .stuck = verdict.time == 0 && sign < 0};
   (sign > 0 ? error.after : error.early) = magnitude;
   error.travelled = error.early * truth.relative_speed();

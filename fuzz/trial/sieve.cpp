@@ -1,12 +1,23 @@
 #include "fuzz/trial/sieve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fuzz/parallel.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 
 namespace nearmiss {
+
+namespace {
+
+/// The subject's time for the shrunk query. If it does not answer as before, that of the original query stays.
+double time_of_shrunk(const Finding& finding, const Subject& subject) {
+  const double time = subject.decide(finding.shrunk).time;
+  return std::isnan(time) ? finding.time : time;
+}
+
+}  // namespace
 
 const Subject* Sieve::subject_of(const Finding& finding) const {
   const auto same = [&](const auto& subject) { return subject->name() == finding.subject; };
@@ -30,8 +41,10 @@ void Sieve::shrink(std::vector<Finding>& findings) const {
     constexpr std::chrono::seconds longest(1);  // so that a slow subject spends its time on cases
     try {
       // Every step would take as long as the time limit. `nearmiss shrink` does it.
-      const bool is_late = finding.what == Finding::What::fault && is_of_time_limit(finding.signature);
-      if (!is_late) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_, longest);
+      const bool is_slow = finding.what == Finding::What::fault && is_of_time_limit(finding.signature);
+      if (!is_slow) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_, longest);
+      if (finding.what == Finding::What::late && finding.shrunk != finding.query)
+        finding.time = time_of_shrunk(finding, *subject_of(finding));
       finding.is_shrunk = true;
     } catch (const Stopped&) {  // the finding stays as it is
     }

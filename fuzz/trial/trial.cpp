@@ -167,11 +167,13 @@ class Judging {
 
   void keep(std::size_t i, const std::string& subject, Failure failure, const Query& query,
             const Outcome& outcome = {}) {
+    const bool is_late = failure.what == Finding::What::late;
     const double ratio = failure.what == Finding::What::refuted_bound ? outcome.ratio
-                         : failure.what == Finding::What::late        ? outcome.time->after
+                         : is_late                                    ? outcome.time->after
                                                                       : 0;
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
+    result_.findings.back().time = is_late ? outcome.verdict.time : 0;
     result_.findings.back().place = i;
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }

@@ -75,9 +75,9 @@ std::vector<Finding> Campaign::findings() const {
   std::vector<Finding> all;
   for (const Run& run : runs) all.insert(all.end(), run.findings.begin(), run.findings.end());
   std::stable_sort(all.begin(), all.end(), is_before);
-  std::set<std::tuple<Signature, Kind, std::array<double, 24>>> known;
+  std::set<std::tuple<Signature, Kind, std::array<double, 24>, double>> known;
   std::erase_if(all, [&](const Finding& f) {
-    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x).second;
+    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x, f.shrunk.separation).second;
   });
   return all;
 }

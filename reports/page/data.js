@@ -28,3 +28,6 @@ const isOfClaim = (row) => row.bound_of_distances === "claimed";
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 /** The same for all kinds of a subject. */
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
+
+/** The separation of a query: its number after the 24 coordinates, or 0. */
+const separationOf = (query) => query[24] ?? 0;

@@ -24,6 +24,8 @@ NEARMISS_ASSET(nearmiss_page_turning, NEARMISS_PAGE "/turning.js");
 NEARMISS_ASSET(nearmiss_page_picture, NEARMISS_PAGE "/picture.js");
 NEARMISS_ASSET(nearmiss_page_mesh, NEARMISS_PAGE "/mesh.js");
 NEARMISS_ASSET(nearmiss_page_error_time, NEARMISS_PAGE "/error_time.js");
+NEARMISS_ASSET(nearmiss_page_times, NEARMISS_PAGE "/times.js");
+NEARMISS_ASSET(nearmiss_page_cases, NEARMISS_PAGE "/cases.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
 NEARMISS_ASSET(nearmiss_page_ladder, NEARMISS_PAGE "/ladder.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
@@ -81,6 +83,8 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_picker_begin, nearmiss_page_picker_end),
                                       between(nearmiss_page_charts_begin, nearmiss_page_charts_end),
                                       between(nearmiss_page_error_time_begin, nearmiss_page_error_time_end),
+                                      between(nearmiss_page_times_begin, nearmiss_page_times_end),
+                                      between(nearmiss_page_cases_begin, nearmiss_page_cases_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
                                       between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
                                       between(nearmiss_page_js_begin, nearmiss_page_js_end)})

@@ -16,7 +16,7 @@ function drawHead() {
   element("headline").classList.toggle("bad", !clean);
   document.title = `${clean ? "ok" : "FAIL"}: nearmiss report`;
   element("runs").textContent = report.runs
-    .map((run) => [run.command, run.seed && `seed ${run.seed}`, run.started, run.seconds >= 1 && duration(run.seconds),
+    .map((run) => [run.command, run.seed && `seed ${run.seed}`, run.separation && `separation ${run.separation}`, run.started, run.seconds >= 1 && duration(run.seconds),
       run.missing && `INCOMPLETE: ${run.missing}`].filter(Boolean).join(", "))
     .join(" · ");
   const lines = report.verdicts.map((v) => ({ name: v.subject, bad: !v.clean, text: v.text }));
@@ -130,8 +130,8 @@ function drawCounts() {
         (r.false_positive_rate_interval_95 === null ? "" : ` (${percentRange(r.false_positive_rate_interval_95)})`) },
     range("median dist.", "median_fp_distance_over_bound"), range("99 % dist.", "q99_fp_distance_over_bound"),
     { ...largest, text: (r) => { const far = farthestOf(r); return far ? made("a", largest.text(r), { href: far.file }) : "–"; } },
-    count("beyond", "refuted_bounds", true), ...(rows.some(faults) ? [noAnswer] : []),
-    number("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
+    count("beyond", "refuted_bounds", true), ...(rows.some((r) => r.times_promised > 0) ? [lateTimes] : []),
+    ...(rows.some(faults) ? [noAnswer] : []), number("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
     { title: "timed singly", number: (r) => r.times.sampled, text: (r) => integer(r.times.sampled) },
   ];
   fillTable(element("counts"), columns, rows, true);
@@ -227,57 +227,6 @@ function drawTightness() {
   ], rows);
 }
 
-// --- cases ----------------------------------------------------------------------------------------
-
-/** Shows the failure, the number of times that it was seen, and the origin of its query. */
-function drawFailure(finding) {
-  const what = `${finding.what} of ${finding.subject || "the oracle"}` + (finding.ratio ? `, ${timesTheBound(finding.ratio, finding)}` : "");
-  return made("div", [
-    ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
-    made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
-    made("div", `from ${finding.provenance}`), made("div", `the simplest query: ${finding.explanation}`),
-  ]);
-}
-
-/** Shows the command that replays the finding, the shrunk query, and a fold-out with the original query. */
-function drawShrunk(finding) {
-  const original = made("details", [made("summary", finding.original_file), queryText(finding.original), copyQuery(finding.original)]);
-  return made("div", [command(finding.again), queryText(finding.shrunk), copyQuery(finding.shrunk), original]);
-}
-
-const picture = (query) => ({
-  title: "t = 0, contact or closest, t = 1", text: (r) => drawPicture(r.kind, r[query], r.time),
-});
-
-function drawFindings() {
-  show("findings-section");
-  const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
-  element("findings-note").textContent = seen === 0
-    ? "None: no false negative, no bound refuted, no disagreement."
-    : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way are kept and shrunk to the ` +
-      "simplest query that fails in the same way. findings.csv lists them, and cases/ has a case file for each shrunk query and for " +
-      "each original query. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
-      "Pictures show both primitives at contact, or when they are closest if there is no contact. They are pale at t = 0, and pale " +
-      "and dashed at t = 1. Mouse and arrow keys turn the pictures.";
-  if (seen === 0) return;
-  const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));
-  fillTable(element("findings"), [
-    picture("shrunk"),
-    { title: "what", text: drawFailure }, { title: "the simplest query that fails in the same way", text: drawShrunk },
-  ], newFirst);
-}
-
-function drawFarthest() {
-  const rows = countRows(false).map(farthestOf).filter(Boolean);
-  if (rows.length === 0) return;
-  show("farthest-section");
-  fillTable(element("farthest"), [
-    picture("query"),
-    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio, r)), made("div", `from ${r.provenance}`)]) },
-    { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
-  ], rows);
-}
-
 // --- how ------------------------------------------------------------------------------------------
 
 function drawHow() {
@@ -299,6 +248,8 @@ for (const id of ["by-class", "by-family"]) element(id).addEventListener("change
 drawScenes();
 element("by-step").addEventListener("change", drawScenes);
 drawScenePictures();
+drawTimes();
+element("times-by-family").addEventListener("change", drawTimes);
 drawSlowest();
 drawDeciders();
 drawOracle();
@@ -309,11 +260,14 @@ drawEnvironments();
 drawTightness();
 drawFindings();
 drawFarthest();
+drawExtremeTimes();
 drawHow();
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
+  ["earliness", drawEarliness, earlinessRows().length > 0],
   ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
+  ["time-errors-section", drawTimeErrors, timedRows().length > 0],
   ["stages-section", drawStages, hasStages()],
   ["ladder-section", drawLadder, report.ladder !== undefined],
   ["sweeps-section", drawSweeps, report.sweeps !== undefined],
@@ -335,7 +289,7 @@ function drawCharts(some) {
 }
 drawCharts(charts);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));
-const ofAll = charts.filter(([, chart]) => chart === drawErrorTime && !report.error_against_time.ladder);
+const ofAll = charts.filter(([, chart]) => chart === drawEarliness || (chart === drawErrorTime && !report.error_against_time.ladder));
 if (hasPicker && ofSubjects.length > 0)
   drawPicker(() => {
     element("by-subject").classList.toggle("empty", chosenNames().length === 0);

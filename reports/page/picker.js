@@ -19,10 +19,10 @@ if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.a
 const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
-/** The failed subjects; the Pareto fronts of error against run time; subjects over double; and some of the others. */
+/** The failed subjects; the Pareto fronts of error and of earliness against run time; subjects over double; and some of the others. */
 function firstChoice() {
-  const { front_by_distance, front_by_rate, ladder } = report.error_against_time;
-  const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate]);
+  const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;
+  const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate, ...front_by_earliness]);
   const named = (test) => places.filter(test).map((place) => place.subject);
   const choice = new Set(evenly(named((place) => !place.clean), 12));
   for (const group of [named((place) => fronts.has(place.subject)), named((place) => place.algorithm === place.subject), named(() => true)])

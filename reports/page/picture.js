@@ -1,16 +1,24 @@
-// Draws a query: both primitives at t = 0, at contact or when closest, and at t = 1, with the paths of their
-// vertices.
+// Draws a query: both primitives at t = 0, at t* or when closest, at the time that a subject gave, and at t = 1, with the paths of
+// their vertices.
 "use strict";
 
-/** @param {string} kind "vt" or "ee" @param {number[]} x 24 numbers @param {number} time in [0, 1] */
-function drawPicture(kind, x, time) {
+/**
+ * A picture, with a legend if there is something to say: the separation, or the two times.
+ * @param {string} kind "vt" or "ee"
+ * @param {number[]} query 24 coordinates; a separation other than 0 follows
+ * @param {number} time in [0, 1]: t*, or when the primitives are closest
+ * @param {number} [toi] the time that a subject gave for t*
+ */
+function drawPicture(kind, query, time, toi) {
+  const x = query.slice(0, 24);
+  const hasTwoTimes = toi !== undefined;
   const size = 220;
   const namespace = "http://www.w3.org/2000/svg";
   // The primitives as lists of vertices: a vertex and a triangle, or two edges.
   const primitives = kind === "vt" ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
 
   const at = (t) => [0, 1, 2, 3].map((i) => [0, 1, 2].map((k) => (1 - t) * x[3 * i + k] + t * x[12 + 3 * i + k]));
-  const moments = [[0, "start"], [1, "end"], [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
+  const moments = [[0, "start"], [1, "end"], ...(hasTwoTimes ? [[toi, "given"]] : []), [time, "moment"]].map(([t, name]) => ({ name, points: fitted(at(t)) }));
 
   /** Points scaled and moved into [-1, 1]. */
   function fitted(points) {
@@ -33,11 +41,11 @@ function drawPicture(kind, x, time) {
 
   const svg = document.createElementNS(namespace, "svg");
   svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
-  svg.setAttribute("class", "picture");
+  svg.setAttribute("class", hasTwoTimes ? "picture two-times" : "picture");
   svg.setAttribute("role", "img");
   svg.setAttribute("tabindex", "0");
   svg.setAttribute("aria-label", `${kind === "vt" ? "A vertex and a triangle" : "Two edges"} at t = 0, at t = ` +
-    `${time.toPrecision(4)} and at t = 1, with the paths of their vertices; arrow keys turn the picture`);
+    `${time.toPrecision(4)}${hasTwoTimes ? `, at t = ${toi.toPrecision(4)}` : ""} and at t = 1, with the paths of their vertices; arrow keys turn the picture`);
 
   function add(tag, attributes) {
     const node = document.createElementNS(namespace, tag);
@@ -63,5 +71,16 @@ function drawPicture(kind, x, time) {
 
   makeTurnable(svg, turn, 80, draw);
   draw();
-  return svg;
+  return made("figure", [svg, made("figcaption", pictureLegend(separationOf(query), time, toi))]);
+}
+
+/** A line for the separation, and one for each of two times. */
+function pictureLegend(separation, time, toi) {
+  const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);
+  const difference = toi - time;
+  const against = difference === 0 ? "t*" : `t* ${difference > 0 ? "+" : "−"} ${short(Math.abs(difference))}`;
+  return [
+    ...(separation > 0 ? [made("div", `h = ${short(separation)}`)] : []),
+    ...(toi === undefined ? [] : [line("moment", `t* = ${short(time)}`), line("given", `toi = ${against}`)]),
+  ];
 }

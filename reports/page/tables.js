@@ -93,12 +93,12 @@ function copyButton(content) {
 /** A command, and a button that copies it. */
 const command = (content) => made("div", [made("code", content), copyButton(content)]);
 
-/** A button that copies a query as a line of 24 numbers, for nearmiss oracle and verdict. */
+/** A button that copies a query as a line of 24 numbers, or 25 with the separation, for nearmiss oracle and verdict. */
 const copyQuery = (x) => copyButton(x.join(" "));
 
-/** A line for each vertex: its place at t = 0, and its place at t = 1 if it moves. */
+/** A line for each vertex: its place at t = 0, and its place at t = 1 if it moves; then the separation, if there is one. */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;
   const vertex = (i) => `x${i} ${point(i)}` + (point(i) === point(4 + i) ? "" : ` → ${point(4 + i)}`);
-  return made("pre", [0, 1, 2, 3].map(vertex).join("\n"));
+  return made("pre", [...[0, 1, 2, 3].map(vertex), ...(separationOf(x) > 0 ? [`h  ${separationOf(x)}`] : [])].join("\n"));
 }

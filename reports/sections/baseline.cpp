@@ -29,7 +29,7 @@ constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's b
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
-          {"late times", {counts.late, counts.times_given}},
+          {"late times", {counts.late, counts.times_promised}},
           {beyond_the_bound, {counts.distances.at_least_one(), counts.others()}},
           {"no answer", {counts.faults_total(), counts.queries}}};
 }

@@ -114,10 +114,12 @@ ordered_json rates_json(const Counts& counts, bool is_sample) {
   json["max_fp_distance_over_bound"] = counts.max_ratio();
   json["bound_of_distances"] = name(counts.distance_unit());
   json["unknown"] = counts.unknown();
+  json["time_sort"] = name(counts.time_sort());
   json["median_early"] = range(counts.early_quantile(0.5));
   json["q99_early"] = range(counts.early_quantile(0.99));
   json["max_early"] = counts.max_early();
   json["max_after"] = counts.max_after();
+  json["q99_travelled"] = range(counts.travelled.quantile(0.99));
   json["ns_per_query"] = or_null(counts.times.ns_per_query());
   return json;
 }

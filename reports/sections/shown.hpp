@@ -1,7 +1,8 @@
-// Single queries that a report shows: findings and the farthest false positives. Each query becomes a case
-// file too.
+// Single queries that a report shows: findings, the farthest false positives, and the earliest and latest times. Findings and
+// false positives become case files too.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -42,5 +43,21 @@ struct ShownFarthest {
 
 /// The farthest false positive of each subject, kind and family that has one, in the order of their keys.
 std::vector<ShownFarthest> farthest_cases(const Statistics& statistics);
+
+/// The time of one subject and kind that is the farthest before t*, or the farthest after it.
+struct ShownTime {
+  std::string subject;
+  Kind kind{};
+  bool is_early = false;
+  FarCase far;  ///< its ratio is the magnitude of time - t*
+
+  /// The time that the subject gave, to the precision of the ratio, if t* is `earliest`.
+  [[nodiscard]] double given(double earliest) const {
+    return std::clamp(is_early ? earliest - far.ratio : earliest + far.ratio, 0.0, 1.0);
+  }
+};
+
+/// The earliest and the latest time of each subject and kind that gave some, in the order of their names.
+std::vector<ShownTime> extreme_times(const Statistics& statistics);
 
 }  // namespace nearmiss

@@ -73,7 +73,7 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   text += counted(counts.collisions, "collision", "collisions");
   if (late)
     text += fmt::format(", LATE in {} of {}", with_separators(counts.late),
-                        counted(counts.times_given, "time", "times"));
+                        counted(counts.times_promised, "time", "times"));
   if (faulty) text += ", " + fault_text(counts);
   if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
   if (counts.false_positives == 0)
@@ -113,12 +113,13 @@ namespace {
 
 std::string counts_table(const Statistics& statistics) {
   std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
-                                              "rate below*", "false pos.", "max dist/bound", "ns/query"}};
+                                              "rate below*", "late", "false pos.", "max dist/bound",
+                                              "ns/query"}};
   for (const auto& [key, sum] : statistics.by_subject_and_kind()) {
     const Counts& counts = sum.counts;
     rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
                     with_separators(counts.collisions), with_separators(counts.false_negatives),
-                    rate_below(sum), with_separators(counts.false_positives),
+                    rate_below(sum), late_times(counts), with_separators(counts.false_positives),
                     marked_fraction_of_bound(counts.max_ratio(), counts.distance_unit()),
                     whole_ns(counts.times.ns_per_query())});
   }

@@ -7,8 +7,11 @@
 
 namespace nearmiss {
 
-/// A table with a row for each subject, kind and class: the times that are late, or stuck at 0, and how early or late they
-/// are; "" if no subject gives times.
+/// A table with a row for each subject, kind and class: the sort of time, the times that are late, or stuck at 0, and how early
+/// or late they are; "" if no subject gives times.
 std::string time_table(const Statistics& statistics);
+
+/// The number of late times; "-" if none was to be a lower bound.
+std::string late_times(const Counts& counts);
 
 }  // namespace nearmiss

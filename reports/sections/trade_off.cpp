@@ -58,6 +58,24 @@ bool has_ladder(const std::vector<TradeOff>& all) {
   return std::any_of(scalars.begin(), scalars.end(), [](const auto& each) { return each.second.size() > 2; });
 }
 
+/// The times of all families; the quantiles are those of timed families, as rates are.
+void add_times(nlohmann::ordered_json& subject, const TradeOff& each) {
+  const auto range = [](const Bin& bin) { return nlohmann::ordered_json{bin.from, bin.to}; };
+  subject["times_given"] = each.all.times_given;
+  subject["times_promised"] = each.all.times_promised;
+  subject["late"] = each.all.late;
+  subject["median_time_error"] = range(each.timed.counts.time_error_quantile(0.5));
+  subject["q99_time_error"] = range(each.timed.counts.time_error_quantile(0.99));
+  subject["max_time_error"] = each.all.max_time_error();
+}
+
+/// The front of the subjects whose times are lower bounds.
+std::vector<std::string> front_by_earliness(std::vector<TradeOff> all) {
+  std::erase_if(all,
+                [](const TradeOff& each) { return each.timed.counts.time_sort() != TimeSort::lower_bound; });
+  return pareto_front(all, [](const TradeOff& each) { return each.timed.counts.early_quantile(0.99).to; });
+}
+
 nlohmann::ordered_json ladder_of(std::vector<TradeOff> all) {
   std::erase_if(all, [](const TradeOff& each) { return !each.farthest(); });
   nlohmann::ordered_json json;
@@ -78,6 +96,7 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
     subject["false_negatives"] = each.all.false_negatives;
     subject["max_fp_distance_over_bound"] = each.all.max_ratio();
     subject["bound_of_distances"] = name(each.all.distance_unit());
+    add_times(subject, each);
     subject["sound"] = each.sound();
     subject["algorithm"] = each.place.algorithm;
     subject["scalar"] = each.place.scalar;
@@ -87,6 +106,7 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
   json["front_by_rate"] =
       pareto_front(all, [](const TradeOff& each) { return each.timed.counts.false_positive_rate(); });
+  json["front_by_earliness"] = front_by_earliness(all);
   if (has_ladder(all)) json["ladder"] = ladder_of(all);
   return json;
 }

@@ -43,7 +43,9 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
 /// "subjects" with ns_per_query, rates and the farthest distance of each; "front_by_distance", of the
-/// farthest distance; "front_by_rate", of the rate of false positives. If an algorithm has at least three
+/// farthest distance; "front_by_rate", of the rate of false positives; "front_by_earliness", of the 99 % quantile of earliness,
+/// of the subjects whose times are lower bounds. A subject has its sort of time, and the median, the 99 % quantile and the
+/// largest magnitude of time - t*; for a sound lower bound these are its earliness. If an algorithm has at least three
 /// scalars, also "ladder": "front_by_distance" and the "paper_bound" of double in units of B, because
 /// fractions of different bounds cannot be compared.
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);

@@ -53,6 +53,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
 void Counts::add_time(const TimeError& time, const Query& query,
                       const std::function<std::string()>& provenance) {
   ++times_given;
+  times_promised += time.promised ? 1 : 0;
   late += time.late ? 1 : 0;
   stuck += time.stuck ? 1 : 0;
   const auto keep = [&](std::vector<FarCase>& kept, double error) {
@@ -66,6 +67,13 @@ void Counts::add_time(const TimeError& time, const Query& query,
     travelled.add(time.travelled);
     keep(earliest, time.early);
   }
+}
+
+Bin Counts::time_error_quantile(double part) const {
+  Histogram all = early;
+  all.merge(after);
+  const Bin bin = all.quantile(part);
+  return {bin.from, std::min(bin.to, max_time_error())};
 }
 
 std::uint64_t Counts::faults_total() const {

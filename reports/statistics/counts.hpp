@@ -40,8 +40,9 @@ struct TimeError {
   /// How far a vertex of one primitive moves relative to one of the other in the time by which it is early, at most, divided by
   /// the pair's bound B; rounded.
   double travelled = 0;
-  bool late = false;   ///< something happens before a time that is to be a lower bound
-  bool stuck = false;  ///< the time is 0, and t* is not
+  bool promised = false;  ///< the time is to be a lower bound
+  bool late = false;      ///< something happens before a time that is to be a lower bound
+  bool stuck = false;     ///< the time is 0, and t* is not
 
   bool operator==(const TimeError&) const = default;
 };
@@ -71,8 +72,9 @@ struct Counts {
   std::uint64_t refuted_bounds = 0;    ///< false positives that are farther away than claimed
   std::uint64_t measured_by_wang = 0;  ///< false positives for which the subject claims no bound
   std::uint64_t times_given = 0;       ///< true positives for which the subject gives a time
-  std::uint64_t late = 0;              ///< of these, with a time that should be a lower bound and is too late
-  std::uint64_t stuck = 0;             ///< of these, with the time 0 although nothing happens then
+  std::uint64_t times_promised = 0;    ///< of these, with a time that is to be a lower bound
+  std::uint64_t late = 0;              ///< of these, with a time that is too late
+  std::uint64_t stuck = 0;             ///< of all times, those that are 0 although nothing happens then
   std::array<std::uint64_t, fault_count> faults{};           ///< queries without an answer, by reason
   SubjectTimes times;                                        ///< run times in ns
   std::array<std::uint64_t, stage_count> true_by_stage{};    ///< true positives by the stage that accepted
@@ -98,6 +100,7 @@ struct Counts {
         Counter{"measured_by_wang", &Counts::measured_by_wang, Shown::with_rates,
                 "false_positives_measured_by_wang"},
         Counter{"times_given", &Counts::times_given, Shown::with_rates},
+        Counter{"times_promised", &Counts::times_promised, Shown::with_rates},
         Counter{"late", &Counts::late, Shown::with_rates},
         Counter{"stuck", &Counts::stuck, Shown::with_rates},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
@@ -152,12 +155,20 @@ struct Counts {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
+  /// What the subject says about time, by the times that it gave. Lower bounds are all promised, or they are estimates.
+  [[nodiscard]] TimeSort time_sort() const {
+    if (times_given == 0) return TimeSort::none;
+    return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
+  }
   /// The bin of the smallest error such that a fraction `part` of the times that are not after t* are not earlier. Its upper
   /// end is at most the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
   }
+  /// The same for the magnitude of the error, of times on both sides of t*.
+  [[nodiscard]] Bin time_error_quantile(double part) const;
+  [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
   /// The bin of the smallest ratio such that a fraction `part` of the false positives does not exceed it. The
   /// bin's upper end is at most the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {

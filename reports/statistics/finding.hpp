@@ -33,6 +33,7 @@ struct Finding {
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
   Query shrunk = {};        ///< the simplest known query that fails in the same way; may be the query itself
   std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
+  double time = 0;          ///< the subject's time for the shrunk query, if it is late
   bool is_shrunk = false;   ///< whether shrinking has come to its end
 
   bool operator==(const Finding&) const = default;

@@ -78,7 +78,10 @@ auto reading(const fs::path& file, const Act& act) {
 /// A connection for writing.
 struct Connection {
   Connection(const fs::path& file, int flags) : db(file.string(), SQLite::OPEN_READWRITE | flags) {
-    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;");
+    // The first page has room for the whole schema of a new file, which therefore survives if the file is cut off.
+    db.exec(
+        "PRAGMA page_size = 8192; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys "
+        "= ON;");
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;

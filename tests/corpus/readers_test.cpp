@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -76,7 +77,21 @@ TEST(QueryLine, RoundTripsExtremes) {
 
 TEST(QueryLine, CountsItsNumbers) {
   EXPECT_THAT([] { (void)parse_line(Kind::edge_edge, "1 2 3", "file.ee:7"); },
-              ThrowsMessage<Error>("file.ee:7: found 3 numbers, expected 24"));
+              ThrowsMessage<Error>("file.ee:7: found 3 numbers, expected 24, or 25 with a separation"));
+}
+
+TEST(QueryLine, HasItsSeparationLast) {
+  const Query query = testing::falling_vertex(0.5, 0.25, 1, -1);
+  EXPECT_EQ(parse_line(query.kind, to_line(query) + " 0", "here"), query);
+  EXPECT_FALSE(std::signbit(parse_line(query.kind, to_line(query) + " -0", "here").separation));
+  const Query apart = with_separation(query, 0.375);
+  EXPECT_EQ(to_line(apart), to_line(query) + " 0x1.8p-2");
+  for (const std::string& line : {to_line(apart), to_readable(apart)})
+    EXPECT_EQ(parse_line(query.kind, line, "here"), apart) << line;
+  EXPECT_THAT([&] { (void)parse_line(query.kind, to_line(query) + " -0.5", "here"); },
+              ThrowsMessage<Error>("here: found the separation -0.5, expected a number that is not negative"));
+  EXPECT_THAT([&] { (void)parse_line(query.kind, to_line(query) + " 1 2", "here"); },
+              ThrowsMessage<Error>("here: found 26 numbers, expected 24, or 25 with a separation"));
 }
 
 TEST(CaseFile, RoundTrips) {

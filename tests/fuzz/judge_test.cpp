@@ -116,6 +116,40 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth, {}).measured_by_wang);
 }
 
+/// The error of a subject's time for a vertex that touches its triangle at t = 1/2.
+std::optional<TimeError> error_of_time(TimeSort sort, double time) {
+  class Timed final : public Subject {
+   public:
+    Timed(TimeSort sort, double time) : sort_(sort), time_(time) {}
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {true, Stage::vv, time_}; }
+    using Subject::decide;
+    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return infinity; }
+    [[nodiscard]] TimeSort time_sort() const override { return sort_; }
+
+   private:
+    std::string name_ = "timed";
+    TimeSort sort_;
+    double time_;
+  };
+  const Timed subject(sort, time);
+  Truth truth(hit);
+  return Judge(subject).judge(subject.decide(hit), truth, {}).time;
+}
+
+TEST(Judge, ATimeIsPromisedByASubjectThatGivesLowerBounds) {
+  EXPECT_EQ(error_of_time(TimeSort::none, 0.25), std::nullopt);
+  for (const double time : {0.0, 0.25, 0.5, 0.75}) {
+    const auto estimate = error_of_time(TimeSort::estimate, time);
+    EXPECT_FALSE(estimate->promised || estimate->late) << time;
+    const auto bound = error_of_time(TimeSort::lower_bound, time);
+    EXPECT_TRUE(bound->promised) << time;
+    EXPECT_EQ(bound->late, time > 0.5) << time;
+    EXPECT_EQ(bound->stuck, time == 0) << time;
+    EXPECT_NEAR(bound->after - bound->early, time - 0.5, 1e-3) << time;
+  }
+}
+
 TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {
   // A vertex that stops above the triangle by less than half of a float's last bit.
   const Query query = falling_vertex(0.25, 0.25, 1, 0x1p-160);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/families/families.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
@@ -61,6 +63,19 @@ std::vector<Finding> missed(const Subjects& subjects) {
     batch.queries.push_back(make_query(find_family("planted-ulp"), 1, i));
   batch.provenance = [](std::size_t i) { return std::to_string(i); };
   return hold_trial(subjects, batch).findings;
+}
+
+TEST(Sieve, ALateFindingHasTheTimeOfItsShrunkQuery) {
+  Subjects subjects;
+  subjects.push_back(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always at t = 1/2
+  const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
+  Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
+  finding.time = 0.25;  // another one, to see that it is replaced
+  std::vector<Finding> findings{finding};
+  Sieve(subjects, 1, Stop::never()).sift(findings);
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_NE(findings.front().shrunk, early);
+  EXPECT_EQ(findings.front().time, 0.5);
 }
 
 TEST(Sieve, ShrinksWhatItKeeps) {

@@ -7,6 +7,9 @@
 #ifndef TIME_SORT
 #define TIME_SORT NEARMISS_NO_TIME
 #endif
+#ifndef TAKES_SEPARATION
+#define TAKES_SEPARATION 0
+#endif
 #define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
 
 /* The detector `text`, which answers test(x, toi), with a bound, which may be NULL. */
@@ -24,7 +27,7 @@
                                               .kinds = ANY_KIND,                                   \
                                               .bits = 0,                                           \
                                               .time_sort = TIME_SORT,                              \
-                                              .takes_separation = 0,                               \
+                                              .takes_separation = TAKES_SEPARATION,                \
                                               .batch = 0,                                          \
                                               .contract = {0, 0, 0, 0, 0},                         \
                                               .open = NULL,                                        \

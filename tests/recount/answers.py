@@ -1,10 +1,13 @@
 """All queries of a campaign with the oracle's and the subjects' answers to each."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
 
 from asking import KINDS
+from enclosed import Enclosed
+from impact import SORTS, Impact, compare, sort_of_plugin
 
 
 @dataclass
@@ -16,9 +19,9 @@ class Asked:
     stage: np.ndarray  # names of the accepting stages
     collision: np.ndarray  # bool: the truth of the query by which the subject is judged
     claims: bool  # whether the subject claims a bound
-    ratio_lo: np.ndarray  # lower end of distance / bound of a false positive; NaN elsewhere
-    ratio_hi: np.ndarray  # upper end
+    ratios: Enclosed  # distance / bound of a false positive; NaN elsewhere
     judged: list  # the queries by which the subject is judged, as lines
+    impact: Impact
 
     @property
     def false_positive(self):
@@ -39,6 +42,7 @@ class Answers:
     queries: dict  # kind -> lines
     collision: dict  # kind -> bool
     asked: dict  # (subject, kind) -> Asked
+    times: dict  # kind -> Known enclosures of t*
 
     def __post_init__(self):
         self.tallies = {}  # (subject, kinds, family) -> Tally
@@ -63,13 +67,19 @@ class Answers:
 
 
 def ask(nearmiss, seed, counts, subjects):
-    """Collects answers to the queries 0 to counts[family] - 1 of each family."""
-    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {})
+    """Collects answers to the queries 0 to counts[family] - 1 of each family. Subjects are names, or
+    paths of shared objects with one subject."""
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {})
     for kind in KINDS:
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
-        distances = Distances(nearmiss, kind)
+        distances = Known(functools.partial(nearmiss.distances, kind))
+        times = answers.times[kind] = Known(functools.partial(nearmiss.times, kind))
         for subject in subjects:
-            answers.asked[subject, kind] = _ask_one(nearmiss, answers, subject, kind, distances)
+            name, description = nearmiss.plugin(subject) if '/' in subject else (subject, '')
+            sort = SORTS.get(subject) or sort_of_plugin(description)
+            answers.asked[name, kind] = _ask_one(
+                nearmiss, answers, subject, kind, distances, times, sort
+            )
     return answers
 
 
@@ -92,7 +102,7 @@ def _queries(nearmiss, seed, counts):
     return family, number, queries
 
 
-def _ask_one(nearmiss, answers, subject, kind, distances):
+def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
     verdicts = nearmiss.verdicts(kind, answers.queries[kind], subject)
     rounds = verdicts.rounded != answers.queries[kind]
     judged = verdicts.rounded if rounds else answers.queries[kind]
@@ -102,20 +112,26 @@ def _ask_one(nearmiss, answers, subject, kind, distances):
     ratio_lo, ratio_hi = np.full((2, len(judged)), np.nan)
     ratio_lo[false], ratio_hi[false] = ratios(lo, hi, verdicts.bound[false])
     return Asked(
-        verdicts.hit, verdicts.stage, collision, verdicts.claims, ratio_lo, ratio_hi, judged
+        verdicts.hit,
+        verdicts.stage,
+        collision,
+        verdicts.claims,
+        Enclosed(ratio_lo, ratio_hi),
+        judged,
+        compare(nearmiss, times, kind, sort, verdicts, judged, collision),
     )
 
 
-class Distances:
-    """The smallest distances of queries of one kind. Asks about each query once."""
+class Known:
+    """Enclosures of a number of each query. Asks about each query once."""
 
-    def __init__(self, nearmiss, kind):
-        self._nearmiss, self._kind, self._known = nearmiss, kind, {}
+    def __init__(self, ask_about):
+        self._ask_about, self._known = ask_about, {}
 
     def of(self, queries):
-        """Arrays of the lower and upper ends of the distances."""
+        """Arrays of the lower and upper ends."""
         new = sorted({query for query in queries if query not in self._known})
-        self._known.update(zip(new, self._nearmiss.distances(self._kind, new).T))
+        self._known.update(zip(new, self._ask_about(new).T))
         return np.array([self._known[query] for query in queries]).reshape(-1, 2).T
 
 

@@ -84,6 +84,17 @@ class Nearmiss:
         ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
         return np.array(ends, dtype=float).reshape(-1, 2).T
 
+    def times(self, kind, queries):
+        """Lower and upper ends of the earliest times, for collisions: neighbouring doubles, or one."""
+        lines = self._ask('oracle', kind, queries, '--toi')
+        ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
+        return np.array(ends, dtype=float).reshape(-1, 2).T
+
+    def plugin(self, path):
+        """The name of the only subject in a shared object, and its description."""
+        text = self.run('subjects', path)
+        return text.split()[0], text
+
     def verdicts(self, kind, queries, subject):
         """The answers of a subject."""
         lines = self._ask(
@@ -109,24 +120,27 @@ class Verdicts:
 
     hit: np.ndarray  # bool
     stage: np.ndarray  # names of the accepting stages, 'none' without a hit
+    time: np.ndarray  # NaN without a hit, or without a time
     bound: np.ndarray  # bound for distances of false positives, in the queries' unit of length
     claims: bool  # whether the subject claims this bound
     rounded: list  # the queries by which the subject is judged, as lines
 
     @classmethod
     def parsed(cls, lines):
-        hit, stage, bound, whose, rounded = [], [], [], set(), []
+        hit, stage, time, bound, whose, rounded = [], [], [], [], set(), []
         for line in lines:
             is_hit = line.startswith('1 ')
             words = line.split(' ', 5 if is_hit else 3)
             hit.append(is_hit)
             stage.append(words[1] if is_hit else 'none')
+            time.append(float.fromhex(words[2]) if is_hit else np.nan)
             bound.append(float.fromhex(words[-3]))
             whose.add(words[-2])
             rounded.append(words[-1])
         return cls(
             np.array(hit, dtype=bool),
             np.array(stage),
+            np.array(time),
             np.array(bound),
             whose == {'claimed'},
             rounded,

@@ -1,23 +1,10 @@
 """Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
 
-import numpy as np
-
 from asking import KINDS
-from tally import (
-    BINS,
-    BORDERS,
-    Tally,
-    classes_of,
-    denominators,
-    interval,
-    rate,
-    reported,
-    stages,
-    upper_bound,
-)
-
-ROUNDING = 1e-12  # relative error of a quotient of two counts
-SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
+from check_numbers import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
+from check_times import check_extremes, check_time_histograms, check_times
+from enclosed import reported
+from tally import Tally, classes_of, denominators, interval, rate, stages, upper_bound
 
 
 def check_statistics(comparison, where, json, answers):
@@ -32,16 +19,14 @@ def check_statistics(comparison, where, json, answers):
             place = f'{where} {subject} {kind}'
             tally = Tally.of(answers, subject, [kind])
             check_counts(comparison, place, found, tally)
-            _check_farthest(comparison, place, found['farthest'], tally, answers, subject, kind)
+            _check_kept(comparison, place, found, tally, answers, subject, kind)
             families = found['families']
             comparison.same('names', f'{place} families', sorted(families), answers.families(kind))
             for family in answers.families(kind):
                 own = f'{place} {family}'
                 tally = Tally.of(answers, subject, [kind], family)
                 check_counts(comparison, own, families[family], tally)
-                _check_farthest(
-                    comparison, own, families[family]['farthest'], tally, answers, subject, kind
-                )
+                _check_kept(comparison, own, families[family], tally, answers, subject, kind)
             _check_classes(comparison, place, found, answers, subject, kind)
 
 
@@ -54,9 +39,7 @@ def _check_classes(comparison, where, found, answers, subject, kind):
             own = found['classes'][name]
             tally = Tally.of(answers, subject, [kind], families)
             check_counts(comparison, f'{where} {name}', own, tally)
-            _check_farthest(
-                comparison, f'{where} {name}', own['farthest'], tally, answers, subject, kind
-            )
+            _check_kept(comparison, f'{where} {name}', own, tally, answers, subject, kind)
 
 
 def check_counts(comparison, where, found, tally):
@@ -73,7 +56,8 @@ def check_counts(comparison, where, found, tally):
         sum(found['rejected_by'].values()),
         tally.queries - tally.positives,
     )
-    check_histogram(comparison, where, found['fp_distance_histogram'], tally)
+    check_histogram(comparison, where, found['fp_distance_histogram'], tally.ratios)
+    check_time_histograms(comparison, where, found, tally.times)
 
 
 def check_rates(comparison, where, found, tally):
@@ -108,53 +92,28 @@ def check_rates(comparison, where, found, tally):
         found['false_positive_rate_interval_95'], interval(tally.false_positives, of_positives)
     ):
         comparison.near('intervals', f'{where} false_positive_rate', end, value, SOLVED)
-    largest = tally.farthest()[0] if tally.false_positives else (0, 0)
+    largest = tally.ratios.largest()[0] if tally.false_positives else (0, 0)
     comparison.within('largest ratios', where, found['max_fp_distance_over_bound'], *largest)
     for name, part in (('median', 0.5), ('q99', 0.99)):
         check_quantile(
             comparison,
             f'{where} {name}',
             found[f'{name}_fp_distance_over_bound'],
-            tally.quantile_bins(part),
+            tally.ratios.quantile_bins(part),
             found['max_fp_distance_over_bound'],
         )
+    check_times(comparison, where, found, tally)
 
 
-def check_quantile(comparison, where, found, bins, largest):
-    """Checks the bin of a quantile, which ends at the largest ratio."""
-    first, last = bins or (0, 0)
-    lower = np.concatenate(([0], BORDERS))
-    upper = np.concatenate((BORDERS, [np.inf])) if bins else [0]
-    comparison.within('quantiles', f'{where} from', found[0], *outward(lower[first], lower[last]))
-    comparison.within(
-        'quantiles',
-        f'{where} to',
-        found[1],
-        *outward(min(upper[first], largest), min(upper[last], largest)),
-    )
-
-
-def outward(least, most):
-    """The range, widened by the rounding error of a border."""
-    return least * (1 - ROUNDING), most * (1 + ROUNDING)
-
-
-def check_histogram(comparison, where, found, tally):
-    """Checks that each bin counts at least the ratios certainly in it, and at most those that may
-    be in it."""
-    least, most = tally.histogram
-    comparison.same('histogram bins', f'{where} sum', sum(found), tally.false_positives)
-    if len(found) != BINS:
-        return comparison.same('histogram bins', f'{where} number of bins', len(found), BINS)
-    wrong = np.flatnonzero((least > found) | (most < found))
-    comparison.agree('histogram bins', BINS - len(wrong))
-    for i in wrong:
-        comparison.within('histogram bins', f'{where} bin {i}', found[i], least[i], most[i])
+def _check_kept(comparison, where, found, tally, answers, subject, kind):
+    """Checks the extreme cases that are kept."""
+    _check_farthest(comparison, where, found['farthest'], tally, answers, subject, kind)
+    check_extremes(comparison, where, found, tally.times, answers, subject, kind)
 
 
 def _check_farthest(comparison, where, found, tally, answers, subject, kind):
     """Checks the distances and the queries of the farthest false positives that are kept."""
-    expected = tally.farthest()
+    expected = tally.ratios.largest()
     comparison.same('largest ratios', f'{where} number', len(found), len(expected))
     for i, (far, ends) in enumerate(zip(found, expected)):
         comparison.within('largest ratios', f'{where} farthest {i}', far['ratio'], *ends)
@@ -191,7 +150,7 @@ def _check_truth(comparison, where, found, expected):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that each false negative and each refuted bound counts for one signature."""
+    """Checks that each false negative, each late time and each refuted bound counts for one signature."""
     sums = {}
     for each in found:
         key = each['what'], each['subject']
@@ -205,6 +164,12 @@ def _check_signatures(comparison, where, found, answers):
             sums.pop(('false-negative', subject), 0),
             missed,
         )
+        comparison.same(
+            'signatures',
+            f'{where} {subject} late',
+            sums.pop(('late', subject), 0),
+            tally.times.late,
+        )
         refuted = sums.pop(('refuted-bound', subject), 0)
         comparison.within('signatures', f'{where} {subject} refuted', refuted, *tally.refuted())
     comparison.same('signatures', f'{where} of no subject', sums, {})
@@ -217,12 +182,6 @@ def check_false_positive(comparison, where, answers, subject, kind, found):
     if place is None or not answers.asked[subject, kind].false_positive[place]:
         return comparison.fail('provenances', where, found['provenance'], 'a false positive')
     asked = answers.asked[subject, kind]
-    ends = reported(asked.ratio_lo[place], asked.ratio_hi[place])
+    ends = reported(asked.ratios.lo[place], asked.ratios.hi[place])
     comparison.within('largest ratios', f'{where} own', found['ratio'], *ends)
     check_query(comparison, where, found['query'], asked.judged[place])
-
-
-def check_query(comparison, where, found, line):
-    """Checks a query, as a line or as a list of numbers."""
-    numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
-    comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

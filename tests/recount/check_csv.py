@@ -1,23 +1,16 @@
-"""Checks the CSV files of a report: statistics.csv, classes.csv, distances.csv and findings.csv."""
+"""Checks the CSV files of a report: statistics.csv, classes.csv, distances.csv, times.csv and
+findings.csv."""
 
 import csv
 
 import numpy as np
 
 from asking import KINDS
-from check_counts import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
+from check_numbers import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
 from check_sections import check_finding
-from tally import (
-    BINS,
-    BORDERS,
-    Tally,
-    classes_of,
-    denominators,
-    interval,
-    rate,
-    stages,
-    upper_bound,
-)
+from check_times import check_times
+from enclosed import BINS, BORDERS
+from tally import Tally, classes_of, denominators, interval, rate, stages, upper_bound
 
 
 def read(folder, name):
@@ -110,11 +103,18 @@ def _check_statistics(comparison, where, row, tally):
         'CSV',
         f'{where} largest',
         largest,
-        *(tally.farthest()[0] if tally.false_positives else (0, 0)),
+        *(tally.ratios.largest()[0] if tally.false_positives else (0, 0)),
     )
     for name, part in (('median', 0.5), ('q99', 0.99)):
         ends = [row[f'{name}_fp_distance_over_bound_{end}'] for end in ('from', 'to')]
-        check_quantile(comparison, f'{where} {name}', ends, tally.quantile_bins(part), largest)
+        check_quantile(
+            comparison, f'{where} {name}', ends, tally.ratios.quantile_bins(part), largest
+        )
+    ranges = {
+        name: [row[f'{name}_{end}'] for end in ('from', 'to')]
+        for name in ('median_early', 'q99_early', 'q99_travelled')
+    }
+    check_times(comparison, where, {**row, **ranges, 'time_sort': tally.times.sort}, tally)
     for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
         found = {key: n for key, n in row.items() if key.startswith(f'{name}_by_') and n}
         found = {key.removeprefix(f'{name}_by_'): n for key, n in found.items()}
@@ -127,22 +127,41 @@ def _check_statistics(comparison, where, row, tally):
     )
 
 
+def bin_of(comparison, where, ends):
+    """The bin with these ends."""
+    lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
+    i = int(np.argmin(np.abs(upper[:-1] - ends[1]))) if ends[1] != np.inf else BINS - 1
+    comparison.near('CSV', f'{where} from', ends[0], lower[i], ROUNDING)
+    comparison.near('CSV', f'{where} to', ends[1], upper[i], ROUNDING)
+    return i
+
+
 def check_distances_csv(comparison, _where, folder, answers):
     """Checks the non-empty bins of the histograms."""
-    lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
     bins = {key: [0] * BINS for key in keys(answers)}
     for row in read(folder, 'distances.csv'):
         where = f'distances.csv {row["subject"]} {row["kind"]} {row["family"]}'
         ends = [number(row[f'distance_over_bound_{end}']) for end in ('from', 'to')]
         claims = answers.asked[row['subject'], row['kind']].claims
         comparison.same('CSV', f'{where} bound', row['bound'], 'claimed' if claims else 'wang')
-        i = int(np.argmin(np.abs(upper[:-1] - ends[1]))) if ends[1] != np.inf else BINS - 1
-        comparison.near('CSV', f'{where} from', ends[0], lower[i], ROUNDING)
-        comparison.near('CSV', f'{where} to', ends[1], upper[i], ROUNDING)
+        i = bin_of(comparison, where, ends)
         bins[row['subject'], row['kind'], row['family']][i] += int(row['false_positives'])
     for (subject, kind, family), found in bins.items():
-        tally = Tally.of(answers, subject, [kind], family)
-        check_histogram(comparison, f'distances.csv {subject} {kind} {family}', found, tally)
+        ratios = Tally.of(answers, subject, [kind], family).ratios
+        check_histogram(comparison, f'distances.csv {subject} {kind} {family}', found, ratios)
+
+
+def check_times_csv(comparison, _where, folder, answers):
+    """Checks the non-empty bins of the histograms of times, on both sides."""
+    bins = {(*key, side): [0] * BINS for key in keys(answers) for side in ('early', 'after')}
+    for row in read(folder, 'times.csv'):
+        key = tuple(row[name] for name in ('subject', 'kind', 'family', 'side'))
+        ends = [number(row[f'error_{end}']) for end in ('from', 'to')]
+        i = bin_of(comparison, f'times.csv {" ".join(key)}', ends)
+        bins[key][i] += int(row['times'])
+    for (subject, kind, family, side), found in bins.items():
+        errors = getattr(Tally.of(answers, subject, [kind], family).times, side)
+        check_histogram(comparison, f'times.csv {subject} {kind} {family} {side}', found, errors)
 
 
 def check_findings_csv(comparison, _where, folder, answers, report):

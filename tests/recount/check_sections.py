@@ -6,9 +6,12 @@ import numpy as np
 from scipy import stats
 
 from asking import KINDS
-from check_counts import ROUNDING, SOLVED, check_false_positive, check_query, check_rates
+from check_counts import check_false_positive, check_rates
+from check_numbers import ROUNDING, SOLVED, check_query
+from check_times import check_extreme_times, check_trade_off_times
+from enclosed import BORDERS, reported
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
-from tally import BORDERS, Tally, reported
+from tally import Tally
 
 TIME = 'ns_per_query'  # the field with the time that a front compares
 COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
@@ -45,7 +48,8 @@ def check_trade_offs(comparison, where, found, answers, units):
         tally = Tally.of(answers, subject, KINDS)
         check_rates(comparison, own, each, tally)
         check_places(comparison, where, each, subject)
-        sound = each['false_negatives'] == 0 and each['refuted_bounds'] == 0
+        check_trade_off_times(comparison, own, each, tally.times)
+        sound = not (each['false_negatives'] or each['late'] or each['refuted_bounds'])
         comparison.same('fronts', f'{own} sound', each['sound'], sound)
         unit = units.of_distances(subject)
         in_B = (
@@ -60,6 +64,13 @@ def check_trade_offs(comparison, where, found, answers, units):
         ('rate', 'false_positive_rate'),
     ):
         comparison.same('fronts', f'by {name}', found[f'front_by_{name}'], front(sound, error))
+    bounds = {
+        name: {TIME: each[TIME], 'earliness': each['q99_early'][1]}
+        for name, each in sound.items()
+        if each['time_sort'] == 'lower-bound'
+    }
+    expected = front(bounds, 'earliness')
+    comparison.same('fronts', 'by earliness', found['front_by_earliness'], expected)
     if 'ladder' in found:
         known = {name: each for name, each in sound.items() if each['farthest_over_B'] is not None}
         comparison.same(
@@ -224,6 +235,7 @@ def check_findings(comparison, section, report, answers):
         if place_of is not None:
             judged = answers.asked[found['subject'], found['kind']].judged[place_of]
             check_query(comparison, where, found['original'], judged)
+    check_extreme_times(comparison, 'extreme times', report['extreme_times'], report, answers)
     rows = [(far['subject'], far['kind'], far['family']) for far in report['farthest']]
     expected = [
         (subject, kind, family)
@@ -246,7 +258,7 @@ def check_findings(comparison, section, report, answers):
 
 
 def check_finding(comparison, where, answers, found):
-    """Checks a missed collision or a refuted bound by its provenance."""
+    """Checks a missed collision, a late time or a refuted bound by its provenance."""
     place_of = answers.place(found['kind'], found['provenance'])
     asked = answers.asked.get((found['subject'], found['kind']))
     if place_of is None or asked is None:
@@ -254,12 +266,18 @@ def check_finding(comparison, where, answers, found):
             'provenances', where, found['provenance'], 'a query of the campaign'
         )
     refutes = found['what'] == 'refuted-bound'
-    ends = reported(asked.ratio_lo[place_of], asked.ratio_hi[place_of]) if refutes else (0, 0)
+    ends = reported(asked.ratios.lo[place_of], asked.ratios.hi[place_of]) if refutes else (0, 0)
     ratio = float(found['ratio'] if 'ratio' in found else found['distance_over_bound'])
     comparison.within('largest ratios', where, ratio, *ends)
+    after = asked.impact.after
+    late_by = (
+        reported(after.lo[place_of], after.hi[place_of]) if found['what'] == 'late' else (0, 0)
+    )
+    comparison.within('times', f'{where} late', float(found.get('late_by', 0)), *late_by)
     is_so = {
         'false-negative': asked.false_negative[place_of],
-        'refuted-bound': asked.claims and asked.ratio_hi[place_of] > 1,
+        'refuted-bound': asked.claims and asked.ratios.hi[place_of] > 1,
+        'late': asked.impact.late[place_of],
     }
     comparison.same(
         'provenances', f'{where} {found["what"]}', bool(is_so.get(found['what'])), True

@@ -7,7 +7,7 @@ which are checked elsewhere."""
 import re
 
 from asking import KINDS
-from tally import BORDERS, LARGEST
+from enclosed import BORDERS, LARGEST
 
 
 def check_text(comparison, section, report, json_report):
@@ -56,9 +56,12 @@ def _check_output(comparison, where, text, json_report, verdicts):
         for subject, (clean, said) in verdicts.items()
     ]
     comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
-    _check_table(comparison, where, lines, ['subject', 'kind'], summary(json_report))
+    _check_table(comparison, where, lines, ['subject', 'kind', 'queries'], summary(json_report))
+    if times(json_report):
+        heading = ['subject', 'kind', 'class', 'sort']
+        _check_table(comparison, where, lines, heading, times(json_report), last_is_time=False)
     if len({row[2] for row in by_class(json_report)}) > 1:
-        heading = ['subject', 'kind', 'class']
+        heading = ['subject', 'kind', 'class', 'queries']
         _check_table(comparison, where, lines, heading, by_class(json_report))
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
     expected = oracle_line(json_report['oracle']['total'])
@@ -80,10 +83,13 @@ def verdict(found):
     missed, refuted = found['false_negatives'], found['refuted_bounds']
     text = f'MISSED {missed:,} of ' if missed else 'no miss in '
     text += counted(found['collisions'], 'collision')
+    late = found['late']
+    if late:
+        text += f', LATE in {late:,} of {counted(found["times_promised"], "time")}'
     if refuted:
         text += f', {refuted:,} BEYOND ITS BOUND'
     if found['false_positives'] == 0:
-        return not missed and not refuted, text + ', no false positive'
+        return not missed and not late and not refuted, text + ', no false positive'
     largest = found['max_fp_distance_over_bound']
     claims = found['bound_of_distances'] == 'claimed'
     if largest == LARGEST:
@@ -93,7 +99,7 @@ def verdict(found):
     if not claims:
         far += ' (it claims none)'
     return (
-        not missed and not refuted,
+        not missed and not late and not refuted,
         f'{text}, {counted(found["false_positives"], "false positive")}, the farthest {far}',
     )
 
@@ -157,6 +163,7 @@ def summary(report):
                     f'{c["collisions"]:,}',
                     f'{c["false_negatives"]:,}',
                     general(c['false_negative_rate_upper_95'], 2),
+                    late_times(c),
                     f'{c["false_positives"]:,}',
                     fraction(c['max_fp_distance_over_bound'])
                     + ('' if c['bound_of_distances'] == 'claimed' else '**'),
@@ -165,14 +172,49 @@ def summary(report):
     return rows
 
 
-def by_class(report):
-    """The rows of the table by class, without times."""
-    counters = ('queries', 'collisions', 'false_negatives', 'false_positives')
+def late_times(counts):
+    """The number of late times, if any were to be lower bounds."""
+    return f'{counts["late"]:,}' if counts['times_promised'] else '-'
+
+
+def classes(report):
+    """The counters of each subject, kind and class."""
     return [
-        [subject, kind, name, *(f'{each[counter]:,}' for counter in counters)]
+        ([subject, kind, name], each)
         for subject, own in report['subjects'].items()
         for kind in KINDS
         for name, each in own[kind]['classes'].items()
+    ]
+
+
+def times(report):
+    """The rows of the table of times of impact."""
+    return [
+        [
+            *key,
+            each['time_sort'],
+            f'{each["times_given"]:,}',
+            late_times(each),
+            f'{each["stuck"]:,}',
+            f'{each["unknown"]:,}',
+            *(general(each[f'{name}_early'][1], 2) for name in ('median', 'q99')),
+            *(general(each[f'max_{side}'], 2) for side in ('early', 'after')),
+        ]
+        for key, each in classes(report)
+        if each['times_given']
+    ]
+
+
+def by_class(report):
+    """The rows of the table by class, without times."""
+    return [
+        [
+            *key,
+            *(f'{each[counter]:,}' for counter in ('queries', 'collisions', 'false_negatives')),
+            late_times(each),
+            f'{each["false_positives"]:,}',
+        ]
+        for key, each in classes(report)
     ]
 
 
@@ -222,14 +264,15 @@ def oracle_line(total):
     return ','.join(parts)
 
 
-def _check_table(comparison, where, lines, heading, rows):
-    """Checks the rows below the line that begins with the heading. The last column is a time."""
+def _check_table(comparison, where, lines, heading, rows, last_is_time=True):
+    """Checks the rows below the line that begins with the heading. A run time in the last column is
+    left out."""
     cells = [re.split(r' {2,}', line.strip()) for line in lines]
     start = next((i for i, row in enumerate(cells) if row[: len(heading)] == heading), None)
     if start is None:
         return comparison.fail('text', where, 'no table', ' '.join(heading))
     end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)
-    found = [row[:-1] for row in cells[start + 1 : end]]
+    found = [row[:-1] if last_is_time else row for row in cells[start + 1 : end]]
     comparison.same('text', f'{where} number of rows', len(found), len(rows))
     for row, expected in zip(found, rows):
         comparison.same('text', f'{where} row {" ".join(expected[:2])}', row, expected)

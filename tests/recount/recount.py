@@ -18,6 +18,7 @@ from check_csv import (
     check_distances_csv,
     check_findings_csv,
     check_statistics_csv,
+    check_times_csv,
 )
 from check_deciders import check_deciders
 from check_page import check_page
@@ -57,6 +58,7 @@ def check_all(comparison, report, answers, units):
     comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers, json_report)
     comparison.section(check_classes_csv, 'classes.csv', report.folder, answers, json_report)
     comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
+    comparison.section(check_times_csv, 'times.csv', report.folder, answers)
     comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
     comparison.section(check_text, 'report.json', report, json_report)
     page = (report.folder / 'index.html').read_text(encoding='utf-8')
@@ -74,11 +76,17 @@ def note_either_way(comparison, answers):
     """Counts the enclosures that contain a border of bins, or the bound itself."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
-        first, last = tally.bins
+        first, last = tally.ratios.bins
         comparison.allow('distances that may be in either of two bins', int((first != last).sum()))
         least, most = tally.refuted()
         comparison.allow('distances that may or may not refute a bound', most - least)
         comparison.allow('false positives', tally.false_positives)
+        for name in ('early', 'after', 'travelled'):
+            first, last = getattr(tally.times, name).bins
+            comparison.allow(
+                f'times that may be in either of two bins ({name})', int((first != last).sum())
+            )
+        comparison.allow('times', tally.times.given)
 
 
 def recount(nearmiss, folder, cases, seed, subjects, families):
@@ -109,7 +117,7 @@ def main():
     parser.add_argument(
         '--subject',
         default='basic,wang,wang:float,wang:p144',
-        help='built-in subjects, separated by commas',
+        help='built-in subjects, and paths of shared objects with one subject, separated by commas',
     )
     parser.add_argument(
         '--family', default='all', help='families, as in nearmiss fuzz (default: %(default)s)'

@@ -19,6 +19,7 @@ from check_csv import (
     check_distances_csv,
     check_findings_csv,
     check_statistics_csv,
+    check_times_csv,
     number,
 )
 from check_page import check_page
@@ -27,8 +28,19 @@ from check_text import check_text
 from recount import check_report, recount
 
 # The subjects: one that misses, several with valid claims at various precisions, one that passes
-# queries on, and one whose claim is refuted.
-SUBJECTS = ['adaptive', 'basic', 'wang', 'wang:float', 'wang:p60', 'wang:p144', 'defect:D2*10']
+# queries on, one whose claim is refuted, and one with exact times; two plug-ins give estimates of
+# times, and lower bounds that are late.
+SUBJECTS = [
+    'adaptive',
+    'basic',
+    'wang',
+    'wang:float',
+    'wang:p60',
+    'wang:p144',
+    'defect:D2*10',
+    'exact',
+]
+PLUGINS = ['sampling', 'promises']
 CASES, SEED = 2200, 7
 
 # Values that cannot be recomputed: times; facts about the machine of a run; the oracle's counters
@@ -40,7 +52,7 @@ UNCHECKED = [
     r'\btimes\b',
     r'_ns$',
     r'ns_per_query$',
-    r'\.time$',
+    r'^(findings|farthest)\b.*\.(time|toi)$',
     r'\.time_over\b',
     r'^runs',
     r'^oracle.*\.(near_bounds|compared.*|missed_by_parity)$',
@@ -58,11 +70,16 @@ class Recount(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix='nearmiss-recount-'))
         cls.comparison, cls.report, cls.answers, cls.units = recount(
-            Nearmiss(EXECUTABLE), cls.folder, CASES, SEED, SUBJECTS, 'all'
+            Nearmiss(EXECUTABLE),
+            cls.folder,
+            CASES,
+            SEED,
+            [*SUBJECTS, *(str(EXECUTABLE.parent / 'plugins' / f'{name}.so') for name in PLUGINS)],
+            'all',
         )
         cls.json = cls.report.json()
         cls.names = {
-            *SUBJECTS,
+            *cls.answers.subjects,
             'vt',
             'ee',
             *cls.answers.families('vt'),
@@ -109,6 +126,16 @@ class Recount(unittest.TestCase):
         self.assertGreater(
             self.json['error_against_time']['subjects']['basic']['false_negatives'], 0
         )
+        sorts = {
+            name: each['time_sort']
+            for name, each in self.json['error_against_time']['subjects'].items()
+            if each['times_given']
+        }
+        self.assertLessEqual(
+            {('exact', 'lower-bound'), ('sampling', 'estimate'), ('always', 'lower-bound')},
+            set(sorts.items()),
+        )
+        self.assertGreater(self.json['error_against_time']['subjects']['always']['late'], 0)
 
     def test_a_change_of_any_sort_of_value_in_report_json_is_found(self):
         chosen = self.one_leaf_of_each_pattern(self.json)
@@ -127,6 +154,7 @@ class Recount(unittest.TestCase):
             ('statistics.csv', check_statistics_csv, self.json),
             ('classes.csv', check_classes_csv, self.json),
             ('distances.csv', check_distances_csv),
+            ('times.csv', check_times_csv),
             ('findings.csv', check_findings_csv, self.json),
         ):
             for column in (self.report.folder / name).read_text().splitlines()[0].split(','):

@@ -6,19 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import betaincinv
 
-# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One more bin lies below
-# all borders and one above.
-BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
-BINS = len(BORDERS) + 1
-FARTHEST = 5  # number of farthest false positives that are kept
-PRECISION = 1.01e-3  # relative error by which a reported largest ratio may exceed the true one
-LARGEST = np.finfo(float).max
+from enclosed import Enclosed
+from impact import Times
+
 CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
 
 
 @dataclass
 class Tally:
-    """Counters of one subject over some queries, and distance / bound of its false positives."""
+    """Counters of one subject over some queries, distance / bound of its false positives, and its
+    times of impact."""
 
     subject: str
     queries: int
@@ -29,8 +26,8 @@ class Tally:
     claims: bool
     true_by_stage: dict
     false_by_stage: dict
-    ratio_lo: np.ndarray  # lower ends of the enclosures of the false positives' ratios
-    ratio_hi: np.ndarray
+    ratios: Enclosed  # of the false positives
+    times: Times
 
     @classmethod
     def of(cls, answers, subject, kinds, family=None):
@@ -44,7 +41,10 @@ class Tally:
     @classmethod
     def _of(cls, answers, subject, kinds, family):
         parts = [_part(answers, subject, kind, family) for kind in kinds]
-        hit, collision, stage, lo, hi = (np.concatenate(column) for column in zip(*parts))
+        hit, collision, stage = (
+            np.concatenate([getattr(asked, name)[own] for asked, own in parts])
+            for name in ('hit', 'collision', 'stage')
+        )
         false = hit & ~collision
         return cls(
             subject,
@@ -56,59 +56,29 @@ class Tally:
             answers.asked[subject, kinds[0]].claims,
             _by_name(stage[hit & collision]),
             _by_name(stage[false]),
-            lo[false],
-            hi[false],
+            Enclosed.joined([asked.ratios[own] for asked, own in parts])[false],
+            Times.of([asked.impact for asked, _ in parts], [own for _, own in parts]),
         )
-
-    @functools.cached_property
-    def bins(self):
-        """The histogram's bins of each false positive, by the lower and by the upper end of its
-        ratio."""
-        return [
-            np.searchsorted(BORDERS, ratio, side='right')
-            for ratio in (self.ratio_lo, self.ratio_hi)
-        ]
-
-    @functools.cached_property
-    def histogram(self):
-        """For each bin, the number of ratios certainly in it, and the number that may be in it."""
-        first, last = self.bins
-        least = np.bincount(first[first == last], minlength=BINS)
-        most = least.copy()
-        for lowest, highest in zip(first[first != last], last[first != last]):
-            most[lowest : highest + 1] += 1
-        return least, most
 
     def refuted(self):
         """The least and the largest number of refuted bounds that the enclosures allow."""
         if not self.claims:
             return 0, 0
-        return int((self.ratio_lo > 1).sum()), int((self.ratio_hi > 1).sum())
+        return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
 
-    def farthest(self):
-        """The enclosures of the largest ratios, largest first."""
-        lo, hi = (np.sort(ratio)[::-1][:FARTHEST] for ratio in (self.ratio_lo, self.ratio_hi))
-        return [reported(*ends) for ends in zip(lo, hi)]
-
-    def quantile_bins(self, part):
-        """The first and the last bin that may contain the ratio that a fraction `part` of all does
-        not exceed.
-
-        The result is None without false positives."""
-        if self.false_positives == 0:
-            return None
-        place = max(int(np.ceil(part * self.false_positives)), 1) - 1
-        return tuple(int(np.sort(bins)[place]) for bins in self.bins)
+    @property
+    def unknown(self):
+        """Reports of a subject that could not tell."""
+        return sum(
+            stages.get('unknown', 0) for stages in (self.true_by_stage, self.false_by_stage)
+        )
 
 
 def _part(answers, subject, kind, family):
-    asked = answers.asked[subject, kind]
+    """The answers to a kind, and which of them are of the family."""
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
-    return [
-        each[own]
-        for each in (asked.hit, asked.collision, asked.stage, asked.ratio_lo, asked.ratio_hi)
-    ]
+    return answers.asked[subject, kind], own
 
 
 def classes_of(class_of):
@@ -121,15 +91,6 @@ def classes_of(class_of):
 
 def _by_name(stages):
     return {str(name): int(count) for name, count in zip(*np.unique(stages, return_counts=True))}
-
-
-def reported(lo, hi):
-    """The range of a reported ratio whose true value is from lo to hi. Reports round ratios up.
-
-    The largest double stands for infinity. For a ratio below all borders, a report need not know
-    more than that."""
-    most = BORDERS[0] if lo < BORDERS[0] else 0
-    return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)
 
 
 def stages(subject, counts):

@@ -88,13 +88,13 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   }
 }
 
-/// 500 pseudo-random bits of a file with so many bytes, and one in each byte of its header.
+/// 600 pseudo-random bits of a file with so many bytes, and one in each byte of its header.
 std::set<std::uint64_t> some_bits(std::uint64_t bytes) {
   constexpr std::uint64_t header = 100;
   std::set<std::uint64_t> bits;
   Random random(1, 0, 0);
   for (std::uint64_t byte = 0; byte < header; ++byte) bits.insert(8 * byte + random.bits() % 8);
-  while (bits.size() < 500 + header) bits.insert(random.bits() % (8 * bytes));
+  while (bits.size() < 600 + header) bits.insert(random.bits() % (8 * bytes));
   return bits;
 }
 
@@ -200,9 +200,10 @@ TEST_F(DamageTest, OfAnIndexStopsWriting) {
   Store(file("a.db"), testing::info, shard).save(some_statistics("wang"), shard, {});
   const auto page = static_cast<std::size_t>(
       ask("a.db", "SELECT rootpage FROM sqlite_schema WHERE name = 'sqlite_autoindex_counts_1'"));
+  const auto size = static_cast<std::size_t>(ask("a.db", "PRAGMA page_size"));
   std::string bytes = read("a.db");
-  const std::size_t key = bytes.rfind("wang", 4096 * page);
-  ASSERT_GT(key, 4096 * (page - 1));
+  const std::size_t key = bytes.rfind("wang", size * page);
+  ASSERT_GT(key, size * (page - 1));
   bytes[key] = 'v';
   write("a.db", bytes);
   EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));

@@ -56,10 +56,10 @@ TEST(ByClass, SumsTheFamiliesOfEachClass) {
 
 TEST(ByClass, TheTerminalShowsARowForEachClass) {
   EXPECT_EQ(class_table(some_statistics()),
-            "subject  kind  class         queries  collisions  false neg.  false pos.  ns/query\n"
-            "mine     ee    ordinary          400          30           0          12        20\n"
-            "mine     ee    degenerate         50          40           3           1        30\n"
-            "mine     ee    unclassified        8           8           1           0         -\n");
+            "subject  kind  class         queries  collisions  false neg.  late  false pos.  ns/query\n"
+            "mine     ee    ordinary          400          30           0     -          12        20\n"
+            "mine     ee    degenerate         50          40           3     -           1        30\n"
+            "mine     ee    unclassified        8           8           1     -           0         -\n");
 }
 
 TEST(ByClass, TheTerminalShowsNoTableOfOneClass) {

@@ -7,6 +7,7 @@ import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
 import { removeFolder } from "./page/session.mjs";
 import { drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
+import { showsSeparations, showsTimesOfImpact } from "./page/times.mjs";
 
 const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
@@ -18,6 +19,8 @@ try {
   await showsThatNothingWasFound(browser);
   await showsTheBaseline(browser);
   await showsWhatIsNewSinceTheBaseline(browser);
+  await showsTimesOfImpact(browser);
+  await showsSeparations(browser);
   await showsSweeps(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
   await showsAClaimOfNoDistanceThatIsRefuted(browser);

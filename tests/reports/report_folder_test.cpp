@@ -50,7 +50,7 @@ class ReportFolder : public testing::TemporaryFolder {
 TEST_F(ReportFolder, ItsDataNameEveryFile) {
   write_report_of("wang");
   EXPECT_EQ(files_of(ordered_json::parse(read("report/report.json"))), files_in("report"));
-  EXPECT_EQ(files_in("report").size(), 6 + 2 + 1);
+  EXPECT_EQ(files_in("report").size(), 7 + 2 + 1);
 }
 
 TEST_F(ReportFolder, ReplacesAnEarlierReportAndNothingElse) {
@@ -143,7 +143,7 @@ TEST_F(ReportFolder, AFailureLeavesTheEarlierReport) {
     EXPECT_THAT([&] { replace_report(file(folder), own_files(file(folder)), unwritable); },
                 ThrowsMessage<Error>(HasSubstr("the report cannot be written")));
   EXPECT_FALSE(fs::exists(file("absent")));
-  EXPECT_EQ(files_in("report").size(), 6 + 2 + 1);
+  EXPECT_EQ(files_in("report").size(), 7 + 2 + 1);
   EXPECT_EQ(read("report/report.json"), before);
 }
 

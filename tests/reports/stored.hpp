@@ -49,8 +49,9 @@ inline Finding some_finding(const std::string& provenance) {
           provenance,
           0,
           "ee simple-root inside crossing",
-          falling_edge(static_cast<double>(provenance.size()), -1),
-          7};
+          with_separation(falling_edge(static_cast<double>(provenance.size()), -1), 0.1),
+          7,
+          0.75};
 }
 
 inline const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};

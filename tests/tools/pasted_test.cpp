@@ -94,6 +94,40 @@ TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
   EXPECT_FALSE(passes_in_cpp(cpp, "test_edge_edge", "true"));
 }
 
+TEST_F(PastedTest, PassesTheSeparation) {
+  write("q.vt", hit);
+  const std::string arguments = "q.vt --separation 0.5 --subject " + plugin("never");
+  const std::string cpp = run("shrink " + arguments + " --as c++").out;
+  EXPECT_THAT(cpp, HasSubstr("// The primitives come within 0.5 of each other, first "));
+  EXPECT_THAT(cpp, HasSubstr("(&end)[4][3], double separation);\n"));
+  EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 0.5) == true;\n"));
+  const std::string python = run("shrink " + arguments + " --as python").out;
+  EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end, separation) that returns whether "));
+  EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 0.5)\n"));
+}
+
+TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
+  write("q.vt", "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -3  0 0 0  1 0 0  0 1 0\n");
+  const std::string arguments = "q.vt --subject " + plugin("promises");
+  const std::string python = run("shrink " + arguments + " --as python").out;
+  EXPECT_THAT(python, HasSubstr("# always gave a later time as one before which nothing happens.\n"));
+  const auto passes = [&](const std::string& time) {
+    write("test.py", "import math\n" + python + "def time_of_impact(start, end):\n    return " + time +
+                         "\ntest_vertex_triangle()\n");
+    return succeeds("python3 test.py 2>error.txt");
+  };
+  write("shrunk.vt", numbers_of_case(arguments));
+  std::istringstream truth(run("oracle --kind vt --toi shrunk.vt").out);
+  std::string collides, lo, hi;
+  truth >> collides >> lo >> hi;
+  EXPECT_TRUE(passes("float.fromhex('" + lo + "')"));
+  EXPECT_FALSE(passes("math.nextafter(float.fromhex('" + hi + "'), 2)"));
+  const std::string cpp = run("shrink " + arguments + " --as c++").out;
+  EXPECT_THAT(
+      cpp, HasSubstr("\ndouble time_of_impact(const double (&start)[4][3], const double (&end)[4][3]);\n"));
+  EXPECT_THAT(cpp, HasSubstr("  return time_of_impact(start, end) <= "));
+}
+
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
   write("q.vt", hit);
   expect_refused("shrink q.vt --as rust --subject " + plugin("never"),

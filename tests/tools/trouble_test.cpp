@@ -22,7 +22,8 @@ TEST_F(CommandLine, BadQueries) {
   write("inf.vt", hit + "inf" + numbers);
   write("word.vt", "x" + numbers);
   write("few.vt", "1 2 3\n");
-  write("many.vt", hit.substr(0, hit.size() - 1) + " 5\n");
+  write("many.vt", hit.substr(0, hit.size() - 1) + " 5 6\n");
+  write("negative.vt", hit.substr(0, hit.size() - 1) + " -5\n");
   write("empty.vt", "");
   write("comments.vt", "# nothing\n");
   for (const char* command :
@@ -32,6 +33,7 @@ TEST_F(CommandLine, BadQueries) {
     expect_refused(command + std::string("word.vt"), {"word.vt:1", "'x'"});
     expect_refused(command + std::string("few.vt"), {"few.vt:1", "3", "24"});
     expect_refused(command + std::string("many.vt"), {"many.vt:1", "24"});
+    expect_refused(command + std::string("negative.vt"), {"negative.vt:1", "separation -5"});
     expect_refused(command + std::string("empty.vt"), {"empty.vt"});
     expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
     expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});

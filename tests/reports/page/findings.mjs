@@ -152,7 +152,8 @@ export async function showsThatNothingWasFound(browser) {
   assert.equal(await count(page, ".verdict.bad"), 0);
   assert.match(await page.textContent("#findings-note"), /^None/);
   assert.equal(await count(page, "#findings tbody tr"), 0);
-  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "environments-section", "tightness-section", "farthest-section"])
+  for (const left of ["baseline", "rates-section", "distances-section", "sweeps-section", "power-section", "environments-section", "tightness-section", "farthest-section",
+    "times-section", "time-errors-section", "extreme-times-section"])
     assert.equal(await page.isVisible(`#${left}`), false, left);
   assert.match(await page.textContent("#headline"), /^wang did not fail, in 100 queries\.$/);
   assert.equal(await count(page, "#headline.bad"), 0);

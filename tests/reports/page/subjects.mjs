@@ -27,13 +27,15 @@ export async function showsAChoiceOfManySubjects(browser) {
     assert.deepEqual(new Set(await shown()), rows(some));
     const lines = some.flatMap((name) => Object.values(subjects[name])).filter((each) => each.false_positives > 0).length;
     assert.equal(await count(page, "#distances .mark-line path"), 2 * lines);
+    const timed = some.flatMap((name) => Object.values(subjects[name])).filter((each) => each.times_given > 0).length;
+    assert.equal(await count(page, "#time-errors .mark-area path"), timed);
     assert.match(await page.textContent("#picker-count"), new RegExp(`: ${some.length} of ${names.length}$`));
     const rates = await page.locator("#rates svg.marks").boundingBox();
     assert.ok(rates.height < 2500);
   };
   const first = await chosen();
   assert.equal(first.length, 8);
-  const front = [...(error_against_time.ladder ?? error_against_time).front_by_distance, ...error_against_time.front_by_rate];
+  const front = [...(error_against_time.ladder ?? error_against_time).front_by_distance, ...error_against_time.front_by_rate, ...error_against_time.front_by_earliness];
   for (const name of [...bad, ...front].slice(0, 8)) assert.ok(first.includes(name), name);
   await isAsChosen(first);
   assert.equal(await count(page, "#picker-legend .swatch"), 8);

@@ -28,11 +28,12 @@ export async function showsEnvironments(browser) {
 /** With another theme, on a phone, and on paper, everything is shown and nothing extends beyond the page. */
 export async function fitsEveryMedium(browser) {
   const url = pageOf("found");
-  for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
-    const page = await open(browser, url, options);
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
-    await page.close();
-  }
+  for (const each of [url, pageOf("timed")])
+    for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
+      const page = await open(browser, each, options);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
+      await page.close();
+    }
   const page = await open(browser, url);
   assert.ok((await page.pdf()).length > 50000);
   await page.close();

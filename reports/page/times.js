@@ -1,0 +1,148 @@
+// Draws times of impact: their error against run time, a table, and histograms on both sides of t*.
+"use strict";
+
+const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
+/** The two sorts of time, told apart by two looks. */
+const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
+  legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
+
+/** The subjects, by kind, that gave times. */
+const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
+  .map((row) => ({ ...row, sort: sortsOfTime[row.time_sort] }));
+
+// --- error against run time -----------------------------------------------------------------------
+
+/** The subjects of the picture; the fields of their errors are upper ends of bins. */
+const earlinessRows = () => Object.entries(report.error_against_time.subjects)
+  .filter(([, { time_sort }]) => time_sort !== "none")
+  .map(([subject, row]) => ({ ...row, subject, name: isChosen({ subject }) ? subject : "others", sort: sortsOfTime[row.time_sort],
+    median: row.median_time_error[1], q99: row.q99_time_error[1] }));
+
+/** The names beside the medians. */
+function earlinessLabels(rows, [left, right], [bottom, top], [width, height]) {
+  const part = (value, from, to) => Math.log(value / from) / Math.log(to / from);
+  const points = rows.map((row) => ({ ...row, label: row.subject, rank: row.sort === sortsOfTime.estimate ? 1 : 0,
+    at: [width * part(row.ns_per_query, left, right), height * (1 - part(row.y.median, bottom, top))] }));
+  return placedLabels(points, [width, height]).map(({ place: [x, y], subject }) =>
+    ({ subject, ns_per_query: left * (right / left) ** (x / width), y: { median: bottom * (top / bottom) ** (1 - y / height) } }));
+}
+
+/** Draws a mark for each subject; only chosen subjects have their own colour. */
+function drawEarliness() {
+  show("earliness-part");
+  const rows = earlinessRows();
+  const axis = logAxis(rows.flatMap((row) => [row.median, row.q99, row.max_time_error]));
+  for (const row of rows)
+    row.y = { median: axis.at(row.median), q99: axis.at(row.q99), largest: axis.at(row.max_time_error) };
+  const times = rows.map((row) => row.ns_per_query);
+  const ends = [0.6 * Math.min(...times), 1.7 * Math.max(...times)];
+  const size = [Math.max(300, Math.min(900, element("how").clientWidth - 90)), 320];
+  const front = report.error_against_time.front_by_earliness;
+  const x = { field: "ns_per_query", type: "quantitative", title: "ns a query", scale: { type: "log", nice: false, domain: ends },
+    axis: { grid: true, tickCount: 6, format: "~s" } };
+  const y = (field) => ({ field: `y.${field}`, type: "quantitative", title: "|toi − t*|", scale: axis.scale, axis: axis.axis });
+  const hue = { ...chosenColor(color("--soft")), legend: null };
+  const tooltip = [{ field: "subject" }, { field: "sort", title: "time" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
+    { field: "times_given", title: "times" }, { field: "late" }, { field: "median", title: "median of |toi − t*|, at most", format: ".3~g" },
+    { field: "q99", title: "99 %, at most", format: ".3~g" }, { field: "max_time_error", title: "largest", format: ".4~g" }];
+  const own = { x, color: hue, tooltip };
+  const tick = (field, width) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width }, encoding: { ...own, y: y(field) } });
+  const late = rows.filter((row) => row.late > 0);
+  const labels = earlinessLabels(rows, ends, axis.scale.domain, size);
+  const text = (mark) => ({ data: { values: labels }, mark: { type: "text", fontSize: labelSize, ...mark },
+    encoding: { x, y: y("median"), text: { field: "subject" } } });
+  return draw("earliness", "For each subject that gives times, the run time of a query, and how far its times are from the exact ones.", {
+    width: size[0], height: size[1], data: { values: rows },
+    layer: [
+      { data: { values: rows.filter((row) => front.includes(row.subject)) },
+        mark: { type: "line", interpolate: "step-after", strokeDash: [8, 5], color: color("--soft") }, encoding: { x, y: y("q99") } },
+      { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("median"), y2: { field: "y.largest" }, strokeDash: bySort([[1, 0], [4, 3]]) } },
+      tick("q99", 14), tick("largest", 7),
+      { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
+        encoding: { ...own, y: y("median"), shape: bySort(["circle", "diamond"]) } },
+      { data: { values: late }, mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1,
+        color: color("--bad"), stroke: color("--paper") }, encoding: { x, y: y("median"), tooltip } },
+      text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") }),
+    ],
+  });
+}
+
+// --- table ----------------------------------------------------------------------------------------
+
+/** The number of late times, of a subject that promises lower bounds. */
+const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
+
+function drawTimes() {
+  const subjects = new Set(timedRows().map((row) => row.subject));
+  if (subjects.size === 0) return;
+  show("times-section");
+  const byFamily = element("times-by-family").checked;
+  const rows = (byFamily ? countRows(true) : classRows()).filter((row) => subjects.has(row.subject));
+  const ifGiven = (column) => ({ ...column, text: (r) => (r.times_given > 0 ? column.text(r) : "–") });
+  const upperEnd = (title, field) => ifGiven({ title, number: (r) => r[field][1], text: (r) => short(r[field][1]) });
+  const invalid = (r) => r.faults.invalid ?? 0;
+  fillTable(element("times"), [
+    text("subject", "subject"), text("kind", "kind"), text("class", "class"), ...(byFamily ? [text("family", "family")] : []),
+    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, count("times", "times_given"), lateTimes, count("stuck", "stuck"),
+    { title: "invalid", number: invalid, text: (r) => integer(invalid(r)), bad: (r) => invalid(r) > 0 }, count("unknown", "unknown"),
+    upperEnd("early: median", "median_early"), upperEnd("99 %", "q99_early"), ifGiven(number("most", "max_early")),
+    ifGiven(number("after t*", "max_after")), upperEnd("travelled / B", "q99_travelled"),
+  ], rows, true);
+}
+
+// --- histograms -----------------------------------------------------------------------------------
+
+/** The histogram of a row from the earliest to the latest: bin i of early times is at place -i, that of times after t* at i. */
+function binsOfErrors(row) {
+  const { early_histogram: early, after_histogram: after } = row;
+  const borders = report.histogram_borders.map(short);
+  const range = (i) => (i === early.length - 1 ? `at least ${borders[i]}` : `${borders[i]} to ${borders[i + 1]}`);
+  const bin = (place, count, error) => ({ subject: row.subject, kind: row.kind, sort: row.sort, place, count, error });
+  return [
+    ...early.map((n, i) => bin(-i, n, `early by ${range(i)}`)).slice(1).reverse(),
+    bin(0, early[0] + after[0], `less than ${borders[1]} away`),
+    ...after.map((n, i) => bin(i, n, `${range(i)} after t*`)).slice(1),
+  ];
+}
+
+/** A strip for each chosen subject and kind, all over the same axis. */
+function drawTimeErrors() {
+  const rows = timedRows();
+  const all = rows.flatMap(binsOfErrors);
+  const used = all.filter((bin) => bin.count > 0).map((bin) => bin.place);
+  const [first, last] = [Math.min(0, ...used) - 3, Math.max(0, ...used) + 3];
+  // The border of bin i is at place i - 1/2; a tick stands at every fourth power of ten.
+  const [lowest, ratio] = [report.histogram_borders[1], report.histogram_borders[2] / report.histogram_borders[1]];
+  const perTick = Math.round(4 / Math.log10(ratio));
+  const ticks = [0];
+  for (let place = perTick + 0.5; place < last || -place > first; place += perTick) ticks.push(place, -place);
+  const label = `datum.value === 0 ? '0' : (datum.value < 0 ? '−' : '') + format(${lowest} * pow(${ratio}, abs(datum.value) - 0.5), '~g')`;
+  const x = { field: "place", type: "quantitative", title: "toi − t*", scale: { domain: [first, last], nice: false },
+    axis: { values: ticks.filter((place) => place >= first && place <= last), labelExpr: label } };
+  const names = chosenNames().filter((name) => rows.some((row) => row.subject === name));
+  const most = Math.max(...all.map((bin) => bin.count));
+  const strips = (kind, isFirst) => ({
+    title: kindTitles[kind], transform: [{ filter: `datum.kind === "${kind}"` }],
+    facet: { row: { field: "row", title: null, sort: names.map((name) => rowName(rows, name)),
+      header: isFirst ? { labelAngle: 0, labelAlign: "left", labelPadding: 12 } : { labels: false } } },
+    spacing: 6,
+    spec: {
+      width: panelWidth(400, 330), height: 44,
+      layer: [
+        { mark: { type: "area", interpolate: "step", line: { strokeWidth: 1 }, opacity: 0.6 },
+          encoding: { x, color: { ...chosenColor(), legend: null },
+            y: { field: "count", type: "quantitative", title: null, stack: null, scale: { type: "symlog", domain: [0, most] }, axis: { values: [0, 10, 1000, 100000], labelExpr: "format(datum.value, '~s')" } },
+            tooltip: [{ field: "subject" }, { field: "error" }, { field: "count", title: "times" }] } },
+        { data: { values: [{ place: 0.5 }] }, mark: { type: "rule", color: color("--bad") }, encoding: { x } },
+      ],
+    },
+  });
+  const kinds = ["vt", "ee"].filter((kind) => rows.some((row) => row.kind === kind));
+  const values = all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last)
+    .map((bin) => ({ ...bin, row: rowName(rows, bin.subject) }));
+  return draw("time-errors", "The number of times at each difference from the exact earliest time, on both sides of 0.",
+    { data: { values }, hconcat: kinds.map((kind, i) => strips(kind, i === 0)) });
+}
+
+/** The name of a subject's strip: with the sort of its times. */
+const rowName = (rows, subject) => `${subject} (${rows.find((row) => row.subject === subject).sort})`;

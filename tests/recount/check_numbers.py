@@ -1,0 +1,46 @@
+"""Checks numbers of which enclosures are known: quantiles and histograms; and queries."""
+
+import numpy as np
+
+from enclosed import BINS, BORDERS, LARGEST
+
+ROUNDING = 1e-12  # relative error of a quotient of two counts
+SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
+
+
+def check_quantile(comparison, where, found, bins, largest):
+    """Checks the bin of a quantile, which ends at the largest number."""
+    first, last = bins or (0, 0)
+    lower = np.concatenate(([0], BORDERS))
+    upper = np.concatenate((BORDERS, [np.inf])) if bins else [0]
+    comparison.within('quantiles', f'{where} from', found[0], *outward(lower[first], lower[last]))
+    comparison.within(
+        'quantiles',
+        f'{where} to',
+        found[1],
+        *outward(min(upper[first], largest), min(upper[last], largest)),
+    )
+
+
+def outward(least, most):
+    """The range, widened by the rounding error of a border."""
+    return least * (1 - ROUNDING), most if most >= LARGEST else most * (1 + ROUNDING)
+
+
+def check_histogram(comparison, where, found, enclosed):
+    """Checks that each bin counts at least the numbers certainly in it, and at most those that may
+    be in it."""
+    least, most = enclosed.histogram
+    comparison.same('histogram bins', f'{where} sum', sum(found), len(enclosed))
+    if len(found) != BINS:
+        return comparison.same('histogram bins', f'{where} number of bins', len(found), BINS)
+    wrong = np.flatnonzero((least > found) | (most < found))
+    comparison.agree('histogram bins', BINS - len(wrong))
+    for i in wrong:
+        comparison.within('histogram bins', f'{where} bin {i}', found[i], least[i], most[i])
+
+
+def check_query(comparison, where, found, line):
+    """Checks a query, as a line or as a list of numbers."""
+    numbers = [float.fromhex(word) for word in found.split()] if isinstance(found, str) else found
+    comparison.same('provenances', where, numbers, [float.fromhex(word) for word in line.split()])

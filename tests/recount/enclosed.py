@@ -1,0 +1,74 @@
+"""Numbers of which enclosures are known, and their histograms."""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+# Borders of the histogram's bins, four to a decade from 10^-16 to 10^1. One more bin lies below
+# all borders and one above.
+BORDERS = np.array([10.0 ** (-16 + i / 4) for i in range(17 * 4 + 1)])
+BINS = len(BORDERS) + 1
+KEPT = 5  # number of the most extreme cases that are kept
+PRECISION = 1.01e-3  # relative error by which a reported number may exceed the true one
+LARGEST = np.finfo(float).max
+
+
+@dataclass
+class Enclosed:
+    """The lower and the upper ends of some numbers."""
+
+    lo: np.ndarray
+    hi: np.ndarray
+
+    def __len__(self):
+        return len(self.lo)
+
+    def __getitem__(self, some):
+        return Enclosed(self.lo[some], self.hi[some])
+
+    @classmethod
+    def joined(cls, parts):
+        """All numbers of several parts."""
+        return cls(
+            *(np.concatenate([getattr(part, end) for part in parts]) for end in ('lo', 'hi'))
+        )
+
+    @functools.cached_property
+    def bins(self):
+        """The histogram's bins of each number, by its lower and by its upper end."""
+        return [np.searchsorted(BORDERS, end, side='right') for end in (self.lo, self.hi)]
+
+    @functools.cached_property
+    def histogram(self):
+        """For each bin, the number of numbers certainly in it, and the number that may be in it."""
+        first, last = self.bins
+        least = np.bincount(first[first == last], minlength=BINS)
+        most = least.copy()
+        for lowest, highest in zip(first[first != last], last[first != last]):
+            most[lowest : highest + 1] += 1
+        return least, most
+
+    def largest(self):
+        """The ranges of the largest numbers as they are reported, largest first."""
+        lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
+        return [reported(*ends) for ends in zip(lo, hi)]
+
+    def quantile_bins(self, part):
+        """The first and the last bin that may contain the number that a fraction `part` of all does
+        not exceed.
+
+        The result is None without numbers."""
+        if len(self) == 0:
+            return None
+        place = max(int(np.ceil(part * len(self))), 1) - 1
+        return tuple(int(np.sort(bins)[place]) for bins in self.bins)
+
+
+def reported(lo, hi):
+    """The range of a reported number whose true value is from lo to hi. Reports round up.
+
+    The largest double stands for infinity. For a number below all borders, a report need not know
+    more than that."""
+    most = BORDERS[0] if lo < BORDERS[0] else 0
+    return min(lo, LARGEST), min(max(hi * (1 + PRECISION), most), LARGEST)

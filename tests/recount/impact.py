@@ -1,0 +1,135 @@
+"""Times of impact: which sort a subject gives, and how far they are from the exact ones."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asking import KINDS
+from enclosed import BORDERS, Enclosed, PRECISION
+from scalars import EPSILONS, paper_bound
+
+SORTS = {'exact': 'lower-bound', 'exact-scalar': 'lower-bound'}  # of built-in subjects with times
+WORDS = {'an estimate of the time': 'estimate', 'a lower bound of the time': 'lower-bound'}
+ROUNDING = 1e-15  # more than the relative rounding error of one operation
+SPLIT = dict(zip(KINDS, (1, 2)))  # the first vertex of the second primitive
+
+
+def sort_of_plugin(description):
+    """The sort of time, from what nearmiss subjects says about a plug-in."""
+    return next((sort for words, sort in WORDS.items() if words in description), 'none')
+
+
+@dataclass
+class Impact:
+    """The times of one subject for the queries of one kind. Arrays have one element for each query.
+
+    Enclosures are NaN unless the time is on their side."""
+
+    sort: str
+    time: np.ndarray  # as the subject gives it; NaN unless it is a true positive with a time
+    early: Enclosed  # t* - time, if the time is not after t*
+    after: Enclosed  # time - t*, if it is
+    travelled: Enclosed  # relative motion of the vertices in the time `early`, divided by B
+    stuck: np.ndarray  # bool
+
+    @property
+    def given(self):
+        return ~np.isnan(self.time)
+
+    @property
+    def late(self):
+        """Whether nothing was to happen before a time after t*."""
+        return ~np.isnan(self.after.lo) & (self.sort == 'lower-bound')
+
+
+def compare(nearmiss, times, kind, sort, verdicts, judged, collision):
+    """Compares the times of true positives with t*; `times` knows the enclosures of t*."""
+    given = verdicts.hit & collision & ~np.isnan(verdicts.time) & (sort != 'none')
+    own = np.flatnonzero(given)
+    lo, hi = (np.full(len(judged), np.nan) for _ in range(2))
+    lo[own], hi[own] = times.of([judged[i] for i in own])
+    time = np.where(given, verdicts.time, np.nan)
+    is_after = (time >= hi) & ~((lo == hi) & (time == lo))  # an open interval if lo < hi
+    early = _where(given & ~is_after, lo - time, hi - time)
+    after = _where(is_after, time - hi, time - lo)
+    stuck = (time == 0) & (hi > 0)
+    travelled = Enclosed(*(np.full(len(judged), np.nan) for _ in range(2)))
+    moving = np.flatnonzero(given & ~is_after)
+    speed = _speeds(nearmiss, kind, [judged[i] for i in moving])
+    most = np.maximum(
+        early.hi[moving] * (1 + PRECISION), np.where(early.lo[moving] < BORDERS[0], BORDERS[0], 0)
+    )
+    most[early.hi[moving] == 0] = 0
+    travelled.lo[moving], travelled.hi[moving] = early.lo[moving] * speed.lo, most * speed.hi
+    return Impact(sort, time, early, after, travelled, stuck)
+
+
+def _where(is_there, lo, hi):
+    """The enclosures of differences that are not negative, widened by their rounding errors."""
+    return Enclosed(
+        np.where(is_there, np.maximum(lo, 0) * (1 - ROUNDING), np.nan),
+        np.where(is_there, np.maximum(hi, 0) * (1 + ROUNDING), np.nan),
+    )
+
+
+def _speeds(nearmiss, kind, queries):
+    """The largest relative motions of vertices of the two primitives in the whole step, divided by
+    the bound B of the pair, which wang's claimed bound is proportional to."""
+    if not queries:
+        return Enclosed(np.zeros(0), np.zeros(0))
+    bound = nearmiss.verdicts(kind, queries, 'wang').bound
+    x = np.array([[float.fromhex(word) for word in query.split()[:24]] for query in queries])
+    with np.errstate(all='ignore'):
+        B = bound / paper_bound(2.0 ** EPSILONS['double'])
+        place = x.reshape(-1, 2, 4, 3) / B[:, None, None, None]
+        moved = place[:, 1] - place[:, 0]
+        first, second = np.split(moved, [SPLIT[kind]], axis=1)
+        relative = np.linalg.norm(first[:, :, None] - second[:, None, :], axis=-1)
+        relative = np.nan_to_num(relative, nan=0, posinf=np.inf)
+        speed = relative.max(axis=(1, 2))
+        speed[np.isinf(speed)] = 0  # as in the report
+        # The quotients are rounded; a subnormal bound has few digits.
+        relative_error = 1e-12 + 1e-322 / bound
+        slack = np.nan_to_num(
+            1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf
+        )
+    return Enclosed(np.maximum(speed - slack, 0), speed + slack)
+
+
+@dataclass
+class Times:
+    """Times of impact over some queries."""
+
+    sort: str  # 'none' without times
+    given: int
+    promised: int
+    late: int
+    stuck: int
+    early: Enclosed
+    after: Enclosed
+    travelled: Enclosed
+
+    @classmethod
+    def of(cls, impacts, own):
+        """Adds up the times of some queries of each kind."""
+        of_kinds = list(zip(impacts, own))
+        given, late, stuck = (
+            sum(int(getattr(each, name)[some].sum()) for each, some in of_kinds)
+            for name in ('given', 'late', 'stuck')
+        )
+        sort = impacts[0].sort if given else 'none'
+        early, after, travelled = (
+            _without_gaps(Enclosed.joined([getattr(each, name)[some] for each, some in of_kinds]))
+            for name in ('early', 'after', 'travelled')
+        )
+        promised = given if sort == 'lower-bound' else 0
+        return cls(sort, given, promised, late, stuck, early, after, travelled)
+
+    @property
+    def errors(self):
+        """The magnitudes of the differences on both sides."""
+        return Enclosed.joined([self.early, self.after])
+
+
+def _without_gaps(enclosed):
+    return enclosed[~np.isnan(enclosed.lo)]

@@ -1,0 +1,117 @@
+// Tests times of impact: their error against run time, their table, histograms and pictures; and separations.
+import assert from "node:assert/strict";
+import { dirname, join } from "node:path";
+import { count, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+
+const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
+const texts = (page, selector) => page.locator(selector).allTextContents();
+
+/** A mark for each subject that gives times, with its name; a cross for the one that is late. */
+async function checkEarliness(page, { error_against_time }) {
+  assert.deepEqual(error_against_time.front_by_earliness, ["exact"]);
+  assert.equal(await count(page, "#earliness .mark-symbol.role-mark path"), 3 + 1);
+  assert.equal(await count(page, "#earliness .mark-symbol.role-mark path[fill='#b3261e']"), 1);
+  assert.equal(await count(page, "#earliness .mark-rect.role-mark path"), 2 * 3); // ticks for the 99 % quantile and the largest
+  const dashed = await page.locator("#earliness .mark-rule.role-mark line").evaluateAll((all) =>
+    all.filter((each) => each.getAttribute("stroke-dasharray") === "4,3").length);
+  assert.equal(dashed, 1); // the estimate
+  assert.deepEqual(new Set(await texts(page, "#earliness .mark-text.role-mark text")), new Set(["always", "exact", "sampling"]));
+  assert.deepEqual(await texts(page, "#earliness .role-legend-label text"), ["lower bound", "estimate"]);
+}
+
+async function checkTable(page, { subjects }) {
+  const heading = await texts(page, "#times thead th");
+  const rows = () => page.locator("#times tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const column = (title) => heading.indexOf(title);
+  const byClass = await rows();
+  assert.equal(byClass.length, 3 * 2 * 2); // 3 subjects, 2 kinds, 2 classes
+  for (const row of byClass) {
+    const own = subjects[row[0]][row[1]].classes[row[2]];
+    const isGiven = own.times_given > 0;
+    assert.equal(row[column("sort")], !isGiven ? "–" : row[0] === "sampling" ? "estimate" : "lower bound");
+    assert.equal(row[column("times")], own.times_given.toLocaleString("en-US"));
+    assert.equal(row[column("late")], row[0] === "sampling" ? "–" : own.late.toLocaleString("en-US"));
+    assert.equal(row[column("stuck")], own.stuck.toLocaleString("en-US"));
+    for (const [title, field] of [["most", "max_early"], ["after t*", "max_after"]])
+      assert.equal(row[column(title)], isGiven ? Number(own[field].toPrecision(3)).toString() : "–");
+  }
+  assert.equal(await count(page, "#times td.bad"), 4); // the late times of one subject
+  await page.check("#times-by-family");
+  assert.deepEqual(new Set((await rows()).map((row) => row[3])), new Set(["uniform", "planted", "even-roots"]));
+  assert.equal((await rows()).length, 3 * 2 * 3);
+  const late = (await texts(page, "#counts thead th")).indexOf("late");
+  const cells = await texts(page, `#counts tbody td:nth-child(${late + 1})`);
+  const counts = Object.values(subjects).flatMap((ofKind) => ["ee", "vt"].map((kind) => ofKind[kind]));
+  assert.deepEqual(new Set(cells), new Set(counts.map((each) => (each.times_promised > 0 ? each.late.toLocaleString("en-US") : "–"))));
+}
+
+/** A strip for each subject and kind: early times left of the middle, times after t* right of it. */
+async function checkHistograms(page, { subjects }) {
+  const sum = (list) => list.reduce((a, b) => a + b, 0);
+  for (const [subject, ofKind] of Object.entries(subjects))
+    for (const [kind, { early_histogram: early, after_histogram: after, times_given }] of Object.entries(ofKind)) {
+      if (times_given === 0) continue;
+      const bins = await page.evaluate(([name, of]) => binsOfErrors(timedRows().find((row) => row.subject === name && row.kind === of)), [subject, kind]);
+      const at = (side) => bins.filter(({ place }) => Math.sign(place) === side).map((bin) => bin.count);
+      assert.deepEqual([at(-1), at(0), at(1)], [early.slice(1).reverse(), [early[0] + after[0]], after.slice(1)]);
+      assert.equal(sum(bins.map((bin) => bin.count)), times_given);
+    }
+  assert.equal(await count(page, "#time-errors .mark-area path"), 3 * 2);
+  assert.equal(await count(page, "#time-errors .mark-rule.role-mark line"), 3 * 2);
+  assert.deepEqual((await texts(page, "#time-errors .role-row-header text")).filter((text) => text.includes("(")),
+    ["always (lower bound)", "exact (lower bound)", "sampling (estimate)"]); // left of the first kind
+  const ticks = await texts(page, "#time-errors .role-axis-label text");
+  for (const tick of ["−0.0001", "−1e-12", "0", "1e-12", "0.0001"]) assert.ok(ticks.includes(tick), tick);
+}
+
+async function checkPictures(page, { extreme_times, findings }) {
+  assert.equal(await count(page, "#extreme-times tbody tr"), extreme_times.length);
+  const always = page.locator("#extreme-times tbody tr", { hasText: "always vt" });
+  assert.match(await always.first().textContent(), /early by 0\.\d+ of the step/);
+  assert.match(await always.last().textContent(), /late by 0\.\d+ of the step/);
+  assert.match(await page.locator("#extreme-times tbody tr", { hasText: "sampling vt" }).last().textContent(), /after t\* by /);
+  const late = findings.filter(({ what }) => what === "late");
+  assert.ok(late.length > 0);
+  const pictures = page.locator("#findings figure", { has: page.locator(".given") });
+  assert.equal(await pictures.count(), late.length);
+  const legends = await pictures.locator("figcaption").allTextContents();
+  late.forEach(({ time, toi }, i) => {
+    assert.equal(toi, 0.5);
+    assert.ok(time < toi);
+    const [, shown, after] = legends[i].match(/t\* = (\S+) toi = t\* \+ (\S+)$/);
+    assert.ok(Math.abs(Number(shown) - time) <= 0.005 * time);
+    assert.ok(Math.abs(Number(after) - (toi - time)) <= 0.005 * (toi - time));
+  });
+  assert.match(await page.locator("#findings tbody tr", { hasText: "late of always" }).first().textContent(), /late of always, by [\d.e-]+ of the step/);
+}
+
+export async function showsTimesOfImpact(browser) {
+  const page = await open(browser, makeReport("timed",
+    ["--family", "uniform,planted,even-roots", "--cases", "900", "--subject", `wang,exact,${plugin("promises")},${plugin("sampling")}`]));
+  const report = jsonOf("timed");
+  assert.match((await texts(page, ".verdict")).find((text) => text.includes("always")), /^FAILalwaysno miss in \d+ collisions, LATE in \d+ of \d+ times/);
+  await checkEarliness(page, report);
+  await checkTable(page, report);
+  await checkHistograms(page, report);
+  await checkPictures(page, report);
+  const links = await page.locator("footer a").evaluateAll((all) => all.map((each) => each.getAttribute("href")));
+  assert.ok(links.includes("times.csv"));
+  await page.close();
+}
+
+export async function showsSeparations(browser) {
+  const page = await open(browser, makeReport("apart",
+    ["--family", "uniform", "--separation", "0.25", "--cases", "400", "--subject", `exact,${plugin("promises")}`]));
+  assert.match(await page.textContent("#runs"), /, separation 0\.25, /);
+  for (const section of ["findings", "farthest", "extreme-times"]) {
+    assert.match(await page.locator(`#${section} figcaption`).first().textContent(), /^h = 0\.25/, section);
+    assert.match(await page.locator(`#${section} pre`).first().textContent(), /\nh {2}0\.25$/, section);
+  }
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  const button = page.locator("#extreme-times button").first();
+  await button.click();
+  await page.locator("#extreme-times").getByText("copied", { exact: true }).waitFor();
+  assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), jsonOf("apart").extreme_times[0].query);
+  assert.equal(jsonOf("apart").extreme_times[0].query[24], 0.25);
+  await page.close();
+}

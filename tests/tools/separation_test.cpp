@@ -1,0 +1,104 @@
+// Queries with a separation, and times of impact, as a user asks for them.
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+
+class SeparationOption : public testing::CommandLine {
+ protected:
+  /// The vertex of `hit` comes within 1/2 of the triangle at t = 1/4; that of `miss` never does.
+  void SetUp() override { write("q.vt", hit + miss); }
+
+  /// A query with its separation as the 25th number.
+  static std::string with(const std::string& query, const std::string& separation) {
+    return query.substr(0, query.size() - 1) + " " + separation + "\n";
+  }
+
+  /// A subject that reports every pair at t = 1/2, and promises that nothing happens before.
+  const std::string promises = " --subject " + plugin("promises");
+};
+
+TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
+  EXPECT_EQ(run("oracle --kind vt --toi q.vt").out, "1 0x1p-1 0x1p-1\n0 inf inf\n");
+  const std::string expected = "1 0x1p-2 0x1p-2\n0 inf inf\n";
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0.5 q.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0x1p-1 --method all q.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --rational --separation 0.5 q.vt").out,
+            "1 0x1p-2 0x1p-2 1/4\n0 inf inf -\n");
+  write("own.vt", with(hit, "0.5") + with(miss, "0.5"));
+  EXPECT_EQ(run("oracle --kind vt --toi own.vt").out, expected);
+  EXPECT_EQ(run("oracle --kind vt --toi --separation 0 own.vt").out, run("oracle --kind vt --toi q.vt").out);
+}
+
+TEST_F(SeparationOption, VerdictPrintsTheTime) {
+  EXPECT_THAT(run("verdict --kind vt --subject exact --separation 0.5 q.vt").out,
+              MatchesRegex("1 [a-z]+ 0x1p-2\n0\n"));
+  EXPECT_EQ(run("verdict --kind vt --separation 0.5 q.vt" + promises).out,
+            "1 unspecified 0x1p-1\n1 unspecified 0x1p-1\n");
+  EXPECT_EQ(run("verdict --kind vt q.vt --subject " + plugin("example")).out, "1 unspecified nan\n0\n");
+}
+
+TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
+  write("one.vt", hit);
+  for (const std::string command :
+       {"oracle --kind vt q.vt", "verdict --kind vt --subject exact q.vt", "bench q.vt --subject exact",
+        "replay q.vt", "shrink one.vt --subject exact"})
+    for (const char* other : {"-1", "nan", "inf", "x"})
+      expect_refused(command + " --separation=" + other, {"--separation", other});
+  for (const std::string command : {"verdict --kind vt q.vt", "bench q.vt --json new.json", "shrink one.vt",
+                                    "fuzz --cases 10 --db new.db"})
+    expect_refused(command + " --subject wang --separation 0.5", {"wang: answers for contact only"});
+  write("own.vt", hit + with(hit, "0.5"));
+  expect_refused("bench own.vt --subject exact,wang", {"wang: answers for contact only"});
+  expect_refused("verdict --kind vt --subject wang own.vt", {"wang: answers for contact only"});
+}
+
+TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
+  const std::string options = "bench q.vt --subject exact --queries 5 --runs 1 --json b.json";
+  EXPECT_EQ(run(options + " --separation 1.5").code, 0);
+  const json results = read_json("b.json")["results"];
+  ASSERT_EQ(results.size(), 7);
+  EXPECT_EQ(results[0]["input"], "q.vt~1.5");
+  EXPECT_EQ(results[0]["queries"], 2);  // boxes that are at most so far apart meet
+  EXPECT_EQ(results[1]["input"], "uniform~1.5");
+  EXPECT_EQ(run(options).code, 0);
+  EXPECT_EQ(read_json("b.json")["results"][0]["input"], "q.vt");
+  EXPECT_EQ(read_json("b.json")["results"][0]["queries"], 1);
+}
+
+TEST_F(SeparationOption, ShrinkKeepsALateTime) {
+  write("one.vt", hit);
+  EXPECT_EQ(run("shrink one.vt" + promises).code, 2);  // contact at t = 1/2 is not before
+  const Output shrunk = run("shrink one.vt -o late.case --separation 0.5" + promises);
+  EXPECT_EQ(shrunk.code, 0) << shrunk.error;
+  EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
+  const Output again = run("replay late.case --json r.json" + promises);
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.out, HasSubstr("FAIL always: no miss in 1 collision, LATE in 1 of 1 time,"));
+  const json counts = read_json("r.json")["subjects"]["always"]["vt"];
+  EXPECT_EQ(counts["late"], 1);
+  EXPECT_EQ(counts["times_promised"], 1);
+  EXPECT_EQ(counts["time_sort"], "lower-bound");
+}
+
+TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
+  for (const char* each : {"0.25", "drawn"})
+    EXPECT_EQ(run(std::string("fuzz --family uniform --cases 40 --subject exact --db ") + each +
+                  ".db --separation " + each)
+                  .code,
+              0);
+  EXPECT_EQ(run("report 0.25.db drawn.db -o report").code, 0);
+  const json report = read_json("report/report.json");
+  std::vector<std::string> separations;
+  for (const json& each : report["runs"]) separations.push_back(each["separation"].get<std::string>());
+  EXPECT_THAT(separations, ::testing::UnorderedElementsAre("0.25", "drawn"));
+  const json& families = report["subjects"]["exact"]["vt"]["families"];
+  EXPECT_TRUE(families.contains("uniform~0.25") && families.contains("uniform~drawn"));
+}
+
+}  // namespace
+}  // namespace nearmiss
