@@ -72,8 +72,8 @@ struct EarliestTime::Exact {
 EarliestTime::EarliestTime(const Query& query) : query_(query) {
   if (query.separation > 0) {
     const KnownApproach approach = known_approach(query, rough_time);
-    rough_ = {approach.time, true};
     is_certified_ = approach.stage == FilterStage::within;
+    rough_ = {approach.time, is_certified_ && approach.time.hi > 0};
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
     if (!is_certified_) exact();  // refuses if the distance is always above h
   } else {
