@@ -29,7 +29,7 @@ double rounded_down(const Number& x) {
 
 /// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow; both are the
 /// time itself if it is a double.
-Enclosure enclose(Root& t, double width) {
+Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());
     const double last = rounded_down(t.hi());
@@ -40,6 +40,14 @@ Enclosure enclose(Root& t, double width) {
       if (t.is(Number(each))) return {each, each};
     if (next >= hi || hi - lo <= width) return {lo, hi};
   }
+}
+
+// Comparisons narrow what is known about a root. They do so in copies of it, so that the answers to later questions do not
+// depend on earlier ones.
+bool is_below(Root t, double time) {
+  const PlainArithmetic guard;
+  Root at{Number(time)};
+  return t.is_below(at);
 }
 
 [[noreturn]] void refuse() {
@@ -72,8 +80,8 @@ struct EarliestTime::Exact {
 EarliestTime::EarliestTime(const Query& query) : query_(query) {
   if (query.separation > 0) {
     const KnownApproach approach = known_approach(query, rough_time);
-    rough_ = {approach.time, true};
     is_certified_ = approach.stage == FilterStage::within;
+    rough_ = {approach.time, is_certified_ && approach.time.hi > 0};
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
     if (!is_certified_) exact();  // refuses if the distance is always above h
   } else {
@@ -101,9 +109,7 @@ bool EarliestTime::is_before(double time) {
   int before = comparison(rough_.time, time);
   if (before < 0) before = comparison(narrow().time, time);
   if (before >= 0) return before == 1;
-  const PlainArithmetic guard;
-  Root at{Number(time)};
-  return exact().time.is_below(at);
+  return is_below(exact().time, time);
 }
 
 bool EarliestTime::makes_late(double time) {
@@ -115,9 +121,7 @@ bool EarliestTime::makes_late(double time) {
     if (late < 0) late = comparison(narrow().time, time);
     if (late >= 0) return late == 1;
   }
-  const PlainArithmetic guard;
-  Root at{Number(time)};
-  return exact().below && exact().below->is_below(at);
+  return exact().below && is_below(*exact().below, time);
 }
 
 Enclosure EarliestTime::enclosure(double width) {
@@ -133,7 +137,7 @@ Enclosure EarliestTime::enclosure(double width) {
 
 std::string EarliestTime::rational() {
   const PlainArithmetic guard;
-  const auto rational = exact().time.as_rational();
+  const auto rational = Root(exact().time).as_rational();
   return rational ? mpq_class(rational->mpq()).get_str() : "";
 }
 
@@ -148,7 +152,7 @@ const KnownTime& EarliestTime::narrow() {
   return *narrow_;
 }
 
-EarliestTime::Exact& EarliestTime::exact() {
+const EarliestTime::Exact& EarliestTime::exact() {
   if (!exact_) {
     const PlainArithmetic guard;
     exact_ = std::make_unique<Exact>(query_);

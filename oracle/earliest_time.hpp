@@ -45,7 +45,7 @@ class EarliestTime {
 
   /// The narrowest enclosure that certified bounds give.
   const KnownTime& narrow();
-  Exact& exact();
+  const Exact& exact();
 
   Query query_;
   KnownTime rough_;

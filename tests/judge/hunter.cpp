@@ -86,17 +86,35 @@ std::string hunt(const Family& family, std::uint64_t first, std::uint64_t count)
     restart_clock();
   };
   position.family = family.name.c_str();
-  const auto disagreement = first_disagreement(queries, first, go_to);
+  const auto disagreement = family.has_separation ? first_approach_disagreement(queries, first, go_to)
+                                                  : first_disagreement(queries, first, go_to);
   go_to(disagreement ? disagreement->at : count - 1);
   return disagreement ? found(disagreement->what) : "";
 }
 
+/// All families that ask for contact, each followed by the same queries with a separation. Small integers also have
+/// separations that are distances of points on a grid.
+std::vector<Family> hunted_families() {
+  std::vector<Family> hunted;
+  for (const Family& family : families()) {
+    hunted.push_back(family);
+    hunted.push_back(with_separation(family, drawn_separation));
+    for (const char* const h : {"0.25", "0.5", "1"})
+      if (family.name == "small-integer") hunted.push_back(with_separation(family, h));
+  }
+  hunted.insert(hunted.end(), separation_families().begin(), separation_families().end());
+  return hunted;
+}
+
 std::string hunt_until(std::uint64_t most) {
-  constexpr std::uint64_t block = 50;
-  for (std::uint64_t first = 0;; first += block)
-    for (const Family& family : families()) {
+  constexpr std::uint64_t of_contact = 50;
+  constexpr std::uint64_t with_a_separation = 10;  // exact answers about these take longer
+  const std::vector<Family> hunted = hunted_families();
+  for (std::uint64_t block = 0;; ++block)
+    for (const Family& family : hunted) {
       if (position.queries >= most) return fmt::format("nothing {}\n", position.queries);
-      if (std::string line = hunt(family, first, block); !line.empty()) return line;
+      const std::uint64_t count = family.has_separation ? with_a_separation : of_contact;
+      if (std::string line = hunt(family, block * count, count); !line.empty()) return line;
     }
 }
 

@@ -80,17 +80,6 @@ SamplingRates sampling_rates(FilterStage batch, FilterStage cautious, FilterStag
   }
 }
 
-/// Whether magnitudes are so far apart that exact distances take long.
-bool is_wide(const Query& query) {
-  double largest = 0;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double c : query.x) {
-    largest = std::max(largest, std::abs(c));
-    if (c != 0) smallest = std::min(smallest, std::abs(c));
-  }
-  return smallest < 0x1p-300 * largest || largest > 0x1p1000;
-}
-
 /// Compares all decisions of the filters with the exact answer.
 std::string filters_against(bool exact, const Query& query, std::size_t i, const Filtered& filtered) {
   const auto is_wrong = [&](FilterStage stage) { return is_decided(stage) && is_collision(stage) != exact; };
@@ -144,6 +133,16 @@ std::string query_disagreement(const Query& query, std::uint64_t index, std::siz
 }
 
 }  // namespace
+
+bool is_wide(const Query& query) {
+  double largest = 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double c : query.x) {
+    largest = std::max(largest, std::abs(c));
+    if (c != 0) smallest = std::min(smallest, std::abs(c));
+  }
+  return smallest < 0x1p-300 * largest || largest > 0x1p1000;
+}
 
 std::optional<Contradiction> first_disagreement(std::span<const Query> queries, std::uint64_t first,
                                                 const Watch& watch) {

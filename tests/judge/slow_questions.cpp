@@ -1,6 +1,5 @@
-// Compares times, distances and translations with exact decisions.
+// Compares distances and translations with exact decisions.
 #include <algorithm>
-#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <limits>
 
@@ -17,12 +16,6 @@ namespace nearmiss {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The next double above x; the next double below a number that is not negative, with 0 for 0.
-double above(double x) { return std::nextafter(x, infinity); }
-double below(double x) { return std::nextafter(x, 0.0); }
-
-using Rational = boost::multiprecision::mpq_rational;
 
 std::string enclosure_disagreement(const Enclosure& d, bool collision) {
   if (!(0 <= d.lo && d.lo <= d.hi)) return "distance: no enclosure";
@@ -72,40 +65,20 @@ std::string distance_disagreement(const Query& query, bool collision) {
   const Enclosure wide = distance_in_units(query, d.hi, [](double hi) { return hi / 2; });
   if (wide.lo > 1 + rounding || wide.hi < d.lo / d.hi * (1 - rounding)) return "distance: enclosures apart";
   if (2 * wide.lo < wide.hi) return "distance: too wide";
-  return "";
+  return closest_approach_disagreement(query, minimum_distance(query, 0));
 }
 
-std::string time_disagreement(const Query& query, bool collision) {
-  auto time = earliest_time(query);
-  if (time.has_value() != collision) return "time: of no collision";
-  if (!time) return "";
-  const Enclosure known = time->known();
-  const auto is_enclosure = [](const Enclosure& t) { return 0 <= t.lo && t.lo <= t.hi && t.hi <= 1; };
-  if (!is_enclosure(known)) return "time: no enclosure";
-  // Before the exact time is known, so that the enclosure answers if it can.
-  for (const double at : {known.lo, below(known.lo), known.lo / 2, known.hi, above(known.hi),
-                          (1 + known.hi) / 2, known.lo + (known.hi - known.lo) / 2})
-    if (time->is_before(at) != meet_before(query, at)) return "time: before";
-  const auto [lo, hi] = time->enclosure();
-  if (!is_enclosure({lo, hi}) || hi > above(lo)) return "time: wide";
-  if (lo < known.lo || known.hi < hi) return "time: enclosures apart";
-  if (meet_before(query, lo)) return "time: too late";
-  if (!meet_before(query, above(hi))) return "time: too early";
-  if (lo == hi && meet_before(query, hi)) return "time: not exact";
-  if (const std::string rational = time->rational(); !rational.empty()) {
-    const Rational exact(rational);
-    if (exact < Rational(lo) || exact > Rational(hi)) return "time: rational";
-    if (lo == hi && exact != Rational(lo)) return "time: rational";
-  }
-  return "";
-}
-
-std::string translation_disagreement(const Query& query) {
+Query in_translation(const Query& query) {
   Query moved = query;
   for (int i = 0; i < 4; ++i) {
     const int first = i < split(query.kind) ? 0 : split(query.kind);
     moved.set_end(i, query.start(i) + (query.end(first) - query.start(first)));
   }
+  return moved;
+}
+
+std::string translation_disagreement(const Query& query) {
+  const Query moved = in_translation(query);
   if (!is_finite(moved)) return "";
   const bool is_exact = std::all_of(moved.x.begin(), moved.x.end(),
                                     [](double c) { return std::abs(c) < 0x1p50 && c == std::round(c); });

@@ -47,6 +47,14 @@ TEST(Separation, IsReachedWhenThePrimitivesAreHApart) {
   EXPECT_EQ(first_time(falling_edge(1, -1), 2), "0.000000");
 }
 
+// Certified bounds show that the distance is above h up to the double before t = 1. They cannot show that it is h at t = 1.
+TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
+  for (const double start : {1e2, 1e6, 1e12}) {
+    EXPECT_EQ(first_time(falling_vertex(0.25, 0.25, start, 1), 1), "1.000000") << start;
+    EXPECT_EQ(first_time(falling_edge(start, 1), 1), "1.000000") << start;
+  }
+}
+
 TEST(Separation, IsThatOfTheClosestFeatures) {
   // Beside an edge of the triangle, 3 away from it, and 4 above its plane at t = 1/2.
   EXPECT_EQ(first_time(falling_vertex(0.5, -3, 8, 0), 5), "0.500000");

@@ -1,0 +1,125 @@
+// Compares earliest times with exact decisions about the step up to some time.
+#include <array>
+#include <boost/multiprecision/gmp.hpp>
+#include <set>
+
+#include "oracle/contract.hpp"
+#include "oracle/exact/first_approach.hpp"
+#include "oracle/exact/first_contact.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/sturm/separation.hpp"
+#include "oracle/sturm/sturm.hpp"
+#include "oracle/subjects.hpp"
+#include "oracle/within_separation.hpp"
+#include "tests/judge/questions.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using exact::Number;
+using exact::Root;
+using Rational = boost::multiprecision::mpq_rational;
+
+/// What happens in [0, time), by the second method. For contact, both answers are the same.
+Reach reach_until(const Query& query, double time) {
+  if (query.separation > 0) return time > 1 ? reach(query) : reach_before(query, time);
+  const bool meet = meet_before(query, time);
+  return {meet, meet};
+}
+
+/// The exact times, by the first method. For contact, both are the same.
+std::optional<exact::FirstApproach> exact_times(const Query& query) {
+  if (query.separation > 0) return exact::first_approach(query);
+  exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
+  if (!contact) return std::nullopt;
+  return exact::FirstApproach{contact->time, contact->time};
+}
+
+/// What certified bounds show of the time; no enclosure if they show that there is none.
+KnownTime known_time(const Query& query, double width) {
+  if (query.separation > 0) return {known_approach(query, width).time};
+  return time_of_contact(query, width).value_or(KnownTime{{1, 0}});
+}
+
+bool is_enclosure(const Enclosure& t) { return 0 <= t.lo && t.lo <= t.hi && t.hi <= 1; }
+
+bool contains(const Enclosure& enclosure, Root& t) {
+  Root lo{Number(enclosure.lo)};
+  Root hi{Number(enclosure.hi)};
+  return !t.is_below(lo) && !hi.is_below(t);
+}
+
+/// Compares the certified enclosures of all widths with the exact times.
+std::string known_times_disagree(const Query& query, exact::FirstApproach& exactly) {
+  for (const double width : {1.0, 0x1p-10, rough_time, 0.0}) {
+    const KnownTime known = known_time(query, width);
+    if (!is_enclosure(known.time)) return "time: no enclosure";
+    if (!contains(known.time, exactly.time)) return "time: outside its enclosure";
+    if (exactly.below && !contains(known.time, *exactly.below)) return "time: below outside the enclosure";
+    const auto is = [&](double end) { return exactly.time.is(Number(end)); };
+    if (known.is_between && (is(known.time.lo) || is(known.time.hi))) return "time: not between";
+  }
+  return "";
+}
+
+/// Compares what a time says about other times with the second method.
+std::string comparisons_disagree(const Query& query, EarliestTime& time) {
+  std::set<double> others;
+  for (const auto& [lo, hi] : {time.known(), known_time(query, 0).time})
+    for (const double other :
+         {lo / 2, below(lo), lo, above(lo), lo + (hi - lo) / 2, below(hi), hi, above(hi), (1 + hi) / 2})
+      others.insert(other);
+  for (const double other : others) {
+    const Reach happens = reach_until(query, other);
+    if (time.is_before(other) != happens.at_most) return "time: before";
+    if (time.makes_late(other) != happens.below) return "time: late";
+  }
+  return "";
+}
+
+/// Checks the enclosures of all widths.
+std::string enclosures_disagree(const Query& query, EarliestTime& time, Root& exactly) {
+  for (const double width : {1.0, 1e-3, 1e-12, 0.0}) {
+    const Enclosure enclosure = time.enclosure(width);
+    if (!is_enclosure(enclosure) || !contains(enclosure, exactly)) return "time: no enclosure of it";
+    const auto [lo, hi] = enclosure;
+    if (hi - lo > width && hi > above(lo)) return "time: wide";
+    if (enclosure != EarliestTime(query).enclosure(width)) return "time: depends on other questions";
+  }
+  const auto [lo, hi] = time.enclosure();
+  if (lo < time.known().lo || time.known().hi < hi) return "time: enclosures apart";
+  if (reach_until(query, lo).at_most) return "time: too late";
+  if (!reach_until(query, above(hi)).at_most) return "time: too early";
+  if ((lo == hi) != (exactly.is(Number(lo)) || exactly.is(Number(hi)))) return "time: not exact";
+  const std::string rational = time.rational();
+  if (lo == hi && rational.empty()) return "time: no rational";
+  if (!rational.empty() && !exactly.is(0) && !exactly.is(1)) {
+    const Rational t(rational);
+    if (t < Rational(lo) || t > Rational(hi)) return "time: rational";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string time_disagreement(const Query& query, bool happens) {
+  static const auto subject = try_make_exact("exact-scalar");
+  const Verdict verdict = subject->decide(query);
+  if (verdict.hit != happens) return "subject: hit";
+  auto time = earliest_time(query);
+  auto exactly = exact_times(query);
+  if (time.has_value() != happens || exactly.has_value() != happens) return "time: of nothing";
+  const bool happens_at_start = happens && exactly->time.is(0);
+  if (keeps_contract(query, {.apart_at_start = true}) == happens_at_start) return "contract: apart at start";
+  if (!happens) return "";
+  if (!is_enclosure(time->known())) return "time: no enclosure";
+  std::string what = known_times_disagree(query, *exactly);
+  if (what.empty()) what = comparisons_disagree(query, *time);
+  if (what.empty()) what = enclosures_disagree(query, *time, exactly->time);
+  if (what.empty() && verdict.time != time->enclosure().lo) what = "subject: time";
+  return what;
+}
+
+}  // namespace nearmiss
