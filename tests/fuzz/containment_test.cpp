@@ -181,6 +181,15 @@ TEST(Throwing, ACrashAfterAnExceptionIsACrash) {
   EXPECT_EQ(subject->decide(query).fault, Fault::crash);
 }
 
+TEST(Throwing, WithoutATextIsAFaultToo) {
+  const auto subject = make_isolated_plugin(plugin("throwing"));
+  Query query = queries().front();
+  query.x[0] = 0.5;
+  const Verdict verdict = subject->decide(query);
+  EXPECT_EQ(verdict.fault, Fault::exception);
+  EXPECT_EQ(subject->fault_text(verdict), "std::exception");
+}
+
 TEST(Throwing, WhileItIsLoadedIsSaid) {
   EXPECT_THAT(
       [] { make_isolated_plugin(plugin("throwing_while_loaded")); },

@@ -25,7 +25,7 @@ while header := sys.stdin.buffer.read(24):
     rows = [struct.unpack('<25d', sys.stdin.buffer.read(200)) for i in range(n)]
     answers = [1, 0.5] * n
     )" + then + R"(
-    sys.stdout.buffer.write(struct.pack(f'<{2 * n}d', *answers))
+    sys.stdout.buffer.write(struct.pack(f'<{len(answers)}d', *answers))
     sys.stdout.buffer.flush()
 )");
   }
@@ -33,7 +33,7 @@ while header := sys.stdin.buffer.read(24):
   /// A program in Python.
   [[nodiscard]] std::string command(const std::string& code) const {
     const std::string text =
-        "import os, signal, struct, sys, time\n"
+        "import os, signal, struct, subprocess, sys, time\n"
         "def say(text):\n    sys.stdout.write(text)\n    sys.stdout.flush()\n" +
         code;
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
@@ -113,6 +113,35 @@ TEST_F(ProgramTest, AnAnswerThatIsNoneIsInvalid) {
         << answer;
 }
 
+// Otherwise the answers to later questions would be those to earlier ones.
+TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
+  const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
+  for (const std::string& name :
+       {program("answers += [0, 0] * (not 'asked' in globals()); asked = True"), program("answers += [0]"),
+        program("pass", "\\n')\n" + numbers + "\nsay('")}) {
+    const auto subject = make_any_subject(name);
+    const std::vector<Query> queries(5);
+    std::vector<Verdict> verdicts(queries.size());
+    subject->decide(queries, verdicts);
+    for (const Verdict& verdict : verdicts) EXPECT_EQ(verdict.fault, Fault::protocol) << name;
+  }
+}
+
+TEST_F(ProgramTest, ThatLeavesAChildBehindEnds) {
+  const Verdict exit =
+      last_verdict(program("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)"));
+  EXPECT_EQ(exit.fault, Fault::crash);
+  EXPECT_EQ(exit.fault_code, -5);
+}
+
+TEST_F(ProgramTest, ThatSaysNothingIsRefusedAfterTheTimeForLoading) {
+  const std::chrono::seconds loading(2);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THAT([&] { make_any_subject("pipe:cat", std::nullopt, {.loading = loading}); },
+              ThrowsMessage<Error>(HasSubstr("pipe:cat: the plug-in takes longer than 2 s to load")));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10 * loading);
+}
+
 TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   const auto refused = [&](const std::string& name, const std::string& why) {
     EXPECT_THAT([&] { make_any_subject(name); }, ThrowsMessage<Error>(HasSubstr(why))) << name;
@@ -123,6 +152,9 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   refused(command("say('nearmiss 2\\nname p\\nkinds xy\\n\\n')"),
           "found 'xy', expected one of vt, ee, vt ee");
   refused(command("say('nearmiss 2\\nname p\\ngrid 0.x\\n\\n')"), "found '0.x', expected a number");
+  refused(command("say('nearmiss 2\\nname p\\nbits 24.9\\n\\n')"), "found '24.9', expected a whole number");
+  refused(command("say('nearmiss 2\\nname p\\nbatch 1e30\\n\\n')"), "found '1e30', expected a whole number");
+  refused(command("say('nearmiss 2\\nname p\\nbatch inf\\n\\n')"), "found 'inf', expected a whole number");
   refused(command("say('nearmiss 2\\nnames p\\n\\n')"), "found the line 'names'");
   refused(command("import no_such_module"), "No module named 'no_such_module'");
   refused("pipe:no-such-command", "no-such-command: not found");

@@ -17,6 +17,9 @@ inline constexpr int answers_memory = 6;
 
 inline constexpr std::size_t batch_size = 2048;
 
+/// A reply to a call whose answers cannot be used, because the plug-in breaks the protocol.
+inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
+
 /// What a worker does with the queries of a batch.
 enum class Request : std::uint8_t {
   load,  ///< loads the plug-in; comes first

@@ -73,9 +73,13 @@ double calls_per_query(Request request) {
 
 }  // namespace
 
-bool WorkerProcess::Elapsed::exceeds(Duration limit) const {
+bool WorkerProcess::Elapsed::exceeds(const Elapsed& limit) const {
+  return computing >= limit.computing || passed >= limit.passed;
+}
+
+WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) {
   constexpr double patience = 10;
-  return computing >= limit || passed >= patience * limit;
+  return {computing, patience * computing};
 }
 
 /// Measures from its construction.
@@ -115,7 +119,8 @@ void WorkerProcess::start(const std::string& plugin) {
 }
 
 void WorkerProcess::load(const std::string& plugin) {
-  const End end = ask({0, Request::load}, limits_.loading, limits_.loading);
+  const Elapsed limit{limits_.loading, limits_.loading};
+  const End end = ask({0, Request::load}, limit, limit);
   if (end == End::query_late || end == End::call_late)
     throw Error(
         fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
@@ -146,7 +151,8 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   const Call call{++call_, request};
   const Duration of_queries = limits_.time * calls_per_query(request);
   const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
-  End end = ask(call, info_.batch == 1 ? limits_.time : of_call, of_call);
+  End end = ask(call, Elapsed::with_waiting(info_.batch == 1 ? limits_.time : of_call),
+                Elapsed::with_waiting(of_call));
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
   if (end == End::done && answers_->threw == call.number) end = End::threw;
   for (std::uint32_t i = first; i < last && end == End::done; ++i)
@@ -181,7 +187,7 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
   }
 }
 
-WorkerProcess::End WorkerProcess::ask(const Call& call, Duration of_query, Duration of_call) {
+WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;

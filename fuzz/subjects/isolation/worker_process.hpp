@@ -20,11 +20,11 @@ namespace nearmiss::isolation {
 
 using Duration = std::chrono::duration<double>;
 
-/// The limits of a plug-in. Times are computing times of its process; ten times as long may pass.
+/// The limits of a plug-in.
 struct PluginLimits {
-  Duration time{1};                              ///< for a query
+  Duration time{1};                              ///< computing time for a query; ten times as long may pass
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
-  Duration loading{30};                          ///< for loading
+  Duration loading{30};                          ///< the time that may pass while it is loaded
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
@@ -85,7 +85,9 @@ class WorkerProcess {
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
     Duration computing{}, passed{};
-    [[nodiscard]] bool exceeds(Duration limit) const;
+    [[nodiscard]] bool exceeds(const Elapsed& limit) const;
+    /// The limit for work that may compute so long, and wait for a device or a processor.
+    static Elapsed with_waiting(Duration computing);
   };
   class Watch;
 
@@ -94,7 +96,7 @@ class WorkerProcess {
   /// The computing time of the plug-in's process, and of the program that it runs, if it does.
   [[nodiscard]] Duration computing() const;
   /// Sends a call, and waits for the reply.
-  End ask(const Call& call, Duration of_query, Duration of_call);
+  End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;

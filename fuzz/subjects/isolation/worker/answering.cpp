@@ -91,7 +91,8 @@ void note_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::exception& exception) {
-    copy(exception.what()[0] != '\0' ? exception.what() : "std::exception", answers->exception);
+    const char* const what = exception.what();
+    copy(what != nullptr && what[0] != '\0' ? what : "std::exception", answers->exception);
   } catch (...) {
     copy("of a type that is not derived from std::exception", answers->exception);
   }
@@ -300,6 +301,8 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   while (loaded.detector && receive(call)) {
     try {
       answer(*loaded.detector, call);
+    } catch (const UnaskedBytes&) {
+      call.number = no_reply;
     } catch (...) {
       note_exception();
       if (loaded.process != getpid()) std::abort();  // the program has ended
