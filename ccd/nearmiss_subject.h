@@ -50,7 +50,8 @@ typedef struct {
    * "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1 bytes to `message`, and
    * returns NULL. If the function is NULL, there are no options, and the state is NULL. */
   void* (*open)(const char* options, char* message, size_t size);
-  /* Closes a state; may be NULL. */
+  /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called if a query
+   * ended the process, or took too long. */
   void (*close)(void* state);
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at any time

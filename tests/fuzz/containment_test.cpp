@@ -134,6 +134,27 @@ TEST_P(LaterProcess, ThatCannotBeUsedIsAFaultOfTheLaterQueries) {
   EXPECT_EQ(answers_of(*subject, asked).front().fault, Fault::load);
 }
 
+class Closing : public testing::TemporaryFolder {
+ protected:
+  Closing() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }
+  ~Closing() override { unsetenv("NEARMISS_MARK"); }
+};
+
+TEST_F(Closing, IsTheEndOfADetector) {
+  {
+    const auto subject = make_isolated_plugin(plugin("closes"), {.leaving = std::chrono::minutes(1)});
+    for (const Verdict& verdict : answers_of(*subject, queries())) EXPECT_TRUE(verdict.hit);
+    EXPECT_FALSE(std::filesystem::exists(file("mark")));
+  }
+  EXPECT_TRUE(std::filesystem::exists(file("mark")));
+}
+
+TEST_F(Closing, ThatNeverReturnsIsEnded) {
+  const CopiedPlugin copied("closes_never");
+  EXPECT_TRUE(make_isolated_plugin(copied.path())->decide(queries().front()).hit);
+  EXPECT_EQ(copied.processes(), 0);
+}
+
 TEST(FaultTexts, AreAThousandWhoseNumbersStay) {
   FaultTexts texts;
   for (int i = 0; i < 3000; ++i) texts.number("text " + std::to_string(i));

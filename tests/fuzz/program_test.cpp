@@ -33,7 +33,7 @@ while header := sys.stdin.buffer.read(24):
   /// A program in Python.
   [[nodiscard]] std::string command(const std::string& code) const {
     const std::string text =
-        "import os, signal, struct, subprocess, sys, time\n"
+        "import atexit, os, signal, struct, subprocess, sys, time\n"
         "def say(text):\n    sys.stdout.write(text)\n    sys.stdout.flush()\n" +
         code;
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
@@ -132,6 +132,14 @@ TEST_F(ProgramTest, ThatLeavesAChildBehindEnds) {
       last_verdict(program("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)"));
   EXPECT_EQ(exit.fault, Fault::crash);
   EXPECT_EQ(exit.fault_code, -5);
+}
+
+TEST_F(ProgramTest, MayDoSomethingWhenItsInputEnds) {
+  const std::string at_exit = "atexit.register(open, '" + file("mark").string() + "', 'w')";
+  EXPECT_TRUE(make_any_subject(program(at_exit), std::nullopt, {.leaving = std::chrono::minutes(1)})
+                  ->decide(Query{})
+                  .hit);
+  EXPECT_TRUE(std::filesystem::exists(file("mark")));
 }
 
 TEST_F(ProgramTest, ThatSaysNothingIsRefusedAfterTheTimeForLoading) {

@@ -111,6 +111,19 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   file.expect_unchanged();  // otherwise it might have loaded other bytes
 }
 
+void WorkerProcess::dismiss() {
+  if (leaves_by_) return;
+  leaves_by_ = steady_clock::now() + std::chrono::ceil<milliseconds>(limits_.leaving);
+  replies_.close();
+  if (!is_waiting_) supervisor_.dismiss();
+}
+
+WorkerProcess::~WorkerProcess() {
+  dismiss();
+  const auto left = std::chrono::ceil<milliseconds>(*leaves_by_ - steady_clock::now());
+  if (is_waiting_) ends_within(std::max(left, milliseconds(0)));
+}
+
 void WorkerProcess::start(const std::string& plugin) {
   SocketPair replies;
   replies_ = std::move(replies.ours);
@@ -188,6 +201,13 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
 }
 
 WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
+  is_waiting_ = false;
+  const End end = sent(call, of_query, of_call);
+  is_waiting_ = end == End::done;
+  return end;
+}
+
+WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;

@@ -25,6 +25,7 @@ struct PluginLimits {
   Duration time{1};                              ///< computing time for a query; ten times as long may pass
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that may pass while it is loaded
+  Duration leaving{0.1};                         ///< and while it is closed
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
@@ -52,9 +53,11 @@ class WorkerProcess {
   WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
+  ~WorkerProcess();
 
-  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first.
-  void dismiss() { supervisor_.dismiss(); }
+  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first. A worker that
+  /// waits for a call closes the detector and leaves by itself, if it can do that in time.
+  void dismiss();
 
   /// What the plug-in says about itself; all text is printable.
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
@@ -97,6 +100,8 @@ class WorkerProcess {
   [[nodiscard]] Duration computing() const;
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
+  /// The same, without a note of whether the worker waits for the next call.
+  End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
@@ -112,7 +117,9 @@ class WorkerProcess {
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  Elapsed elapsed_;  ///< of the last call
+  bool is_waiting_ = false;                                         ///< for a call
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
+  Elapsed elapsed_;                                                 ///< of the last call
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

@@ -95,7 +95,10 @@ double Program::bound_of_the_program(void* /*state*/, int kind, const double* x)
 }
 
 Program::~Program() {
-  for (const int each : {in_, out_, errors_}) close(each);
+  close(in_);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  for (const int each : {out_, errors_}) close(each);
 }
 
 void Program::start(const std::string& command) {

@@ -24,6 +24,7 @@ class Program {
   Program(const std::string& command, std::atomic<std::uint64_t>& time);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
+  /// Ends its standard input, and waits until it has ended.
   ~Program();
 
   [[nodiscard]] pid_t process() const { return process_; }
