@@ -1,4 +1,4 @@
-/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts any number of
+/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up to 64
  * continuous collision detectors on trial. C99; this header is the whole interface. A field that is left out is 0. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
@@ -31,13 +31,14 @@ typedef struct {
   int one_root;       /* 1: the four vertices are coplanar at one time in [0, 1] at most */
   double grid;        /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,
-      longest; /* if not 0: limits of the lengths of all edges at t = 0 and t = 1; the paths of the vertices
-                               are not longer than `longest`, either */
+      longest; /* if not 0: limits, which are finite, of the lengths of all edges at t = 0 and t = 1; the paths of the
+                  vertices are not longer than `longest`, either */
 } nearmiss_contract;
 
 typedef struct {
   int interface_version; /* NEARMISS_INTERFACE */
-  /* The name must be unique within the shared object, and has neither ':' nor '='. `about` is one line of text. */
+  /* The name is unique within the shared object. It is UTF-8 of at most 255 bytes, without control characters and without
+   * any of : = / , - `version` and `about` are one line of text each, of which the first 255 bytes are shown. */
   const char *name, *version, *about;
   int kinds;            /* sum of the kinds that it decides */
   int bits;             /* 53, or 24: coordinates are rounded to float, and it is judged on these; 0 is 53 */

@@ -18,7 +18,7 @@
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
 #include "fuzz/stop.hpp"
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/commands.hpp"
 #include "tools/terminal.hpp"

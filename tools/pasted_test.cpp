@@ -8,7 +8,7 @@
 #include "corpus/query_text.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 namespace nearmiss::tools {
 

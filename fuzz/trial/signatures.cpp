@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "oracle/features.hpp"
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 namespace nearmiss {
 

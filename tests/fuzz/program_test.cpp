@@ -39,6 +39,13 @@ while header := sys.stdin.buffer.read(24):
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
   }
 
+  /// The digest of a program with this code, in a file whose name has a blank.
+  [[nodiscard]] std::string digest(const std::string& code) const {
+    const std::string file = command(code).substr(std::string("pipe:" NEARMISS_PYTHON " ").size());
+    std::filesystem::rename(file, file + " p.py");
+    return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
+  }
+
   /// The verdict about the last of three queries.
   [[nodiscard]] static Verdict last_verdict(const std::string& name, std::string* text = nullptr) {
     const auto subject = make_any_subject(name, std::nullopt, {.time = std::chrono::milliseconds(200)});
@@ -164,9 +171,20 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   refused(command("say('nearmiss 2\\nname p\\nbatch 1e30\\n\\n')"), "found '1e30', expected a whole number");
   refused(command("say('nearmiss 2\\nname p\\nbatch inf\\n\\n')"), "found 'inf', expected a whole number");
   refused(command("say('nearmiss 2\\nnames p\\n\\n')"), "found the line 'names'");
+  refused(command("say('nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n\\n')"),
+          "found 'p' with limits of lengths that no length meets, or that are not finite");
+  refused(command("say('nearmiss 2\\nname a/p\\nkinds vt\\n\\n')"),
+          "found the name 'a/p' with ':', '=', '/' or ','");
   refused(command("import no_such_module"), "No module named 'no_such_module'");
   refused("pipe:no-such-command", "no-such-command: not found");
   refused("pipe:", "pipe: found no command");
+}
+
+TEST_F(ProgramTest, IsIdentifiedByAllFilesOfItsCommand) {
+  const std::string code = "say('nearmiss 2\\nname p\\nkinds vt\\n\\n')";
+  const std::string one = digest(code);
+  EXPECT_EQ(digest(code), one);
+  EXPECT_NE(digest(code + "\n"), one);
 }
 
 TEST_F(ProgramTest, ThatIsChangedIsNoticed) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "ccd/detector.hpp"
 #include "ccd/query.hpp"
 
 namespace nearmiss::isolation {
@@ -54,8 +55,10 @@ struct SharedQuestions {
 
 /// DetectorInfo and Contract (ccd/), as plain numbers, whose every value can be read.
 struct PluginDescription {
-  std::array<char, 256> name{}, version{}, about{};
-  std::array<char, 4096> names{};  ///< of all detectors in the shared object, a line each
+  std::array<char, 4096> name{};  ///< with its options
+  std::array<char, 256> version{}, about{};
+  std::array<char, most_detectors*(longest_name + 1) + 1>
+      names{};  ///< of all detectors in the shared object, a line each
   std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, takes_separation = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
   double grid = 0, shortest = 0, longest = 0;

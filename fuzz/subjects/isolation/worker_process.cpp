@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 namespace nearmiss::isolation {
 
@@ -30,25 +30,9 @@ std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
 }
 
-/// What the worker wrote about the plug-in, with values that are possible.
-DetectorInfo info_of(const PluginDescription& about) {
-  DetectorInfo info;
-  info.name = text(about.name);
-  info.version = text(about.version);
-  info.about = text(about.about);
-  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
-  info.is_narrow = about.is_narrow != 0;
-  info.time_sort =
-      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
-  info.takes_separation = about.takes_separation != 0;
-  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
-  info.claims_bound = about.claims_bound != 0;
-  info.contract = {.apart_at_start = about.apart_at_start != 0,
-                   .one_root = about.one_root != 0,
-                   .grid = about.grid,
-                   .shortest = about.shortest,
-                   .longest = about.longest};
-  return info;
+/// Throws Error if a description has a fault.
+void expect_no(const std::string& fault) {
+  if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
 Duration computing_time(pid_t process) {
@@ -72,6 +56,35 @@ double calls_per_query(Request request) {
 }
 
 }  // namespace
+
+DetectorInfo info_of(const PluginDescription& about) {
+  DetectorInfo info;
+  info.name = text(about.name);
+  info.version = text(about.version);
+  info.about = text(about.about);
+  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  info.is_narrow = about.is_narrow != 0;
+  info.time_sort =
+      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
+  info.takes_separation = about.takes_separation != 0;
+  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
+  info.claims_bound = about.claims_bound != 0;
+  info.contract = {.apart_at_start = about.apart_at_start != 0,
+                   .one_root = about.one_root != 0,
+                   .grid = about.grid,
+                   .shortest = about.shortest,
+                   .longest = about.longest};
+  expect_no(fault_of(info.contract));
+  return info;
+}
+
+std::vector<std::string> names_of(const PluginDescription& about) {
+  std::istringstream lines{std::string(about.names.data(), strnlen(about.names.data(), about.names.size()))};
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line); names.push_back(line)) expect_no(fault_of_name(line));
+  if (names.size() > most_detectors) expect_no("more than " + std::to_string(most_detectors) + " detectors");
+  return names;
+}
 
 bool WorkerProcess::Elapsed::exceeds(const Elapsed& limit) const {
   return computing >= limit.computing || passed >= limit.passed;
@@ -145,9 +158,7 @@ void WorkerProcess::load(const std::string& plugin) {
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error));
   info_ = info_of(answers_->about);
-  std::istringstream lines{std::string(answers_->about.names.data(),
-                                       strnlen(answers_->about.names.data(), answers_->about.names.size()))};
-  for (std::string line; std::getline(lines, line);) names_.push_back(printable(line));
+  names_ = names_of(answers_->about);
 }
 
 void WorkerProcess::give(std::span<const Query> queries) {

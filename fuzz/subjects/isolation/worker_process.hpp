@@ -46,6 +46,12 @@ struct WorkerFailure {
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
+/// What a worker wrote about its plug-in, with values that are possible; texts are printable. Throws Error for what no
+/// detector can be.
+DetectorInfo info_of(const PluginDescription& about);
+/// The names of all detectors in the shared object. Throws Error.
+std::vector<std::string> names_of(const PluginDescription& about);
+
 /// A running worker. It cannot be used after a call failed, unless the failure says so.
 class WorkerProcess {
  public:
@@ -61,7 +67,7 @@ class WorkerProcess {
 
   /// What the plug-in says about itself; all text is printable.
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
-  /// The names of all detectors in a shared object, printable.
+  /// The names of all detectors in a shared object.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Gives the worker a batch of queries of one kind, at most batch_size.

@@ -235,6 +235,9 @@ Memory* map(int descriptor, int protection) {
 
 void describe(const DetectorInfo& info, const std::string& names) {
   PluginDescription& about = answers->about;
+  if (info.name.size() >= about.name.size())
+    throw Error("found options of " + std::to_string(info.name.size()) + " bytes, expected less than " +
+                std::to_string(about.name.size()));
   copy(info.name, about.name);
   copy(info.version, about.version);
   copy(info.about, about.about);
