@@ -31,6 +31,7 @@ bool is_power_of_two(double x) {
 Contract contract_of(const nearmiss_contract& given) {
   return {.apart_at_start = given.apart_at_start != 0,
           .one_root = given.one_root != 0,
+          .apart_by = given.apart_by,
           .grid = given.grid,
           .shortest = given.shortest,
           .longest = given.longest};
@@ -88,6 +89,8 @@ std::string fault_of_name(std::string_view name) {
 std::string fault_of(const Contract& contract) {
   if (contract.grid != 0 && !is_power_of_two(contract.grid)) return "a grid that is no power of two";
   const auto is_length = [](double limit) { return limit >= 0 && std::isfinite(limit); };
+  if (!is_length(contract.apart_by) || (contract.apart_by != 0 && !contract.apart_at_start))
+    return "a distance at t = 0 that is none, or without apart_at_start";
   if (!is_length(contract.shortest) || !is_length(contract.longest) ||
       (contract.longest != 0 && contract.longest < contract.shortest))
     return "limits of lengths that no length meets, or that are not finite";

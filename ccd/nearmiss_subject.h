@@ -27,9 +27,10 @@ extern "C" {
 
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
-  int apart_at_start; /* 1: the primitives do not touch at t = 0 */
-  int one_root;       /* 1: the four vertices are coplanar at one time in [0, 1] at most */
-  double grid;        /* if not 0: a power of two of which every coordinate is a multiple */
+  int apart_at_start; /* 1: the distance of the primitives at t = 0 is more than apart_by */
+  int one_root; /* 1: the volume that the four vertices span has one root in [0, 1] at most, and that is simple */
+  double apart_by; /* used with apart_at_start; 0: the primitives do not touch */
+  double grid;     /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,
       longest; /* if not 0: limits, which are finite, of the lengths of all edges at t = 0 and t = 1; the paths of the
                   vertices are not longer than `longest`, either */

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "oracle/features.hpp"
 #include "ccd/printable.hpp"
+#include "oracle/features.hpp"
 
 namespace nearmiss {
 

@@ -148,6 +148,10 @@ TEST(DetectorContract, HasFiniteSizes) {
     EXPECT_THAT(fault({.longest = limit}), HasSubstr("limits of lengths")) << limit;
     EXPECT_THAT(fault({.shortest = limit}), HasSubstr("limits of lengths")) << limit;
   }
+  EXPECT_EQ(fault({.apart_at_start = true, .apart_by = 1e-8}), "");
+  for (const double by : {infinity, -1.0, std::nan("")})
+    EXPECT_THAT(fault({.apart_at_start = true, .apart_by = by}), HasSubstr("a distance at t = 0")) << by;
+  EXPECT_THAT(fault({.apart_by = 1}), HasSubstr("without apart_at_start"));
   EXPECT_THAT(fault({.shortest = 2, .longest = 1}), HasSubstr("limits of lengths"));
   nearmiss_subject subject = sound();
   subject.contract.longest = infinity;

@@ -245,8 +245,8 @@ TEST(Isolation, WhatAWorkerWritesOfItsPluginIsPossible) {
 TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
   for (const double limit : {HUGE_VAL, -1.0, std::nan("")})
     for (double isolation::PluginDescription::*field :
-         {&isolation::PluginDescription::grid, &isolation::PluginDescription::shortest,
-          &isolation::PluginDescription::longest}) {
+         {&isolation::PluginDescription::apart_by, &isolation::PluginDescription::grid,
+          &isolation::PluginDescription::shortest, &isolation::PluginDescription::longest}) {
       isolation::PluginDescription odd = honest();
       odd.*field = limit;
       EXPECT_THROW(isolation::info_of(odd), Error) << limit;

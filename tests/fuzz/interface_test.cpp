@@ -152,8 +152,12 @@ TEST(Interface, ACrashInABatchIsThatOfOneQuery) {
 }
 
 TEST(Interface, AContractIsKnown) {
-  const Contract expected{
-      .apart_at_start = true, .one_root = false, .grid = 0x1p-10, .shortest = 0, .longest = 2};
+  const Contract expected{.apart_at_start = true,
+                          .one_root = false,
+                          .apart_by = 0x1p-20,
+                          .grid = 0x1p-10,
+                          .shortest = 0,
+                          .longest = 2};
   for (const auto& subject : both(":batches")) EXPECT_EQ(subject->contract(), expected);
 }
 

@@ -76,7 +76,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   const auto subject =
       make_any_subject(program("if question == 1: answers = [0.125 * kind, 0] * n",
                                "version 3\\nabout a test\\nbits 24\\ntime estimate\\nseparation yes\\nbound "
-                               "yes\\napart-at-start yes\\none-root yes\\n"
+                               "yes\\napart-at-start yes\\napart-by 0.125\\none-root yes\\n"
                                "grid 0.25\\nshortest 0.5\\nlongest 8\\n"));
   const DetectorInfo& info = *plugin_info(*subject);
   EXPECT_EQ(info.version, "3");
@@ -85,9 +85,12 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   EXPECT_EQ(info.time_sort, TimeSort::estimate);
   EXPECT_TRUE(info.takes_separation);
   EXPECT_EQ(info.batch, 64);
-  EXPECT_EQ(
-      info.contract,
-      (Contract{.apart_at_start = true, .one_root = true, .grid = 0.25, .shortest = 0.5, .longest = 8}));
+  EXPECT_EQ(info.contract, (Contract{.apart_at_start = true,
+                                     .one_root = true,
+                                     .apart_by = 0.125,
+                                     .grid = 0.25,
+                                     .shortest = 0.5,
+                                     .longest = 8}));
   EXPECT_EQ(subject->decide(Query{}).time, 0.5);
   EXPECT_EQ(subject->distance_bound(Query{.kind = Kind::edge_edge}), 0.25);
 }

@@ -7,6 +7,10 @@
 #ifndef TIME_SORT
 #define TIME_SORT NEARMISS_NO_TIME
 #endif
+#ifndef CONTRACT
+#define CONTRACT \
+  { 0, 0, 0, 0, 0, 0 }
+#endif
 #define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
 
 /* The detector `text`, which answers test(x, toi), with a bound, which may be NULL. */
@@ -26,7 +30,7 @@
                                               .time_sort = TIME_SORT,                              \
                                               .takes_separation = 0,                               \
                                               .batch = 0,                                          \
-                                              .contract = {0, 0, 0, 0, 0},                         \
+                                              .contract = CONTRACT,                                \
                                               .open = NULL,                                        \
                                               .close = NULL,                                       \
                                               .decide = decide_one_by_one,                         \

@@ -71,6 +71,7 @@ DetectorInfo info_of(const PluginDescription& about) {
   info.claims_bound = about.claims_bound != 0;
   info.contract = {.apart_at_start = about.apart_at_start != 0,
                    .one_root = about.one_root != 0,
+                   .apart_by = about.apart_by,
                    .grid = about.grid,
                    .shortest = about.shortest,
                    .longest = about.longest};

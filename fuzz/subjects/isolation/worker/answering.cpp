@@ -249,6 +249,7 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.claims_bound = info.claims_bound ? 1 : 0;
   about.apart_at_start = info.contract.apart_at_start ? 1 : 0;
   about.one_root = info.contract.one_root ? 1 : 0;
+  about.apart_by = info.contract.apart_by;
   about.grid = info.contract.grid;
   about.shortest = info.contract.shortest;
   about.longest = info.contract.longest;

@@ -44,6 +44,8 @@ bool read_contract_line(std::string_view key, const std::string& value, nearmiss
     contract.apart_at_start = yes_or_no(value);
   } else if (key == "one-root") {
     contract.one_root = yes_or_no(value);
+  } else if (key == "apart-by") {
+    contract.apart_by = length(value);
   } else if (key == "grid") {
     contract.grid = length(value);
   } else if (key == "shortest") {
