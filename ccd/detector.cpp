@@ -9,6 +9,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
+#include "ccd/printable.hpp"
 
 namespace nearmiss {
 
@@ -27,17 +28,16 @@ bool is_power_of_two(double x) {
   return std::isfinite(x) && std::frexp(x, &exponent) == 0.5;
 }
 
-/// What is wrong with a contract; "" if nothing is.
-std::string fault_of_contract(const nearmiss_contract& contract) {
-  if (contract.grid != 0 && !is_power_of_two(contract.grid)) return "a grid that is no power of two";
-  const bool are_lengths = contract.shortest >= 0 && contract.longest >= 0;
-  if (!are_lengths || (contract.longest != 0 && contract.longest < contract.shortest))
-    return "limits of lengths that no length meets";
-  return "";
+Contract contract_of(const nearmiss_contract& given) {
+  return {.apart_at_start = given.apart_at_start != 0,
+          .one_root = given.one_root != 0,
+          .apart_by = given.apart_by,
+          .grid = given.grid,
+          .shortest = given.shortest,
+          .longest = given.longest};
 }
 
 DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options) {
-  const nearmiss_contract& contract = subject.contract;
   return {.name = subject.name + (options.empty() ? "" : ":" + options),
           .version = text_or_empty(subject.version),
           .about = text_or_empty(subject.about),
@@ -47,11 +47,7 @@ DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options
           .takes_separation = subject.takes_separation != 0,
           .batch = std::max<std::size_t>(1, subject.batch),
           .claims_bound = subject.distance_bound != nullptr,
-          .contract = {.apart_at_start = contract.apart_at_start != 0,
-                       .one_root = contract.one_root != 0,
-                       .grid = contract.grid,
-                       .shortest = contract.shortest,
-                       .longest = contract.longest}};
+          .contract = contract_of(subject.contract)};
 }
 
 void find_nothing(void* /*state*/, int /*kind*/, std::size_t n, const double* /*x*/, const double* /*h*/,
@@ -79,10 +75,31 @@ const nearmiss_subject& empty_subject() {
 
 }  // namespace
 
+std::string fault_of_name(std::string_view name) {
+  if (name.empty()) return "a detector without a name";
+  if (name.size() > longest_name)
+    return "a name of " + std::to_string(name.size()) + " bytes, not " + std::to_string(longest_name) +
+           " at most";
+  if (printable(name) != name) return "a name with a control character, or that is no UTF-8";
+  if (name.find_first_of(":=/,") != std::string_view::npos)
+    return "the name '" + std::string(name) + "' with ':', '=', '/' or ','";
+  return "";
+}
+
+std::string fault_of(const Contract& contract) {
+  if (contract.grid != 0 && !is_power_of_two(contract.grid)) return "a grid that is no power of two";
+  const auto is_length = [](double limit) { return limit >= 0 && std::isfinite(limit); };
+  if (!is_length(contract.apart_by) || (contract.apart_by != 0 && !contract.apart_at_start))
+    return "a distance at t = 0 that is none, or without apart_at_start";
+  if (!is_length(contract.shortest) || !is_length(contract.longest) ||
+      (contract.longest != 0 && contract.longest < contract.shortest))
+    return "limits of lengths that no length meets, or that are not finite";
+  return "";
+}
+
 std::string fault_of(const nearmiss_subject& subject) {
   const std::string name = text_or_empty(subject.name);
-  if (name.empty()) return "a detector without a name";
-  if (name.find_first_of(":=") != std::string::npos) return "the name '" + name + "' with ':' or '='";
+  if (std::string fault = fault_of_name(name); !fault.empty()) return fault;
   if (subject.decide == nullptr) return "'" + name + "' without the function decide";
   const int all_kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
   if (subject.kinds < 1 || subject.kinds > all_kinds) return "'" + name + "' with no known kind of queries";
@@ -90,7 +107,7 @@ std::string fault_of(const nearmiss_subject& subject) {
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
     return "'" + name + "' with an unknown sort of time";
-  const std::string of_contract = fault_of_contract(subject.contract);
+  const std::string of_contract = fault_of(contract_of(subject.contract));
   return of_contract.empty() ? "" : "'" + name + "' with " + of_contract;
 }
 
@@ -146,10 +163,9 @@ PluginLibrary::PluginLibrary(const std::string& path)
   const auto get = reinterpret_cast<GetSubject>(dlsym(library_.get(), "nearmiss_get_subject"));
   if (get == nullptr)
     throw Error(path + ": no function nearmiss_get_subject, expected by ccd/nearmiss_subject.h");
-  constexpr std::size_t most = 64;
   while (const nearmiss_subject* const subject = get(subjects_.size())) {
-    if (subjects_.size() == most)
-      throw Error(path + ": found more than " + std::to_string(most) +
+    if (subjects_.size() == most_detectors)
+      throw Error(path + ": found more than " + std::to_string(most_detectors) +
                   " detectors, expected nearmiss_get_subject to return a null pointer behind the last");
     expect_usable(path, *subject, names());
     subjects_.push_back(subject);

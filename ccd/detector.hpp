@@ -28,8 +28,14 @@ struct DetectorInfo {
   bool operator==(const DetectorInfo&) const = default;
 };
 
-/// What of a description contradicts nearmiss_subject.h; "" if nothing does.
+/// The most detectors of a shared object, and the most bytes of a detector's name.
+inline constexpr std::size_t most_detectors = 64;
+inline constexpr std::size_t longest_name = 255;
+
+/// What of a description, a name or a contract contradicts nearmiss_subject.h; "" if nothing does.
 std::string fault_of(const nearmiss_subject& subject);
+std::string fault_of_name(std::string_view name);
+std::string fault_of(const Contract& contract);
 
 /// Whether a detector decides queries of a kind.
 bool decides(const DetectorInfo& info, Kind kind);

@@ -1,4 +1,4 @@
-/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts any number of
+/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up to 64
  * continuous collision detectors on trial. C99; this header is the whole interface. A field that is left out is 0. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
@@ -27,17 +27,19 @@ extern "C" {
 
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
-  int apart_at_start; /* 1: the distance of the primitives at t = 0 is more than h; for h = 0, they do not touch */
-  int one_root;       /* 1: the four vertices are coplanar at one time in [0, 1] at most */
-  double grid;        /* if not 0: a power of two of which every coordinate is a multiple */
+  int apart_at_start; /* 1: the distance of the primitives at t = 0 is more than apart_by and than h */
+  int one_root; /* 1: the volume that the four vertices span has one root in [0, 1] at most, and that is simple */
+  double apart_by; /* used with apart_at_start; 0: the primitives do not touch */
+  double grid;     /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,
-      longest; /* if not 0: limits of the lengths of all edges at t = 0 and t = 1; the paths of the vertices
-                               are not longer than `longest`, either */
+      longest; /* if not 0: limits, which are finite, of the lengths of all edges at t = 0 and t = 1; the paths of the
+                  vertices are not longer than `longest`, either */
 } nearmiss_contract;
 
 typedef struct {
   int interface_version; /* NEARMISS_INTERFACE */
-  /* The name must be unique within the shared object, and has neither ':' nor '='. `about` is one line of text. */
+  /* The name is unique within the shared object. It is UTF-8 of at most 255 bytes, without control characters and without
+   * any of : = / , - `version` and `about` are one line of text each, of which the first 255 bytes are shown. */
   const char *name, *version, *about;
   int kinds;            /* sum of the kinds that it decides */
   int bits;             /* 53, or 24: coordinates are rounded to float, and it is judged on these; 0 is 53 */
@@ -50,7 +52,8 @@ typedef struct {
    * "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1 bytes to `message`, and
    * returns NULL. If the function is NULL, there are no options, and the state is NULL. */
   void* (*open)(const char* options, char* message, size_t size);
-  /* Closes a state; may be NULL. */
+  /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called if a query
+   * ended the process, or took too long. */
   void (*close)(void* state);
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at any time

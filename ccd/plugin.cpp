@@ -1,16 +1,42 @@
 #include "ccd/plugin.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "ccd/error.hpp"
 
 namespace nearmiss {
 
+namespace {
+
+bool is_file(std::string_view path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
+/// The path with which a plug-in's name begins: the shortest part up to a ':' or the end that has a '/' and is a file. If
+/// there is none, up to the first ':' behind the last '/' before an option, so that a message can name it.
+std::string_view path_in(std::string_view name) {
+  for (std::size_t end = 0; end != std::string_view::npos;) {
+    end = name.find(':', end + 1);
+    const std::string_view part = name.substr(0, end);
+    if (part.find('/') != std::string_view::npos && is_file(part)) return part;
+  }
+  const std::size_t in_file = name.rfind('/', name.find('=')) + 1;
+  return name.substr(0, name.find(':', in_file));
+}
+
+}  // namespace
+
+bool is_plugin(std::string_view name) {
+  const bool may_be_path = name.find('/') != std::string_view::npos;
+  return is_program(name) || (may_be_path && path_in(name).find('/') != std::string_view::npos);
+}
+
 PluginName PluginName::parse(std::string_view name) {
-  const std::size_t in_file = name.rfind('/') + 1;
-  PluginName parsed{
-      .path = std::string(name.substr(0, name.find(':', in_file))), .subject = "", .options = ""};
+  PluginName parsed{.path = std::string(path_in(name)), .subject = "", .options = ""};
   for (std::size_t at = parsed.path.size(); at < name.size();) {
     const std::size_t end = std::min(name.find(':', at + 1), name.size());
     const std::string part(name.substr(at + 1, end - at - 1));

@@ -17,12 +17,11 @@ inline constexpr std::string_view program_prefix = "pipe:";
 
 inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }
 
-/// Whether a subject's name is that of a plug-in: a program, or the path of a shared object, which contains a '/'.
-inline bool is_plugin(std::string_view name) {
-  return is_program(name) || name.find('/') != std::string_view::npos;
-}
+/// Whether a subject's name is that of a plug-in: a program, or a shared object (PluginName), whose path has a '/'.
+bool is_plugin(std::string_view name);
 
-/// A plug-in as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path.
+/// A shared object as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path. The path is the
+/// shortest part up to a ':' that is a file.
 struct PluginName {
   std::string path;
   std::string subject;  ///< one of the shared object's subjects; "" if it is not said which

@@ -93,11 +93,12 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 
 /// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
 struct Contract {
-  bool apart_at_start = false;  ///< at t = 0, the distance of the primitives is more than the separation
-  bool one_root = false;        ///< the four vertices are coplanar at one time in [0, 1] at most
-  double grid = 0;              ///< a power of two of which every coordinate is a multiple
-  double shortest = 0;          ///< all edges, at t = 0 and t = 1, are at least as long
-  double longest = 0;           ///< these edges and the paths of the vertices are at most as long
+  bool apart_at_start = false;  ///< the distance of the primitives at t = 0 is more than `apart_by` and h
+  bool one_root = false;  ///< the volume of the four vertices has one root in [0, 1] at most, a simple one
+  double apart_by = 0;    ///< used with apart_at_start
+  double grid = 0;        ///< a power of two of which every coordinate is a multiple
+  double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least as long
+  double longest = 0;     ///< these edges and the paths of the vertices are at most as long
 
   bool operator==(const Contract&) const = default;
 };

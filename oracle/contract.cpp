@@ -4,12 +4,13 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "ccd/arithmetic.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/exact/predicates.hpp"
 #include "oracle/exact/root.hpp"
 #include "oracle/filter/step_part.hpp"
-#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
@@ -17,15 +18,14 @@ namespace {
 
 using exact::Number;
 
-bool is_apart_at_start(const Query& query) {
+bool is_apart_at_start(const Query& query, double by) {
   Query at_rest = query;
   for (int vertex = 0; vertex < 4; ++vertex) at_rest.set_end(vertex, query.start(vertex));
-  const Decision decision = decide(at_rest);
-  return !decision.collision && !decision.is_tie;
+  return distance_exceeds(at_rest, std::max(by, query.separation));
 }
 
 /// Whether the signs of F's Bernstein coefficients, if they are certain, show that F has at most one root in [0, 1]: none
-/// at an end, and no more inside than there are changes of sign.
+/// at an end, and no more inside, counted with multiplicity, than there are changes of sign.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);
@@ -38,7 +38,10 @@ bool surely_has_at_most_one_root(const Query& query) {
 bool has_at_most_one_root(const Query& query) {
   if (surely_has_at_most_one_root(query)) return true;
   exact::Predicates predicates(query);
-  return !predicates.F().is_zero() && exact::roots_in_step(predicates.F()).size() <= 1;
+  const exact::Polynomial& F = predicates.F();
+  if (F.is_zero()) return false;
+  std::vector<exact::Root> roots = exact::roots_in_step(F);
+  return roots.empty() || (roots.size() == 1 && roots.front().sign_of(F.derivative()) != 0);
 }
 
 /// The remainder of fmod is exact.
@@ -84,7 +87,7 @@ bool keeps_contract(const Query& query, const Contract& contract) {
   if (contract.grid != 0 && !is_on_grid(query, contract.grid)) return false;
   const bool limits_lengths = contract.shortest != 0 || contract.longest != 0;
   if (limits_lengths && !has_lengths(query, contract.shortest, contract.longest)) return false;
-  if (contract.apart_at_start && !is_apart_at_start(query)) return false;
+  if (contract.apart_at_start && !is_apart_at_start(query, contract.apart_by)) return false;
   return !contract.one_root || has_at_most_one_root(query);
 }
 

@@ -8,6 +8,7 @@
 #include "fuzz/families/common_factors.hpp"
 #include "fuzz/families/coverage.hpp"
 #include "fuzz/families/crossed.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/text/text.hpp"
@@ -58,16 +59,18 @@ void print_coverage(const Options& options) {
 /// Asks a subject about the queries, and prints for each kind what the missed ones have in common. Queries without an
 /// answer do not count.
 void print_common_factors(const Options& options, const Family& family) {
-  const auto subject = make_any_subject(options.subject, std::nullopt, options.limits.limits());
+  const auto asked =
+      keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);
+  const Subject& subject = *asked.front();
   std::map<Kind, crossed::FactorCounts> counts;
   for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
     const Query query = make_query(family, options.seed, index);
-    const Verdict verdict = subject->decide(query);
-    if (verdict.fault == Fault::none && collides(subject->rounded(query)))
+    const Verdict verdict = subject.decide(query);
+    if (verdict.fault == Fault::none && collides(subject.rounded(query)))
       counts[query.kind].add(crossed::levels_of(options.seed, index), !verdict.hit);
   }
   for (const auto& [kind, each] : counts) {
-    fmt::print("{} {}: {} of {} missed", subject->name(), short_name(kind), with_separators(each.misses()),
+    fmt::print("{} {}: {} of {} missed", subject.name(), short_name(kind), with_separators(each.misses()),
                counted(each.collisions(), "collision", "collisions"));
     if (const auto common = each.common())
       fmt::print("; {:.0f} % of the missed ones have {}, and {:.0f} % of all", 100 * common->share,

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "ccd/error.hpp"
+#include "ccd/printable.hpp"
 #include "corpus/query_text.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
-#include "reports/text/printable.hpp"
 
 namespace nearmiss::tools {
 

@@ -11,6 +11,7 @@
 #include "ccd/error.hpp"
 #include "fuzz/families/search.hpp"
 #include "fuzz/studies/power.hpp"
+#include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "reports/sections/power_table.hpp"
@@ -42,7 +43,7 @@ constexpr std::string_view libfuzzer = "libfuzzer";
 Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
   Stop stop(interrupted());
   Subjects subjects;
-  subjects.push_back(make_any_subject(subject));
+  subjects.push_back(std::move(keep_contract(make_any_subject(subject), false).front()));
   CampaignPlan plan;
   const Subject& defect = *subjects.front();
   if (way == uniform) plan.families = families_for(defect, std::array{find_family("uniform")});

@@ -62,7 +62,8 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
     info["beyond contract"] = "asked, and counted apart";
     again += " --beyond-contract";
   }
-  if (std::any_of(subjects.begin(), subjects.end(), is_plugin)) {
+  const auto is_limited = [](const auto& subject) { return plugin_identity(*subject).has_value(); };
+  if (std::any_of(made.begin(), made.end(), is_limited)) {
     info["query-time"] = limits.time;
     info["query-memory"] = fmt::format("{}", limits.bytes);
     again += fmt::format(" --query-time {} --query-memory {}", limits.time, limits.bytes);
@@ -77,13 +78,24 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
   return info;
 }
 
+namespace {
+
+/// The name of a plug-in with the whole path of its file. A program's command stays as it is.
+std::string absolute_name(const std::string& name) {
+  if (is_program(name)) return name;
+  const std::string path = PluginName::parse(name).path;
+  return std::filesystem::absolute(path).lexically_normal().string() + name.substr(path.size());
+}
+
+}  // namespace
+
 RunInfo plugin_environment(const Subjects& made) {
   RunInfo environment;
   for (const auto& subject : made) {
     const auto plugin = plugin_identity(*subject);
     if (!plugin) continue;
     const std::string name = plugin_fact(subject->name());
-    environment[name] = std::filesystem::absolute(plugin->path).lexically_normal().string();
+    environment[name] = absolute_name(plugin->path);
     if (!plugin->build_id.empty()) environment[name + " build id"] = plugin->build_id;
   }
   return environment;

@@ -18,7 +18,9 @@
 #include "corpus/query_text.hpp"
 #include "fuzz/families/mutation.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
+#include "fuzz/libfuzzer/untraced.hpp"
 #include "fuzz/subjects/built_in.hpp"
+#include "oracle/contract.hpp"
 #include "reports/campaign/finding_case.hpp"
 
 namespace nearmiss::libfuzzer {
@@ -86,6 +88,10 @@ namespace {
 using namespace nearmiss;
 using namespace nearmiss::libfuzzer;
 
+bool keeps_contract_of_subject(const Query& query) {
+  return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
+}
+
 /// The query in an input; a default one if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) {
   return from_bytes(data, size).value_or(Query{});
@@ -105,7 +111,7 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto query = from_bytes(data, size);
-  if (!query) return -1;
+  if (!query || !keeps_contract_of_subject(*query)) return -1;
   examine(*query);
   return 0;
 }

@@ -105,8 +105,11 @@ const Subject& without_contract(const Subject& subject) {
 
 std::string in_words(const Contract& contract) {
   std::vector<std::string> terms;
-  if (contract.apart_at_start) terms.emplace_back("the primitives are apart at t = 0");
-  if (contract.one_root) terms.emplace_back("the vertices are coplanar at one time at most");
+  if (contract.apart_at_start)
+    terms.push_back(contract.apart_by == 0
+                        ? "the primitives are apart at t = 0"
+                        : fmt::format("the distance at t = 0 is more than {}", contract.apart_by));
+  if (contract.one_root) terms.emplace_back("the vertices' volume has one root at most, a simple one");
   if (contract.grid != 0) terms.push_back(fmt::format("coordinates are multiples of {}", contract.grid));
   if (contract.shortest != 0) terms.push_back(fmt::format("edges are at least {} long", contract.shortest));
   if (contract.longest != 0)

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "ccd/printable.hpp"
 #include "oracle/features.hpp"
-#include "reports/text/printable.hpp"
 
 namespace nearmiss {
 

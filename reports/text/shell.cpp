@@ -1,7 +1,5 @@
 #include "reports/text/shell.hpp"
 
-#include <string_view>
-
 namespace nearmiss {
 
 std::string shell_quoted(const std::string& argument) {
@@ -11,6 +9,34 @@ std::string shell_quoted(const std::string& argument) {
   std::string quoted = "'";
   for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::vector<std::string> shell_words(std::string_view command) {
+  constexpr std::string_view blanks = " \t\n";
+  constexpr std::string_view escaped_in_quotes = "$`\"\\\n";
+  std::vector<std::string> words;
+  bool in_word = false;
+  char quote = '\0';
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    const bool is_blank = quote == '\0' && blanks.find(c) != std::string_view::npos;
+    if (!is_blank && !in_word) words.emplace_back();
+    in_word = !is_blank;
+    if (is_blank) continue;
+    const bool has_next = i + 1 < command.size();
+    const bool escapes = c == '\\' && quote != '\'' && has_next &&
+                         (quote == '\0' || escaped_in_quotes.find(command[i + 1]) != std::string_view::npos);
+    if (escapes) {
+      words.back() += command[++i];
+    } else if (c == quote) {
+      quote = '\0';
+    } else if (quote == '\0' && (c == '\'' || c == '"')) {
+      quote = c;
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
 }
 
 }  // namespace nearmiss

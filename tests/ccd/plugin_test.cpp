@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "tests/queries.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
@@ -72,6 +74,88 @@ TEST(Plugin, ASharedObjectWithoutTheFunctionIsRefused) {
 
 TEST(Plugin, AMissingFileIsRefused) {
   EXPECT_THAT([] { (void)make_subject("./no/such.so"); }, ThrowsMessage<Error>(HasSubstr("cannot load")));
+}
+
+class PluginNames : public testing::TemporaryFolder {
+ protected:
+  struct Parts {
+    std::string path, subject, options;
+    bool operator==(const Parts&) const = default;
+  };
+  static Parts parts(const std::string& name) {
+    EXPECT_TRUE(is_plugin(name)) << name;
+    const PluginName parsed = PluginName::parse(name);
+    return {parsed.path, parsed.subject, parsed.options};
+  }
+};
+
+TEST_F(PluginNames, BeginWithTheShortestPartThatIsAFile) {
+  const std::string path = write("a.so", "").string();
+  EXPECT_EQ(parts(path), (Parts{path, "", ""}));
+  EXPECT_EQ(parts(path + ":first:f=/tmp/x"), (Parts{path, "first", "f=/tmp/x"}));
+  EXPECT_EQ(parts(path + ":f=a/b:g=2"), (Parts{path, "", "f=a/b:g=2"}));
+  const std::string odd = write("d:1/e=2/a.so:b", "").string();
+  EXPECT_EQ(parts(odd + ":first:f=/"), (Parts{odd, "first", "f=/"}));
+  write("d:1/e=2/a.so", "");
+  EXPECT_EQ(parts(odd), (Parts{odd.substr(0, odd.rfind(':')), "b", ""}));
+}
+
+TEST_F(PluginNames, OfNoFileEndBehindTheLastSlashBeforeAnOption) {
+  EXPECT_EQ(parts("./d:1/none.so:first"), (Parts{"./d:1/none.so", "first", ""}));
+  EXPECT_EQ(parts("./none.so:first:f=/tmp/x"), (Parts{"./none.so", "first", "f=/tmp/x"}));
+}
+
+TEST_F(PluginNames, HaveASlashInThePath) {
+  for (const char* name : {"wang", "wang@2", "fcl:f=/tmp/x", "tight-inclusion:f=./x:g=1"})
+    EXPECT_FALSE(is_plugin(name)) << name;
+  EXPECT_TRUE(is_plugin("pipe:cat"));
+}
+
+/// A description without faults.
+nearmiss_subject sound() {
+  nearmiss_subject subject{};
+  subject.interface_version = NEARMISS_INTERFACE;
+  subject.name = "mine";
+  subject.kinds = NEARMISS_EDGE_EDGE;
+  subject.decide = [](void*, int, std::size_t, const double*, const double*, int*, double*) {};
+  return subject;
+}
+
+TEST(DetectorName, HasNoneOfTheCharactersThatSeparateNames) {
+  nearmiss_subject subject = sound();
+  EXPECT_EQ(fault_of(subject), "");
+  const std::string longest(255, 'n');
+  for (const char* name : {"a b", "naïve", "ψ.1-(2)", longest.c_str()}) {
+    subject.name = name;
+    EXPECT_EQ(fault_of(subject), "") << name;
+  }
+  const std::string longer(256, 'n');
+  for (const char* name :
+       {"", "a:b", "a=b", "a/b", "a,b", "a\nb", "a\x1b", "a\x7f", "a\xff", "\xc3", longer.c_str()}) {
+    subject.name = name;
+    EXPECT_NE(fault_of(subject), "") << name;
+  }
+}
+
+TEST(DetectorContract, HasFiniteSizes) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto fault = [](const Contract& contract) { return fault_of(contract); };
+  EXPECT_EQ(fault({.grid = 0x1p-1074, .shortest = 1e-300, .longest = 1e300}), "");
+  EXPECT_EQ(fault({.shortest = 3}), "");
+  EXPECT_THAT(fault({.grid = infinity}), HasSubstr("a grid that is no power of two"));
+  EXPECT_THAT(fault({.grid = 3}), HasSubstr("a grid that is no power of two"));
+  for (const double limit : {infinity, -1.0, std::nan("")}) {
+    EXPECT_THAT(fault({.longest = limit}), HasSubstr("limits of lengths")) << limit;
+    EXPECT_THAT(fault({.shortest = limit}), HasSubstr("limits of lengths")) << limit;
+  }
+  EXPECT_EQ(fault({.apart_at_start = true, .apart_by = 1e-8}), "");
+  for (const double by : {infinity, -1.0, std::nan("")})
+    EXPECT_THAT(fault({.apart_at_start = true, .apart_by = by}), HasSubstr("a distance at t = 0")) << by;
+  EXPECT_THAT(fault({.apart_by = 1}), HasSubstr("without apart_at_start"));
+  EXPECT_THAT(fault({.shortest = 2, .longest = 1}), HasSubstr("limits of lengths"));
+  nearmiss_subject subject = sound();
+  subject.contract.longest = infinity;
+  EXPECT_THAT(fault_of(subject), HasSubstr("'mine' with limits of lengths"));
 }
 
 TEST(Subjects, AnUnknownNameListsTheKnownOnes) {

@@ -4,7 +4,9 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -134,6 +136,27 @@ TEST_P(LaterProcess, ThatCannotBeUsedIsAFaultOfTheLaterQueries) {
   EXPECT_EQ(answers_of(*subject, asked).front().fault, Fault::load);
 }
 
+class Closing : public testing::TemporaryFolder {
+ protected:
+  Closing() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }
+  ~Closing() override { unsetenv("NEARMISS_MARK"); }
+};
+
+TEST_F(Closing, IsTheEndOfADetector) {
+  {
+    const auto subject = make_isolated_plugin(plugin("closes"), {.leaving = std::chrono::minutes(1)});
+    for (const Verdict& verdict : answers_of(*subject, queries())) EXPECT_TRUE(verdict.hit);
+    EXPECT_FALSE(std::filesystem::exists(file("mark")));
+  }
+  EXPECT_TRUE(std::filesystem::exists(file("mark")));
+}
+
+TEST_F(Closing, ThatNeverReturnsIsEnded) {
+  const CopiedPlugin copied("closes_never");
+  EXPECT_TRUE(make_isolated_plugin(copied.path())->decide(queries().front()).hit);
+  EXPECT_EQ(copied.processes(), 0);
+}
+
 TEST(FaultTexts, AreAThousandWhoseNumbersStay) {
   FaultTexts texts;
   for (int i = 0; i < 3000; ++i) texts.number("text " + std::to_string(i));
@@ -181,14 +204,64 @@ TEST(Throwing, ACrashAfterAnExceptionIsACrash) {
   EXPECT_EQ(subject->decide(query).fault, Fault::crash);
 }
 
+TEST(Throwing, WithoutATextIsAFaultToo) {
+  const auto subject = make_isolated_plugin(plugin("throwing"));
+  Query query = queries().front();
+  query.x[0] = 0.5;
+  const Verdict verdict = subject->decide(query);
+  EXPECT_EQ(verdict.fault, Fault::exception);
+  EXPECT_EQ(subject->fault_text(verdict), "std::exception");
+}
+
 TEST(Throwing, WhileItIsLoadedIsSaid) {
   EXPECT_THAT(
       [] { make_isolated_plugin(plugin("throwing_while_loaded")); },
       ThrowsMessage<Error>(HasSubstr("the plug-in threw an exception: no licence while it was loaded")));
 }
 
-TEST(Isolation, ANameIsMadePrintable) {
-  EXPECT_EQ(make_isolated_plugin(plugin("bad_name"))->name(), "+1+1?[31m?");
+/// A description that an honest worker could write.
+isolation::PluginDescription honest() {
+  isolation::PluginDescription about;
+  about.name = {"mine:tolerance=1"};
+  about.names = {"mine\nother\n"};
+  about.kinds = NEARMISS_EDGE_EDGE;
+  return about;
+}
+
+TEST(Isolation, WhatAWorkerWritesOfItsPluginIsPossible) {
+  EXPECT_EQ(isolation::info_of(honest()).name, "mine:tolerance=1");
+  EXPECT_THAT(isolation::names_of(honest()), ::testing::ElementsAre("mine", "other"));
+  isolation::PluginDescription odd = honest();
+  odd.name = {"+1\033[31m\xff"};
+  odd.kinds = odd.time_sort = -1;
+  odd.batch = ~std::uint64_t{0};
+  const DetectorInfo info = isolation::info_of(odd);
+  EXPECT_EQ(info.name, "+1?[31m?");
+  EXPECT_EQ(info.kinds, NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE);
+  EXPECT_EQ(info.time_sort, TimeSort::none);
+  EXPECT_EQ(info.batch, isolation::batch_size);
+}
+
+TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
+  for (const double limit : {HUGE_VAL, -1.0, std::nan("")})
+    for (double isolation::PluginDescription::*field :
+         {&isolation::PluginDescription::apart_by, &isolation::PluginDescription::grid,
+          &isolation::PluginDescription::shortest, &isolation::PluginDescription::longest}) {
+      isolation::PluginDescription odd = honest();
+      odd.*field = limit;
+      EXPECT_THROW(isolation::info_of(odd), Error) << limit;
+    }
+  isolation::PluginDescription odd = honest();
+  odd.names = {"a:b\n"};
+  EXPECT_THROW(isolation::names_of(odd), Error);
+  std::fill_n(odd.names.begin(), 2 * (most_detectors + 1), '\n');
+  for (std::size_t i = 0; i <= most_detectors; ++i) odd.names[2 * i] = 'a';
+  EXPECT_THROW(isolation::names_of(odd), Error);
+}
+
+TEST(Isolation, ANameThatIsNoneIsRefused) {
+  EXPECT_THAT([] { make_isolated_plugin(plugin("bad_name")); },
+              ThrowsMessage<Error>(HasSubstr("found a name with a control character, or that is no UTF-8")));
 }
 
 }  // namespace

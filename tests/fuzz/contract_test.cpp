@@ -119,6 +119,9 @@ TEST(ContractedSubject, ContractsInWords) {
   EXPECT_EQ(in_words({}), "");
   EXPECT_EQ(in_words({.apart_at_start = true, .grid = 0.25}),
             "the primitives are apart at t = 0; coordinates are multiples of 0.25");
+  EXPECT_EQ(
+      in_words({.apart_at_start = true, .one_root = true, .apart_by = 1e-8}),
+      "the distance at t = 0 is more than 1e-08; the vertices' volume has one root at most, a simple one");
 }
 
 }  // namespace

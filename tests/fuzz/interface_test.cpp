@@ -46,6 +46,25 @@ TEST(Interface, ASharedObjectMayHaveSeveralDetectors) {
                   "found no detector 'none', expected one of told, edges, floats, batches, narrow-apart")));
 }
 
+TEST(Interface, ASharedObjectMayHave64DetectorsWithNamesOf255Bytes) {
+  const auto subjects = make_any_subjects(NEARMISS_PLUGINS "/many.so");
+  ASSERT_EQ(subjects.size(), 64);
+  EXPECT_EQ(subjects.front()->name(), std::string(253, 'n') + "00");
+  EXPECT_EQ(subjects.back()->name(), std::string(253, 'n') + "63");
+  EXPECT_THAT([] { make_any_subjects(NEARMISS_PLUGINS "/too_many.so"); },
+              ThrowsMessage<Error>(HasSubstr("found more than 64 detectors")));
+}
+
+TEST(Interface, OptionsMayHaveASlash) {
+  for (const auto& subject : both(":told:answer=0/:file=/tmp/x")) {
+    EXPECT_EQ(subject->name(), "told:answer=0/:file=/tmp/x");
+    EXPECT_FALSE(subject->decide(query_at(0)).hit);
+  }
+  const std::string value(5000, '/');
+  EXPECT_THAT([&] { make_any_subject(several(":told:answer=0" + value)); },
+              ThrowsMessage<Error>(HasSubstr("found options of 5013 bytes, expected less than 4096")));
+}
+
 TEST(Interface, OptionsArePassedOnAndPartOfTheName) {
   for (const auto& subject : both(":told:answer=0")) {
     EXPECT_EQ(subject->name(), "told:answer=0");
@@ -133,8 +152,12 @@ TEST(Interface, ACrashInABatchIsThatOfOneQuery) {
 }
 
 TEST(Interface, AContractIsKnown) {
-  const Contract expected{
-      .apart_at_start = true, .one_root = false, .grid = 0x1p-10, .shortest = 0, .longest = 2};
+  const Contract expected{.apart_at_start = true,
+                          .one_root = false,
+                          .apart_by = 0x1p-20,
+                          .grid = 0x1p-10,
+                          .shortest = 0,
+                          .longest = 2};
   for (const auto& subject : both(":batches")) EXPECT_EQ(subject->contract(), expected);
 }
 

@@ -139,6 +139,20 @@ TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
   EXPECT_THAT(nanoseconds, Each(Ge(50 * 9'000U)));
 }
 
+// A process that dies at any moment leaves only answers that the plug-in gave.
+TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
+  const auto subject = make_isolated_plugin(plugin("aborts_later"));
+  const auto queries = one_batch(50);
+  std::vector<Verdict> verdicts(queries.size());
+  for (int crashes = 0; crashes < 100;) {
+    subject->decide_timed(queries, verdicts);
+    for (const Verdict& verdict : verdicts) {
+      EXPECT_EQ(verdict.hit, verdict.fault == Fault::none);
+      crashes += verdict.fault == Fault::crash ? 1 : 0;
+    }
+  }
+}
+
 struct Misbehaviour {
   std::string plugin, signature;
   Fault fault;

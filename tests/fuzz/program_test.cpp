@@ -25,7 +25,7 @@ while header := sys.stdin.buffer.read(24):
     rows = [struct.unpack('<25d', sys.stdin.buffer.read(200)) for i in range(n)]
     answers = [1, 0.5] * n
     )" + then + R"(
-    sys.stdout.buffer.write(struct.pack(f'<{2 * n}d', *answers))
+    sys.stdout.buffer.write(struct.pack(f'<{len(answers)}d', *answers))
     sys.stdout.buffer.flush()
 )");
   }
@@ -33,10 +33,17 @@ while header := sys.stdin.buffer.read(24):
   /// A program in Python.
   [[nodiscard]] std::string command(const std::string& code) const {
     const std::string text =
-        "import os, signal, struct, sys, time\n"
+        "import atexit, os, signal, struct, subprocess, sys, time\n"
         "def say(text):\n    sys.stdout.write(text)\n    sys.stdout.flush()\n" +
         code;
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
+  }
+
+  /// The digest of a program with this code, in a file whose name has a blank.
+  [[nodiscard]] std::string digest(const std::string& code) const {
+    const std::string file = command(code).substr(std::string("pipe:" NEARMISS_PYTHON " ").size());
+    std::filesystem::rename(file, file + " p.py");
+    return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
   }
 
   /// The verdict about the last of three queries.
@@ -69,7 +76,7 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   const auto subject =
       make_any_subject(program("if question == 1: answers = [0.125 * kind, 0] * n",
                                "version 3\\nabout a test\\nbits 24\\ntime estimate\\nseparation yes\\nbound "
-                               "yes\\napart-at-start yes\\none-root yes\\n"
+                               "yes\\napart-at-start yes\\napart-by 0.125\\none-root yes\\n"
                                "grid 0.25\\nshortest 0.5\\nlongest 8\\n"));
   const DetectorInfo& info = *plugin_info(*subject);
   EXPECT_EQ(info.version, "3");
@@ -78,9 +85,12 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
   EXPECT_EQ(info.time_sort, TimeSort::estimate);
   EXPECT_TRUE(info.takes_separation);
   EXPECT_EQ(info.batch, 64);
-  EXPECT_EQ(
-      info.contract,
-      (Contract{.apart_at_start = true, .one_root = true, .grid = 0.25, .shortest = 0.5, .longest = 8}));
+  EXPECT_EQ(info.contract, (Contract{.apart_at_start = true,
+                                     .one_root = true,
+                                     .apart_by = 0.125,
+                                     .grid = 0.25,
+                                     .shortest = 0.5,
+                                     .longest = 8}));
   EXPECT_EQ(subject->decide(Query{}).time, 0.5);
   EXPECT_EQ(subject->distance_bound(Query{.kind = Kind::edge_edge}), 0.25);
 }
@@ -113,6 +123,43 @@ TEST_F(ProgramTest, AnAnswerThatIsNoneIsInvalid) {
         << answer;
 }
 
+// Otherwise the answers to later questions would be those to earlier ones.
+TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
+  const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";
+  for (const std::string& name :
+       {program("answers += [0, 0] * (not 'asked' in globals()); asked = True"), program("answers += [0]"),
+        program("pass", "\\n')\n" + numbers + "\nsay('")}) {
+    const auto subject = make_any_subject(name);
+    const std::vector<Query> queries(5);
+    std::vector<Verdict> verdicts(queries.size());
+    subject->decide(queries, verdicts);
+    for (const Verdict& verdict : verdicts) EXPECT_EQ(verdict.fault, Fault::protocol) << name;
+  }
+}
+
+TEST_F(ProgramTest, ThatLeavesAChildBehindEnds) {
+  const Verdict exit =
+      last_verdict(program("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)"));
+  EXPECT_EQ(exit.fault, Fault::crash);
+  EXPECT_EQ(exit.fault_code, -5);
+}
+
+TEST_F(ProgramTest, MayDoSomethingWhenItsInputEnds) {
+  const std::string at_exit = "atexit.register(open, '" + file("mark").string() + "', 'w')";
+  EXPECT_TRUE(make_any_subject(program(at_exit), std::nullopt, {.leaving = std::chrono::minutes(1)})
+                  ->decide(Query{})
+                  .hit);
+  EXPECT_TRUE(std::filesystem::exists(file("mark")));
+}
+
+TEST_F(ProgramTest, ThatSaysNothingIsRefusedAfterTheTimeForLoading) {
+  const std::chrono::seconds loading(2);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THAT([&] { make_any_subject("pipe:cat", std::nullopt, {.loading = loading}); },
+              ThrowsMessage<Error>(HasSubstr("pipe:cat: the plug-in takes longer than 2 s to load")));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10 * loading);
+}
+
 TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   const auto refused = [&](const std::string& name, const std::string& why) {
     EXPECT_THAT([&] { make_any_subject(name); }, ThrowsMessage<Error>(HasSubstr(why))) << name;
@@ -123,10 +170,24 @@ TEST_F(ProgramTest, ThatIsNoneIsRefused) {
   refused(command("say('nearmiss 2\\nname p\\nkinds xy\\n\\n')"),
           "found 'xy', expected one of vt, ee, vt ee");
   refused(command("say('nearmiss 2\\nname p\\ngrid 0.x\\n\\n')"), "found '0.x', expected a number");
+  refused(command("say('nearmiss 2\\nname p\\nbits 24.9\\n\\n')"), "found '24.9', expected a whole number");
+  refused(command("say('nearmiss 2\\nname p\\nbatch 1e30\\n\\n')"), "found '1e30', expected a whole number");
+  refused(command("say('nearmiss 2\\nname p\\nbatch inf\\n\\n')"), "found 'inf', expected a whole number");
   refused(command("say('nearmiss 2\\nnames p\\n\\n')"), "found the line 'names'");
+  refused(command("say('nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n\\n')"),
+          "found 'p' with limits of lengths that no length meets, or that are not finite");
+  refused(command("say('nearmiss 2\\nname a/p\\nkinds vt\\n\\n')"),
+          "found the name 'a/p' with ':', '=', '/' or ','");
   refused(command("import no_such_module"), "No module named 'no_such_module'");
   refused("pipe:no-such-command", "no-such-command: not found");
   refused("pipe:", "pipe: found no command");
+}
+
+TEST_F(ProgramTest, IsIdentifiedByAllFilesOfItsCommand) {
+  const std::string code = "say('nearmiss 2\\nname p\\nkinds vt\\n\\n')";
+  const std::string one = digest(code);
+  EXPECT_EQ(digest(code), one);
+  EXPECT_NE(digest(code + "\n"), one);
 }
 
 TEST_F(ProgramTest, ThatIsChangedIsNoticed) {

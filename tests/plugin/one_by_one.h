@@ -10,6 +10,10 @@
 #ifndef TAKES_SEPARATION
 #define TAKES_SEPARATION 0
 #endif
+#ifndef CONTRACT
+#define CONTRACT \
+  { 0, 0, 0, 0, 0, 0 }
+#endif
 #define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
 
 /* The detector `text`, which answers test(x, toi), with a bound, which may be NULL. */
@@ -29,7 +33,7 @@
                                               .time_sort = TIME_SORT,                              \
                                               .takes_separation = TAKES_SEPARATION,                \
                                               .batch = 0,                                          \
-                                              .contract = {0, 0, 0, 0, 0},                         \
+                                              .contract = CONTRACT,                                \
                                               .open = NULL,                                        \
                                               .close = NULL,                                       \
                                               .decide = decide_one_by_one,                         \

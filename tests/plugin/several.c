@@ -87,7 +87,7 @@ static const nearmiss_subject detectors[] = {
      .name = "batches",
      .kinds = ANY_KIND,
      .batch = 64,
-     .contract = {.apart_at_start = 1, .grid = 0x1p-10, .longest = 2},
+     .contract = {.apart_at_start = 1, .apart_by = 0x1p-20, .grid = 0x1p-10, .longest = 2},
      .decide = decide_batch},
     {.interface_version = NEARMISS_INTERFACE,
      .name = "narrow-apart",

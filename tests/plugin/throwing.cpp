@@ -1,5 +1,7 @@
-// A subject that throws an exception for a query with x > 0.9, crashes for one with x = -2, or throws while it is loaded.
+// A subject that throws an exception for a query with x > 0.9, an exception without text for one with x = 0.5, crashes for
+// one with x = -2, or throws while it is loaded.
 #include <csignal>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -7,8 +9,13 @@
 
 namespace {
 
+struct Silent : std::exception {
+  [[nodiscard]] const char* what() const noexcept override { return nullptr; }
+};
+
 int answer(const double* x, double* /*toi*/) {
   if (x[0] > 0.9) throw std::runtime_error("no root in [" + std::to_string(x[0]) + ", 1]\n\x1b[31m");
+  if (x[0] == 0.5) throw Silent();
   if (x[0] == -2) std::raise(SIGSEGV);
   return 0;
 }

@@ -47,6 +47,17 @@ TEST(Shell, QuotesWhatItMust) {
   EXPECT_EQ(shell_quoted("my plugin"), "'my plugin'");
   EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
   EXPECT_EQ(shell_quoted(""), "''");
+  for (const char* word : {"plain", "my plugin", "it's", "", "a\\b\"c$d", " "})
+    EXPECT_EQ(shell_words(shell_quoted(word)), std::vector<std::string>{word});
+}
+
+TEST(Text, ACommandIsDividedAsAShellDividesIt) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(shell_words("  python3 \t a.py  "), (Words{"python3", "a.py"}));
+  EXPECT_EQ(shell_words("'a b'.py a\\ b.py \"a b\".py"), (Words{"a b.py", "a b.py", "a b.py"}));
+  EXPECT_EQ(shell_words("\"it's\" '\"' \"\\\"\\x\" '\\'"), (Words{"it's", "\"", "\"\\x", "\\"}));
+  EXPECT_EQ(shell_words("a '' b"), (Words{"a", "", "b"}));
+  EXPECT_EQ(shell_words(""), Words{});
 }
 
 }  // namespace

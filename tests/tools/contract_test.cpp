@@ -37,6 +37,15 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
   }
 }
 
+// The plug-in misses everything, but takes edges of 1e300 at least for granted.
+TEST_F(CommandLine, MissesBeyondAContractDoNotCount) {
+  const Output factors = run("family crossed --count 1000 --missed-by " + plugin("never_asked"));
+  EXPECT_EQ(factors.code, 0) << factors.error;
+  EXPECT_EQ(factors.out, "");
+  EXPECT_EQ(run("power --way uniform --time 1s --json a.json --subject " + plugin("never_asked")).code, 0);
+  EXPECT_TRUE(read_json("a.json")[0]["failure"].is_null());
+}
+
 TEST_F(CommandLine, AResumeAsksTheSameSideOfAContract) {
   const std::string fuzz =
       "fuzz --family small-integer --subject " + plugin("several") + ":narrow-apart --db a.db";

@@ -7,6 +7,7 @@
 
 #include "ccd/plugin.hpp"
 #include "reports/sha256.hpp"
+#include "reports/text/shell.hpp"
 
 namespace nearmiss::isolation {
 
@@ -28,17 +29,8 @@ std::string file_of_command(const std::string& command) {
   return "";
 }
 
-/// The words of a command, without quotation marks.
-std::vector<std::string> words_of(std::string command) {
-  std::erase_if(command, [](char c) { return c == '\'' || c == '"'; });
-  std::istringstream each(command);
-  std::vector<std::string> words;
-  for (std::string word; each >> word;) words.push_back(word);
-  return words;
-}
-
 std::vector<std::string> files_of_program(const std::string& command) {
-  std::vector<std::string> files = words_of(command);
+  std::vector<std::string> files = shell_words(command);
   if (files.empty())
     throw Error(std::string(program_prefix) + " found no command, expected one behind the colon");
   if (files.front().find('/') == std::string::npos) files.front() = file_of_command(files.front());

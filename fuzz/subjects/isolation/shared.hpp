@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "ccd/detector.hpp"
 #include "ccd/query.hpp"
 
 namespace nearmiss::isolation {
@@ -16,6 +17,9 @@ inline constexpr int questions_memory = 5;
 inline constexpr int answers_memory = 6;
 
 inline constexpr std::size_t batch_size = 2048;
+
+/// A reply to a call whose answers cannot be used, because the plug-in breaks the protocol.
+inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
 
 /// What a worker does with the queries of a batch.
 enum class Request : std::uint8_t {
@@ -51,11 +55,13 @@ struct SharedQuestions {
 
 /// DetectorInfo and Contract (ccd/), as plain numbers, whose every value can be read.
 struct PluginDescription {
-  std::array<char, 256> name{}, version{}, about{};
-  std::array<char, 4096> names{};  ///< of all detectors in the shared object, a line each
+  std::array<char, 4096> name{};  ///< with its options
+  std::array<char, 256> version{}, about{};
+  std::array<char, most_detectors*(longest_name + 1) + 1>
+      names{};  ///< of all detectors in the shared object, a line each
   std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, takes_separation = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
-  double grid = 0, shortest = 0, longest = 0;
+  double apart_by = 0, grid = 0, shortest = 0, longest = 0;
   std::uint64_t batch = 0;
 };
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 namespace nearmiss::isolation {
 
@@ -30,25 +30,9 @@ std::string text(const std::array<char, n>& written) {
   return printable(std::string_view(written.data(), strnlen(written.data(), n)));
 }
 
-/// What the worker wrote about the plug-in, with values that are possible.
-DetectorInfo info_of(const PluginDescription& about) {
-  DetectorInfo info;
-  info.name = text(about.name);
-  info.version = text(about.version);
-  info.about = text(about.about);
-  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
-  info.is_narrow = about.is_narrow != 0;
-  info.time_sort =
-      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
-  info.takes_separation = about.takes_separation != 0;
-  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
-  info.claims_bound = about.claims_bound != 0;
-  info.contract = {.apart_at_start = about.apart_at_start != 0,
-                   .one_root = about.one_root != 0,
-                   .grid = about.grid,
-                   .shortest = about.shortest,
-                   .longest = about.longest};
-  return info;
+/// Throws Error if a description has a fault.
+void expect_no(const std::string& fault) {
+  if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
 Duration computing_time(pid_t process) {
@@ -73,9 +57,43 @@ double calls_per_query(Request request) {
 
 }  // namespace
 
-bool WorkerProcess::Elapsed::exceeds(Duration limit) const {
+DetectorInfo info_of(const PluginDescription& about) {
+  DetectorInfo info;
+  info.name = text(about.name);
+  info.version = text(about.version);
+  info.about = text(about.about);
+  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  info.is_narrow = about.is_narrow != 0;
+  info.time_sort =
+      static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));
+  info.takes_separation = about.takes_separation != 0;
+  info.batch = std::clamp<std::uint64_t>(about.batch, 1, batch_size);
+  info.claims_bound = about.claims_bound != 0;
+  info.contract = {.apart_at_start = about.apart_at_start != 0,
+                   .one_root = about.one_root != 0,
+                   .apart_by = about.apart_by,
+                   .grid = about.grid,
+                   .shortest = about.shortest,
+                   .longest = about.longest};
+  expect_no(fault_of(info.contract));
+  return info;
+}
+
+std::vector<std::string> names_of(const PluginDescription& about) {
+  std::istringstream lines{std::string(about.names.data(), strnlen(about.names.data(), about.names.size()))};
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line); names.push_back(line)) expect_no(fault_of_name(line));
+  if (names.size() > most_detectors) expect_no("more than " + std::to_string(most_detectors) + " detectors");
+  return names;
+}
+
+bool WorkerProcess::Elapsed::exceeds(const Elapsed& limit) const {
+  return computing >= limit.computing || passed >= limit.passed;
+}
+
+WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) {
   constexpr double patience = 10;
-  return computing >= limit || passed >= patience * limit;
+  return {computing, patience * computing};
 }
 
 /// Measures from its construction.
@@ -107,6 +125,19 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   file.expect_unchanged();  // otherwise it might have loaded other bytes
 }
 
+void WorkerProcess::dismiss() {
+  if (leaves_by_) return;
+  leaves_by_ = steady_clock::now() + std::chrono::ceil<milliseconds>(limits_.leaving);
+  replies_.close();
+  if (!is_waiting_) supervisor_.dismiss();
+}
+
+WorkerProcess::~WorkerProcess() {
+  dismiss();
+  const auto left = std::chrono::ceil<milliseconds>(*leaves_by_ - steady_clock::now());
+  if (is_waiting_) ends_within(std::max(left, milliseconds(0)));
+}
+
 void WorkerProcess::start(const std::string& plugin) {
   SocketPair replies;
   replies_ = std::move(replies.ours);
@@ -115,7 +146,8 @@ void WorkerProcess::start(const std::string& plugin) {
 }
 
 void WorkerProcess::load(const std::string& plugin) {
-  const End end = ask({0, Request::load}, limits_.loading, limits_.loading);
+  const Elapsed limit{limits_.loading, limits_.loading};
+  const End end = ask({0, Request::load}, limit, limit);
   if (end == End::query_late || end == End::call_late)
     throw Error(
         fmt::format("{}: the plug-in takes longer than {:.0f} s to load", plugin, limits_.loading.count()));
@@ -127,9 +159,7 @@ void WorkerProcess::load(const std::string& plugin) {
   }
   if (answers_->error[0] != '\0') throw Error(text(answers_->error));
   info_ = info_of(answers_->about);
-  std::istringstream lines{std::string(answers_->about.names.data(),
-                                       strnlen(answers_->about.names.data(), answers_->about.names.size()))};
-  for (std::string line; std::getline(lines, line);) names_.push_back(printable(line));
+  names_ = names_of(answers_->about);
 }
 
 void WorkerProcess::give(std::span<const Query> queries) {
@@ -149,7 +179,8 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::uint32
   const Call call{++call_, request};
   const Duration of_queries = limits_.time * calls_per_query(request);
   const Duration of_call = last - first == 1 ? of_queries : call_limit * of_queries;
-  End end = ask(call, info_.batch == 1 ? limits_.time : of_call, of_call);
+  End end = ask(call, Elapsed::with_waiting(info_.batch == 1 ? limits_.time : of_call),
+                Elapsed::with_waiting(of_call));
   const auto answers = [&](std::uint32_t i) { return answers_->of[i].call == call.number; };
   if (end == End::done && answers_->threw == call.number) end = End::threw;
   for (std::uint32_t i = first; i < last && end == End::done; ++i)
@@ -184,7 +215,14 @@ WorkerFailure WorkerProcess::failure(End end, std::uint32_t query) {
   }
 }
 
-WorkerProcess::End WorkerProcess::ask(const Call& call, Duration of_query, Duration of_call) {
+WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
+  is_waiting_ = false;
+  const End end = sent(call, of_query, of_call);
+  is_waiting_ = end == End::done;
+  return end;
+}
+
+WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   const Watch watch(*this);  // before the worker can begin: it may be done before this process runs again
   std::uint32_t calls = answers_->calls;

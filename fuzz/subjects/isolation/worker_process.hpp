@@ -20,11 +20,12 @@ namespace nearmiss::isolation {
 
 using Duration = std::chrono::duration<double>;
 
-/// The limits of a plug-in. Times are computing times of its process; ten times as long may pass.
+/// The limits of a plug-in.
 struct PluginLimits {
-  Duration time{1};                              ///< for a query
+  Duration time{1};                              ///< computing time for a query; ten times as long may pass
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
-  Duration loading{30};                          ///< for loading
+  Duration loading{30};                          ///< the time that may pass while it is loaded
+  Duration leaving{0.1};                         ///< and while it is closed
   /// The number of queries over the time limit after which the rest of a batch is not asked; 0 is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = nullptr;  ///< ends all waiting with Stopped, if given
@@ -45,6 +46,12 @@ struct WorkerFailure {
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
+/// What a worker wrote about its plug-in, with values that are possible; texts are printable. Throws Error for what no
+/// detector can be.
+DetectorInfo info_of(const PluginDescription& about);
+/// The names of all detectors in the shared object. Throws Error.
+std::vector<std::string> names_of(const PluginDescription& about);
+
 /// A running worker. It cannot be used after a call failed, unless the failure says so.
 class WorkerProcess {
  public:
@@ -52,13 +59,15 @@ class WorkerProcess {
   WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
+  ~WorkerProcess();
 
-  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first.
-  void dismiss() { supervisor_.dismiss(); }
+  /// Begins to end the worker; its destructor waits for the end. To end many, call this for each first. A worker that
+  /// waits for a call closes the detector and leaves by itself, if it can do that in time.
+  void dismiss();
 
   /// What the plug-in says about itself; all text is printable.
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
-  /// The names of all detectors in a shared object, printable.
+  /// The names of all detectors in a shared object.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Gives the worker a batch of queries of one kind, at most batch_size.
@@ -85,7 +94,9 @@ class WorkerProcess {
   /// The worker's computing time, and the time that passed.
   struct Elapsed {
     Duration computing{}, passed{};
-    [[nodiscard]] bool exceeds(Duration limit) const;
+    [[nodiscard]] bool exceeds(const Elapsed& limit) const;
+    /// The limit for work that may compute so long, and wait for a device or a processor.
+    static Elapsed with_waiting(Duration computing);
   };
   class Watch;
 
@@ -94,7 +105,9 @@ class WorkerProcess {
   /// The computing time of the plug-in's process, and of the program that it runs, if it does.
   [[nodiscard]] Duration computing() const;
   /// Sends a call, and waits for the reply.
-  End ask(const Call& call, Duration of_query, Duration of_call);
+  End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
+  /// The same, without a note of whether the worker waits for the next call.
+  End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
   [[nodiscard]] End read_reply(std::uint64_t call) const;
@@ -110,7 +123,9 @@ class WorkerProcess {
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  Elapsed elapsed_;  ///< of the last call
+  bool is_waiting_ = false;                                         ///< for a call
+  std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< if it is dismissed
+  Elapsed elapsed_;                                                 ///< of the last call
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

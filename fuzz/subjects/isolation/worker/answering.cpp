@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -90,7 +91,8 @@ void note_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::exception& exception) {
-    copy(exception.what()[0] != '\0' ? exception.what() : "std::exception", answers->exception);
+    const char* const what = exception.what();
+    copy(what != nullptr && what[0] != '\0' ? what : "std::exception", answers->exception);
   } catch (...) {
     copy("of a type that is not derived from std::exception", answers->exception);
   }
@@ -128,9 +130,18 @@ void begin(std::uint32_t i) {
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Has a detector decide the queries [first, last) in steps of `step`, and notes the answers.
-void ask(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last,
-         std::uint32_t step) {
+/// Notes an answer. The number of its call comes last, because the process may end at any moment.
+void note(PluginAnswer& to, std::uint64_t call, double number, int value) {
+  to.number = number;
+  to.value = value;
+  std::atomic_ref(to.call).store(call, std::memory_order_release);
+}
+
+using Answers = std::array<PluginAnswer, batch_size>;
+
+/// Has a detector decide the queries [first, last) in steps of `step`, and notes the answers in `noted`.
+void ask(const Detector& detector, Answers& noted, std::uint64_t call, std::uint32_t first,
+         std::uint32_t last, std::uint32_t step) {
   static std::array<int, batch_size> values;
   static std::array<double, batch_size> times;
   for (std::uint32_t i = first; i < last; i += step) {
@@ -138,42 +149,43 @@ void ask(const Detector& detector, std::uint64_t call, std::uint32_t first, std:
     begin(i);
     detector.decide(questions->kind, questions->queries[i].data(), &questions->separations[i],
                     std::span(values).first(n), std::span(times).first(n));
-    for (std::uint32_t k = 0; k < n; ++k)
-      answers->of[i + k] = {.call = call,
-                            .nanoseconds = answers->of[i + k].nanoseconds,
-                            .number = times[k],
-                            .value = values[k]};
+    for (std::uint32_t k = 0; k < n; ++k) note(noted[i + k], call, times[k], values[k]);
   }
 }
 
-/// The same, and measures the time of all threads, since a plug-in may have threads of its own. Some queries are decided
-/// before that, so that the code is in the caches; but not if the first takes so long that this makes no difference.
+/// The same with the empty detector, whose answers nobody must take for those of the plug-in.
+void ask_empty(std::uint64_t call, std::uint32_t first, std::uint32_t last, std::uint32_t step) {
+  static Answers of_empty;
+  ask(Detector::empty(), of_empty, call, first, last, step);
+}
+
+/// The same with the plug-in's detector, and measures the time of all threads, since a plug-in may have threads of its
+/// own. Some queries are decided before that, so that the code is in the caches; but not if the first takes so long that
+/// this makes no difference.
 std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::uint32_t first,
                            std::uint32_t last, std::uint32_t step) {
   constexpr std::uint64_t long_query = 1'000'000;
-  const auto ask_some = [&](const Detector& asked, std::uint32_t from, std::uint32_t to) {
-    ask(asked, call, from, to, step);
+  const auto ask_some = [&](std::uint32_t from, std::uint32_t to) {
+    ask(detector, answers->of, call, from, to, step);
   };
   const auto timed = [&](std::uint32_t from, std::uint32_t to) {
     return time_beyond(
-        CLOCK_PROCESS_CPUTIME_ID, [&] { ask_some(detector, from, to); },
-        [&] { ask_some(Detector::empty(), from, to); });
+        CLOCK_PROCESS_CPUTIME_ID, [&] { ask_some(from, to); }, [&] { ask_empty(call, from, to, step); });
   };
   const auto few = std::min<std::uint32_t>(first + warm_up_queries, last);
-  ask_some(Detector::empty(), first, few);
+  ask_empty(call, first, few, step);
   if (step == 1 && first < last) {
     const std::uint64_t of_first = timed(first, first + 1);
     if (of_first >= long_query) return of_first + timed(first + 1, last);
   }
-  ask_some(detector, first, few);
+  ask_some(first, few);
   return timed(first, last);
 }
 
 void give_bounds(const Detector& detector, std::uint64_t call, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t i = first; i < last; ++i) {
     begin(i);
-    answers->of[i].number = detector.bound(questions->kind, questions->queries[i].data()).bound;
-    answers->of[i].call = call;
+    note(answers->of[i], call, detector.bound(questions->kind, questions->queries[i].data()).bound, 0);
   }
 }
 
@@ -185,7 +197,7 @@ void answer(const Detector& detector, const Call& call) {
     case Request::load:
       break;  // it is loaded
     case Request::decide:
-      ask(detector, call.number, first, last, step);
+      ask(detector, answers->of, call.number, first, last, step);
       break;
     case Request::decide_timed:
       answers->nanoseconds = time_of_warm(detector, call.number, first, last, step);
@@ -193,8 +205,8 @@ void answer(const Detector& detector, const Call& call) {
     case Request::time_each:
       for (std::uint32_t i = first; i < last; ++i)
         answers->of[i].nanoseconds = best_time_beyond(
-            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(detector, call.number, i, i + 1, 1); },
-            [&] { ask(Detector::empty(), call.number, i, i + 1, 1); });
+            CLOCK_PROCESS_CPUTIME_ID, [&] { ask(detector, answers->of, call.number, i, i + 1, 1); },
+            [&] { ask_empty(call.number, i, i + 1, 1); });
       break;
     case Request::bounds:
       give_bounds(detector, call.number, first, last);
@@ -223,6 +235,9 @@ Memory* map(int descriptor, int protection) {
 
 void describe(const DetectorInfo& info, const std::string& names) {
   PluginDescription& about = answers->about;
+  if (info.name.size() >= about.name.size())
+    throw Error("found options of " + std::to_string(info.name.size()) + " bytes, expected less than " +
+                std::to_string(about.name.size()));
   copy(info.name, about.name);
   copy(info.version, about.version);
   copy(info.about, about.about);
@@ -234,6 +249,7 @@ void describe(const DetectorInfo& info, const std::string& names) {
   about.claims_bound = info.claims_bound ? 1 : 0;
   about.apart_at_start = info.contract.apart_at_start ? 1 : 0;
   about.one_root = info.contract.one_root ? 1 : 0;
+  about.apart_by = info.contract.apart_by;
   about.grid = info.contract.grid;
   about.shortest = info.contract.shortest;
   about.longest = info.contract.longest;
@@ -289,6 +305,8 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   while (loaded.detector && receive(call)) {
     try {
       answer(*loaded.detector, call);
+    } catch (const UnaskedBytes&) {
+      call.number = no_reply;
     } catch (...) {
       note_exception();
       if (loaded.process != getpid()) std::abort();  // the program has ended

@@ -1,13 +1,13 @@
 #include "fuzz/subjects/isolation/worker/program.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -54,55 +54,51 @@ std::string last_line(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-double number(const std::string& text) {
-  double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || rest != text.data() + text.size() || !(value >= 0))
-    throw Error("found '" + text + "', expected a number");
-  return value;
-}
-
-/// A value's place among words, counted from `first`.
-int place(const std::string& value, const std::vector<std::string>& words, int first) {
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (value == words[i]) return first + static_cast<int>(i);
-  std::string known;
-  for (const std::string& each : words) known += (known.empty() ? "" : ", ") + each;
-  throw Error("found '" + value + "', expected one of " + known);
-}
-
 }  // namespace
 
 Program::Program(const std::string& command, std::atomic<std::uint64_t>& time)
     : command_(command), time_(time) {
   start(command);
-  subject_.interface_version = NEARMISS_INTERFACE;
   try {
-    read_description();
+    description_ = ProgramDescription::parse(read_description());
   } catch (const Error& error) {
     throw Error("pipe:" + command_ + ": " + error.what());
   }
   the_program = this;
-  subject_.name = name_.c_str();
-  subject_.version = version_.c_str();
-  subject_.about = about_.c_str();
-  subject_.decide = [](void* /*state*/, int kind, std::size_t n, const double* x, const double* h,
-                       int* answer, double* toi) {
-    std::vector<double> answers(2 * n);
-    the_program->ask(Question::decide, kind, n, x, h, answers.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      const double given = answers[2 * i];
-      answer[i] = given >= -1e9 && given <= 1e9 && given == static_cast<int>(given) ? static_cast<int>(given)
-                                                                                    : 1 << 30;
-      toi[i] = answers[2 * i + 1];
-    }
-  };
-  if (const std::string fault = fault_of(subject_); !fault.empty())
+  nearmiss_subject& subject = description_.subject;
+  subject.name = description_.name.c_str();
+  subject.version = description_.version.c_str();
+  subject.about = description_.about.c_str();
+  subject.decide = decide_with_the_program;
+  if (description_.claims_bound) subject.distance_bound = bound_of_the_program;
+  if (const std::string fault = fault_of(subject); !fault.empty())
     throw Error("pipe:" + command_ + ": found " + fault + ", expected what fuzz/subjects/PROGRAMS.md says");
 }
 
+void Program::decide_with_the_program(void* /*state*/, int kind, std::size_t n, const double* x,
+                                      const double* h, int* answer, double* toi) {
+  std::vector<double> answers(2 * n);
+  the_program->ask(Question::decide, kind, n, x, h, answers.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    const double given = answers[2 * i];
+    answer[i] =
+        given >= -1e9 && given <= 1e9 && given == static_cast<int>(given) ? static_cast<int>(given) : 1 << 30;
+    toi[i] = answers[2 * i + 1];
+  }
+}
+
+double Program::bound_of_the_program(void* /*state*/, int kind, const double* x) {
+  const double contact = 0;
+  std::array<double, 2> answer{};
+  the_program->ask(Question::bound, kind, 1, x, &contact, answer.data());
+  return answer[0];
+}
+
 Program::~Program() {
-  for (const int each : {in_, out_, errors_}) close(each);
+  close(in_);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  for (const int each : {out_, errors_}) close(each);
 }
 
 void Program::start(const std::string& command) {
@@ -120,7 +116,7 @@ void Program::start(const std::string& command) {
   for (const int each : {in_, out_, errors_}) fcntl(each, F_SETFL, O_NONBLOCK);
 }
 
-void Program::read_description() {
+std::string Program::read_description() {
   constexpr std::size_t most = 65536;
   std::string text;
   while (!text.ends_with("\n\n")) {
@@ -128,59 +124,7 @@ void Program::read_description() {
     text.push_back('\0');
     read_all(&text.back(), 1);
   }
-  std::size_t at = text.find('\n') + 1;
-  if (text.substr(0, at) != "nearmiss " + std::to_string(NEARMISS_INTERFACE) + "\n")
-    throw Error("found '" + text.substr(0, at - 1) + "', expected 'nearmiss " +
-                std::to_string(NEARMISS_INTERFACE) + "'");
-  while (at + 1 < text.size()) {
-    const std::size_t end = text.find('\n', at);
-    const std::string line = text.substr(at, end - at);
-    at = end + 1;
-    const std::size_t blank = line.find(' ');
-    describe(line.substr(0, blank), blank == std::string::npos ? "" : line.substr(blank + 1));
-  }
-}
-
-void Program::describe(std::string_view key, const std::string& value) {
-  nearmiss_contract& contract = subject_.contract;
-  if (key == "name") {
-    name_ = value;
-  } else if (key == "version") {
-    version_ = value;
-  } else if (key == "about") {
-    about_ = value;
-  } else if (key == "kinds") {
-    subject_.kinds = place(value, {"vt", "ee", "vt ee"}, NEARMISS_VERTEX_TRIANGLE);
-  } else if (key == "bits") {
-    subject_.bits = static_cast<int>(number(value));
-  } else if (key == "time") {
-    subject_.time_sort = place(value, {"none", "estimate", "lower-bound"}, NEARMISS_NO_TIME);
-  } else if (key == "separation") {
-    subject_.takes_separation = place(value, {"no", "yes"}, 0);
-  } else if (key == "batch") {
-    subject_.batch = static_cast<std::size_t>(number(value));
-  } else if (key == "bound") {
-    if (place(value, {"no", "yes"}, 0) == 1)
-      subject_.distance_bound = [](void* /*state*/, int kind, const double* x) {
-        const double contact = 0;
-        std::array<double, 2> answer{};
-        the_program->ask(Question::bound, kind, 1, x, &contact, answer.data());
-        return answer[0];
-      };
-  } else if (key == "apart-at-start") {
-    contract.apart_at_start = place(value, {"no", "yes"}, 0);
-  } else if (key == "one-root") {
-    contract.one_root = place(value, {"no", "yes"}, 0);
-  } else if (key == "grid") {
-    contract.grid = number(value);
-  } else if (key == "shortest") {
-    contract.shortest = number(value);
-  } else if (key == "longest") {
-    contract.longest = number(value);
-  } else {
-    throw Error("found the line '" + std::string(key) +
-                "', expected one that fuzz/subjects/PROGRAMS.md lists");
-  }
+  return text;
 }
 
 void Program::ask(Question question, int kind, std::size_t n, const double* x, const double* h,
@@ -191,8 +135,15 @@ void Program::ask(Question question, int kind, std::size_t n, const double* x, c
     frame.insert(frame.end(), x + 24 * i, x + 24 * (i + 1));
     frame.push_back(h[i]);
   }
+  expect_silence();
   write_all(frame.data(), frame.size() * sizeof(double));
   read_all(answers, 2 * n * sizeof(double));
+  expect_silence();
+}
+
+void Program::expect_silence() const {
+  int unread = 0;
+  if (ioctl(out_, FIONREAD, &unread) == 0 && unread > 0) throw UnaskedBytes();
 }
 
 void Program::write_all(const void* data, std::size_t size) {
@@ -223,12 +174,20 @@ void Program::wait_for(int pipe, short event) {
   constexpr int look_again_ms = 5;
   std::array<pollfd, 2> pipes{{{pipe, event, 0}, {errors_, POLLIN, 0}}};
   const nfds_t count = errors_ >= 0 ? pipes.size() : 1;
-  poll(pipes.data(), count, look_again_ms);
+  const bool ended = has_ended();
+  poll(pipes.data(), count, ended ? 0 : look_again_ms);
+  if (ended && pipes[0].revents == 0) end_like_it();  // a process that it started may hold the pipe open
   if (count > 1 && pipes[1].revents != 0) read_errors();
   timespec time{};
   if (clock_gettime(clock_, &time) == 0)
     time_.store(static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 +
                 static_cast<std::uint64_t>(time.tv_nsec));
+}
+
+bool Program::has_ended() const {
+  siginfo_t how{};
+  return waitid(P_PID, static_cast<id_t>(process_), &how, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         how.si_pid != 0;
 }
 
 void Program::read_errors() {

@@ -7,11 +7,14 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "ccd/nearmiss_subject.h"
+#include "fuzz/subjects/isolation/worker/program_description.hpp"
 
 namespace nearmiss::isolation {
+
+/// A program wrote bytes that answer no question.
+struct UnaskedBytes {};
 
 /// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this process. If
 /// it ends, so does this process, in the same way.
@@ -21,24 +24,33 @@ class Program {
   Program(const std::string& command, std::atomic<std::uint64_t>& time);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
+  /// Ends its standard input, and waits until it has ended.
   ~Program();
 
   [[nodiscard]] pid_t process() const { return process_; }
   /// The program as a detector. At most one program can be used so.
-  [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
+  [[nodiscard]] const nearmiss_subject& subject() const { return description_.subject; }
 
  private:
   enum class Question : std::uint8_t { decide, bound };
 
-  void start(const std::string& command);
-  void read_description();
-  void describe(std::string_view key, const std::string& value);
+  // As the functions of a nearmiss_subject.
+  static void decide_with_the_program(void* state, int kind, std::size_t n, const double* x, const double* h,
+                                      int* answer, double* toi);
+  static double bound_of_the_program(void* state, int kind, const double* x);
 
+  void start(const std::string& command);
+  std::string read_description();
+
+  /// Throws UnaskedBytes.
   void ask(Question question, int kind, std::size_t n, const double* x, const double* h, double* answers);
+  void expect_silence() const;
   void write_all(const void* data, std::size_t size);
   void read_all(void* data, std::size_t size);
-  /// Waits until a pipe can be used, and meanwhile reads what the program prints as errors.
+  /// Waits until a pipe can be used, and meanwhile reads what the program prints as errors. Ends this process if the
+  /// program has ended.
   void wait_for(int pipe, short event);
+  [[nodiscard]] bool has_ended() const;
   void read_errors();
   /// Ends this process as the program ended.
   [[noreturn]] void end_like_it();
@@ -50,8 +62,7 @@ class Program {
   int in_ = -1, out_ = -1,
       errors_ = -1;          ///< pipes to its standard input, and from its standard output and error
   std::string last_errors_;  ///< the end of what it printed as errors
-  std::string name_, version_, about_;
-  nearmiss_subject subject_{};
+  ProgramDescription description_;
 };
 
 }  // namespace nearmiss::isolation

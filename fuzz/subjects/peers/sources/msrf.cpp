@@ -1,7 +1,7 @@
 // The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric modeling", 2011, in the
 // implementation of the Tight-Inclusion authors). It looks for the times at which the distance is equal to a separation, and
 // accepts those at which the squared distance is at most h² + h / 10. With h = 0 that leaves no room for rounding, and it
-// finds next to nothing. Its question is one with a separation.
+// finds next to nothing. Its question is one with a separation. If it is smaller at the start, that is not found.
 #include <minimum_separation_root_finder.hpp>
 
 #include "fuzz/subjects/peers/sources/eigen.hpp"
@@ -9,16 +9,12 @@
 namespace nearmiss::peers {
 namespace {
 
-struct Settings {
-  /// What its authors use in their benchmark when they want collisions at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper,
-  /// src/ccd.hpp).
-  double separation = 1e-8;
-};
+/// The separation that stands for contact: what its authors use in their benchmark when they want collisions at distance 0
+/// (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
+constexpr double contact = 1e-8;
 
-constexpr std::array<Option<Settings>, 1> options{{{"separation", &Settings::separation, 0, 1e300}}};
-
-Answer decide(const void* state, int kind, const Question& q) {
-  const double separation = q.separation > 0 ? q.separation : static_cast<const Settings*>(state)->separation;
+Answer decide(const void* /*state*/, int kind, const Question& q) {
+  const double separation = q.separation > 0 ? q.separation : contact;
   double toi = 0;
   const bool collides = with_vectors(q, [&](const auto&... v) {
     const auto test = kind == NEARMISS_VERTEX_TRIANGLE ? msccd::root_finder::vertexFaceMSCCD
@@ -33,15 +29,12 @@ nearmiss_subject subject() {
   subject.interface_version = NEARMISS_INTERFACE;
   subject.name = "msrf";
   subject.version = "1aeb9ac0";
-  subject.about =
-      "minimum separation root finder; when asked for contact, answers for the option separation=1e-8";
+  subject.about = "minimum separation root finder; when asked for contact, answers for a separation of 1e-8";
   subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
   subject.time_sort = NEARMISS_TIME_ESTIMATE;
   subject.takes_separation = 1;
-  // It looks for times at which the distance is equal to the separation, so it finds nothing if it is smaller all the time.
   subject.contract.apart_at_start = 1;
-  subject.open = open_with<Settings, options>;
-  subject.close = close_with<Settings>;
+  subject.contract.apart_by = contact;
   subject.decide = decide_each<decide>;
   return subject;
 }

@@ -31,7 +31,8 @@ nearmiss_subject subject() {
   subject.version = "2012";
   subject.about = "root parity, with intervals and expansions: whether the number of contacts is odd";
   subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
-  // It answers whether the number of contacts is odd. That is our question if there is one contact at most.
+  // It answers whether the number of contacts is odd, with their multiplicity: a double root counts twice. That is our
+  // question if there is one contact at most, at a simple root.
   subject.contract.one_root = 1;
   subject.decide = decide_each<decide>;
   return subject;

@@ -1,5 +1,5 @@
 // Text from elsewhere is valid UTF-8 without control characters.
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 #include <gtest/gtest.h>
 

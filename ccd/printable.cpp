@@ -1,4 +1,4 @@
-#include "reports/text/printable.hpp"
+#include "ccd/printable.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,0 +1,106 @@
+#include "fuzz/subjects/isolation/worker/program_description.hpp"
+
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "ccd/error.hpp"
+
+namespace nearmiss::isolation {
+
+namespace {
+
+/// A number of this type that is at least 0.
+template <class Number>
+Number number(const std::string& text, const char* expected) {
+  Number value = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || rest != text.data() + text.size() || !(value >= 0))
+    throw Error("found '" + text + "', expected " + expected);
+  return value;
+}
+
+double length(const std::string& text) { return number<double>(text, "a number"); }
+
+std::uint32_t whole_number(const std::string& text) {
+  return number<std::uint32_t>(text, "a whole number below 2^32");
+}
+
+/// A value's place among words, counted from `first`.
+int place(const std::string& value, const std::vector<std::string>& words, int first) {
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (value == words[i]) return first + static_cast<int>(i);
+  std::string known;
+  for (const std::string& each : words) known += (known.empty() ? "" : ", ") + each;
+  throw Error("found '" + value + "', expected one of " + known);
+}
+
+int yes_or_no(const std::string& value) { return place(value, {"no", "yes"}, 0); }
+
+/// Reads a line of the contract; false if it is none.
+bool read_contract_line(std::string_view key, const std::string& value, nearmiss_contract& contract) {
+  if (key == "apart-at-start") {
+    contract.apart_at_start = yes_or_no(value);
+  } else if (key == "one-root") {
+    contract.one_root = yes_or_no(value);
+  } else if (key == "apart-by") {
+    contract.apart_by = length(value);
+  } else if (key == "grid") {
+    contract.grid = length(value);
+  } else if (key == "shortest") {
+    contract.shortest = length(value);
+  } else if (key == "longest") {
+    contract.longest = length(value);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void read_line(std::string_view key, const std::string& value, ProgramDescription& into) {
+  nearmiss_subject& subject = into.subject;
+  if (key == "name") {
+    into.name = value;
+  } else if (key == "version") {
+    into.version = value;
+  } else if (key == "about") {
+    into.about = value;
+  } else if (key == "kinds") {
+    subject.kinds = place(value, {"vt", "ee", "vt ee"}, NEARMISS_VERTEX_TRIANGLE);
+  } else if (key == "bits") {
+    subject.bits = static_cast<int>(whole_number(value));
+  } else if (key == "time") {
+    subject.time_sort = place(value, {"none", "estimate", "lower-bound"}, NEARMISS_NO_TIME);
+  } else if (key == "separation") {
+    subject.takes_separation = yes_or_no(value);
+  } else if (key == "batch") {
+    subject.batch = whole_number(value);
+  } else if (key == "bound") {
+    into.claims_bound = yes_or_no(value) == 1;
+  } else if (!read_contract_line(key, value, subject.contract)) {
+    throw Error("found the line '" + std::string(key) +
+                "', expected one that fuzz/subjects/PROGRAMS.md lists");
+  }
+}
+
+}  // namespace
+
+ProgramDescription ProgramDescription::parse(const std::string& text) {
+  const std::string version = "nearmiss " + std::to_string(NEARMISS_INTERFACE);
+  ProgramDescription description;
+  description.subject.interface_version = NEARMISS_INTERFACE;
+  std::size_t at = text.find('\n') + 1;
+  if (text.substr(0, at) != version + "\n")
+    throw Error("found '" + text.substr(0, at - 1) + "', expected '" + version + "'");
+  while (at + 1 < text.size()) {
+    const std::size_t end = text.find('\n', at);
+    const std::string line = text.substr(at, end - at);
+    at = end + 1;
+    const std::size_t blank = line.find(' ');
+    read_line(line.substr(0, blank), blank == std::string::npos ? "" : line.substr(blank + 1), description);
+  }
+  return description;
+}
+
+}  // namespace nearmiss::isolation

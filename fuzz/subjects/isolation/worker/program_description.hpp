@@ -1,0 +1,20 @@
+// What a program says about itself.
+#pragma once
+
+#include <string>
+
+#include "ccd/nearmiss_subject.h"
+
+namespace nearmiss::isolation {
+
+/// The lines with which a program begins (fuzz/subjects/PROGRAMS.md).
+struct ProgramDescription {
+  std::string name, version, about;
+  bool claims_bound = false;
+  nearmiss_subject subject{};  ///< the rest, without texts and functions
+
+  /// Reads all lines, the empty one included. Throws Error.
+  static ProgramDescription parse(const std::string& text);
+};
+
+}  // namespace nearmiss::isolation
