@@ -46,8 +46,7 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   CampaignPlan plan;
   if (way == uniform) plan.families = {find_family("uniform")};
   if (way == all_families) plan.families.assign(families().begin(), families().end());
-  if (way == search)
-    plan.families = {miss_search(*subjects.front(), stop), far_search(*subjects.front(), stop)};
+  if (way == search) plan.families = searches(*subjects.front(), stop);
   plan.seed = options.seed;
   plan.jobs = options.jobs;
   stop.limit(parse_duration(options.time, "--time"));
