@@ -68,6 +68,14 @@ Enclosure minimum_distance(const Query& query, double relative_width) {
                            [&](double hi) { return std::min(above(hi * (1 - relative_width)), hi); });
 }
 
+Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed) {
+  const PlainArithmetic guard;
+  const double h = std::min(query.separation / unit, std::numeric_limits<double>::max());
+  const Enclosure all = distance_in_units(
+      query, unit, [&](double hi) { return hi > h ? std::min(h + needed(hi - h), hi) : 0; });
+  return {std::max(all.lo - h, 0.0), std::max(all.hi - h, 0.0)};
+}
+
 double closest_ratio(const Query& query, double unit) {
   const PlainArithmetic guard;
   if (!(unit > 0)) return infinity;
@@ -101,6 +109,11 @@ bool distance_exceeds(const Query& query, double bound) {
   const certified::Approach approach = certified::closest_approach(differences, needed);
   if (approach.enough) return approach.lower > 0;
   return !comes_within(query, bound);
+}
+
+bool distance_exceeds_separation_by(const Query& query, double bound) {
+  const double h = query.separation;
+  return distance_exceeds(query, h == 0 ? bound : std::nextafter(h + bound, infinity));
 }
 
 }  // namespace nearmiss

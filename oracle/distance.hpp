@@ -1,4 +1,4 @@
-// The smallest distance of two primitives over the step, whatever the query's separation is.
+// The smallest distance of two primitives over the step. Only two functions depend on the query's separation.
 #pragma once
 
 #include "ccd/query.hpp"
@@ -15,7 +15,10 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of this ratio, with a relative accuracy of 1e-3, and of 1e-9 near 1; infinite if the unit
+/// The same for the distance less the query's separation h > 0; 0 if that is negative. Up to rounding, lo >= needed(hi).
+Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
+
+/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, and of 1e-9 near 1; infinite if the unit
 /// is 0.
 double closest_ratio(const Query& query, double unit);
 
@@ -24,5 +27,8 @@ double closest_time(const Query& query);
 
 /// Whether the smallest distance over [0, 1] is above the bound, a number >= 0. The answer is always exact.
 bool distance_exceeds(const Query& query, double bound);
+
+/// Whether the smallest distance is above h + bound. For h > 0, the sum is rounded up.
+bool distance_exceeds_separation_by(const Query& query, double bound);
 
 }  // namespace nearmiss

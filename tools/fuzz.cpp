@@ -85,7 +85,8 @@ std::vector<Family> chosen_families(const Options& options, const Subjects& subj
   if (std::any_of(chosen.begin(), chosen.end(), has_separation)) expect_separations(subjects);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
-    for (const auto search : {miss_search, far_search}) chosen.push_back(search(*subject, stop));
+    for (Family& family : searches(*subject, stop, options.separation.text))
+      chosen.push_back(std::move(family));
   return chosen;
 }
 
@@ -255,8 +256,8 @@ void add_fuzz(CLI::App& app, int& exit_code) {
   options->separation.add_to(*command, true);
   command->add_flag(
       "--search", options->search,
-      "Add directed search for collisions that each subject nearly misses, and for its farthest "
-      "false positives");
+      "Add directed search for collisions that each subject nearly misses, for its farthest false "
+      "positives, and for its latest and earliest times");
   add_common(*command, *options);
   command->footer(
       "\nFamilies, and the range of x in NAME@x:" + list_of_families() +

@@ -50,8 +50,11 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   if (way == all_families) plan.families = families_for(defect, families());
   if (way == all_families && defect.takes_separation())
     plan.families.insert(plan.families.end(), separation_families().begin(), separation_families().end());
-  if (way == search)
-    plan.families = families_for(defect, std::array{miss_search(defect, stop), far_search(defect, stop)});
+  if (way == search) plan.families = searches(defect, stop);
+  if (way == search && defect.takes_separation()) {
+    auto separated = searches(defect, stop, drawn_separation);
+    std::move(separated.begin(), separated.end(), std::back_inserter(plan.families));
+  }
   plan.seed = options.seed;
   plan.jobs = options.jobs;
   stop.limit(parse_duration(options.time, "--time"));

@@ -31,7 +31,7 @@ const Parameter& parameter_of(const Family& family) {
 /// The name without "@VALUE" and "~SEPARATION".
 std::string_view base_name(std::string_view name) { return name.substr(0, name.find_first_of("@~")); }
 
-/// Draws a separation, as with_separation() says.
+/// Draws a separation, as parse_family_separation() says.
 double draw_separation(Random& random, const Query& query) {
   constexpr double least_digits = -6;
   const double factor = std::pow(10, random.uniform(least_digits, 0));
@@ -89,6 +89,15 @@ std::vector<Family> sweep(const Family& family, int steps) {
   return found;
 }
 
+ChooseSeparation parse_family_separation(std::string_view text, std::string_view where) {
+  if (text == drawn_separation) return draw_separation;
+  const double fixed = parse_separation(text, where);
+  if (fixed == 0)
+    throw Error(
+        fmt::format("{}: found the separation 0, expected a positive number or {}", where, drawn_separation));
+  return [fixed](Random& /*random*/, const Query& /*query*/) { return fixed; };
+}
+
 Family with_separation(const Family& family, std::string_view separation) {
   const std::string name = fmt::format("{}~{}", family.name, separation);
   const std::string where = fmt::format("family '{}'", excerpt(name));
@@ -98,21 +107,16 @@ Family with_separation(const Family& family, std::string_view separation) {
   other.name = name;
   other.has_separation = true;
   other.planted = false;
-  const double fixed = separation == drawn_separation ? 0 : parse_separation(separation, where);
-  if (separation != drawn_separation && fixed == 0)
-    throw Error(
-        fmt::format("{}: found the separation 0, expected a positive number or {}", where, drawn_separation));
-  other.make = [make = family.make, fixed](Random& random, Kind kind) {
-    Query query = make(random, kind);
-    query.separation = fixed > 0 ? fixed : draw_separation(random, query);
-    return query;
-  };
-  if (other.parameter)
-    other.parameter->make = [make = family.parameter->make, fixed](Random& random, Kind kind, double x) {
-      Query query = make(random, kind, x);
-      query.separation = fixed > 0 ? fixed : draw_separation(random, query);
+  const auto choose = parse_family_separation(separation, where);
+  const auto separated = [choose](const auto& make) {
+    return [choose, make](Random& random, Kind kind, auto... x) {
+      Query query = make(random, kind, x...);
+      query.separation = choose(random, query);
       return query;
     };
+  };
+  other.make = separated(family.make);
+  if (other.parameter) other.parameter->make = separated(family.parameter->make);
   return other;
 }
 

@@ -52,9 +52,15 @@ std::vector<Family> sweep(const Family& family, int steps);
 /// What a separation is that is not a number.
 inline constexpr std::string_view drawn_separation = "drawn";
 
-/// The family NAME~SEPARATION: the same queries with a separation, which is a positive number, or `drawn`. Then each query
-/// draws its own after all else, from a millionth of the extent of its primitives to all of it; one in four is a power of two.
-/// Throws Error if it is neither, or if the family has separations of its own.
+/// Gives a query its separation; random numbers are drawn for `drawn` alone.
+using ChooseSeparation = std::function<double(Random&, const Query&)>;
+
+/// The separation of every query: a positive number, or `drawn`, from a millionth of the extent of the query's primitives to all
+/// of it; one in four is then a power of two. Throws Error that starts with `where` if the text is neither.
+ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
+
+/// The family NAME~SEPARATION: the same queries with a separation (parse_family_separation), which each query draws after all
+/// else. Throws Error for another text, or if the family has separations of its own.
 Family with_separation(const Family& family, std::string_view separation);
 
 /// All families that ask for contact, in the order in which they are listed and asked: the extreme ones come last.

@@ -2,6 +2,9 @@
 // wrongly.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "ccd/subject.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
@@ -22,11 +25,31 @@ inline constexpr int search_evaluations = 2000;
 /// continues from the best one so far. A search ends with a query over the subject's time limit; after a few of these,
 /// the subject is not asked any more. Making a query throws Stopped when `stop` is due. The subject and `stop` must
 /// outlive the family.
-Family miss_search(const Subject& subject, const Stop& stop = Stop::never());
+///
+/// With a separation (parse_family_separation), the family is "search-miss-NAME~SEPARATION". Each search has one separation
+/// h > 0. It moves among queries in which two points of the primitives come within h, and a smallest distance near h counts
+/// as hard, too.
+Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
+                   std::string_view separation = {});
 
 /// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
 /// the bound that the subject claims, or to wang's bound if it claims none. A false positive that refutes the
 /// bound ends the search. If a search finds no false positive, it returns another query. Otherwise as miss_search.
-Family far_search(const Subject& subject, const Stop& stop = Stop::never());
+Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
+
+/// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest time that a
+/// search found: with the largest time - t* if there is a time after t*, the exact earliest time, and else with the smallest
+/// (t* - time) / t*. Misses, and up to 20 queries over the time limit, are passed over. Otherwise as miss_search.
+Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
+                   std::string_view separation = {});
+
+/// The family "search-early-NAME", for a subject that gives times. Each query is the collision with the largest t* - time that
+/// a search found. Otherwise as late_search.
+Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
+                    std::string_view separation = {});
+
+/// All searches for a subject: for misses and far false positives, and, if it gives times, for late and early ones.
+std::vector<Family> searches(const Subject& subject, const Stop& stop = Stop::never(),
+                             std::string_view separation = {});
 
 }  // namespace nearmiss

@@ -61,23 +61,13 @@ double Truth::precise_ratio(double unit, double ratio) const {
   if (Histogram::lower_border(ratio) == 0) return ratio;
   if (query_.separation == 0) return std::min(closest_ratio(query_, unit), ratio);
   constexpr double width = 1e-3;
-  return std::min(beyond_separation(unit, [](double hi) { return hi * (1 - width); }).hi, ratio);
-}
-
-Enclosure Truth::beyond_separation(double unit, const NeededDistance& needed) const {
-  constexpr double most = std::numeric_limits<double>::max();
-  const double h = std::min(query_.separation / unit, most);
-  const Enclosure all = distance_in_units(
-      query_, unit, [&](double hi) { return hi > h ? std::min(h + needed(hi - h), hi) : 0; });
-  return {std::max(all.lo - h, 0.0), std::max(all.hi - h, 0.0)};
+  return std::min(distance_beyond_separation(query_, unit, [](double hi) { return hi * (1 - width); }).hi,
+                  ratio);
 }
 
 bool Truth::exceeds(double unit) const {
   if (unit == 0) return true;  // it is not 0
-  const double h = query_.separation;
-  // For h > 0, the sum is rounded up, in favour of the subject.
-  return distance_exceeds(query_,
-                          h == 0 ? unit : std::nextafter(h + unit, std::numeric_limits<double>::infinity()));
+  return distance_exceeds_separation_by(query_, unit);
 }
 
 Truth::Distance Truth::measured_distance(double unit) const {
@@ -85,7 +75,7 @@ Truth::Distance Truth::measured_distance(double unit) const {
   if (unit == 0) return {most, true};
   const bool is_contact = query_.separation == 0;
   const Enclosure ratio = is_contact ? distance_in_units(query_, unit, Histogram::lower_border)
-                                     : beyond_separation(unit, Histogram::lower_border);
+                                     : distance_beyond_separation(query_, unit, Histogram::lower_border);
   // For contact, the enclosure mostly tells.
   const bool beyond = is_contact && ratio.hi <= 1 ? false : is_contact && ratio.lo > 1 ? true : exceeds(unit);
   return {std::min(ratio.hi, beyond ? most : 1.0), beyond};

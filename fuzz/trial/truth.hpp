@@ -8,7 +8,6 @@
 
 #include "ccd/query.hpp"
 #include "oracle/agreement.hpp"
-#include "oracle/distance/needed_distance.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -59,8 +58,6 @@ class Truth {
 
  private:
   [[nodiscard]] Distance measured_distance(double unit) const;
-  /// An enclosure of the smallest distance less the separation h > 0, divided by `unit`; up to rounding, lo >= needed(hi).
-  [[nodiscard]] Enclosure beyond_separation(double unit, const NeededDistance& needed) const;
 
   const Query& query_;
   Decision decision_;

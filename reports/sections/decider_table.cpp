@@ -37,7 +37,7 @@ bool ask_others(const Deciders& queries) {
 }
 
 std::string row_family(const std::string& family) {
-  return family.starts_with("scene:") ? scene_of(family) : std::string(shown_family(family));
+  return family.starts_with("scene:") ? scene_of(family) : shown_family(family);
 }
 
 /// The run time of a subject divided by that of another, over the keys that are shown and timed for both;

@@ -58,7 +58,7 @@ TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
       for (const auto& family : {miss_search(*subject), far_search(*subject)})
         hash.add_all(search(family, i).x);
   }
-  EXPECT_EQ(hash.value(), 0xeae551dcb28d26a3) << std::hex << hash.value();
+  EXPECT_EQ(hash.value(), 0x566e9aea63c567aa) << std::hex << hash.value();
 }
 
 TEST(MissSearch, PassesTheErrorsOfASubjectOn) {

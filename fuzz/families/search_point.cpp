@@ -1,0 +1,107 @@
+#include "fuzz/families/search_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ccd/elementary.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+}  // namespace
+
+double search_log_uniform(Random& random, double lo, double hi) {
+  return exp2_of(random.uniform(log2_of(lo), log2_of(hi)));
+}
+
+SearchPoint draw_search_point(Random& random, double smallest) {
+  const auto some = [&](double lo, double hi) {
+    return random.one_in(3) ? search_log_uniform(random, lo, hi) : hi;
+  };
+  const auto path = [&](const Vector& start, double speed) {
+    return Path{start, start + random.vector(speed)};
+  };
+  // The order in which arguments and operands are computed is the compiler's choice, so each is drawn by itself.
+  const auto some_path = [&] {
+    const Vector start = random.vector(some(smallest, 1));
+    return path(start, random.one_in(3) ? 0 : some(smallest, 1));
+  };
+  SearchPoint m;
+  m.q = some_path();
+  m.r = some_path();
+  if (random.one_in(3)) {
+    const double along = random.uniform(-1.5, 1.5);
+    const double across = some(0.1 * smallest, 1e-1);
+    m.r = {along * m.q.start + random.vector(across), along * m.q.end + random.vector(across)};
+  }
+  for (double& c : m.place) c = random.one_in(3) ? random.integer(0, 1) : random.uniform();
+  m.w = random.vector(some(smallest, 1));
+  if (random.one_in(3)) {
+    const Vector along_q = random.uniform(-1, 1) * m.q.at(m.place[2]);
+    const Vector along_r = random.uniform(-1, 1) * m.r.at(m.place[2]);
+    m.w = along_q + along_r + random.vector(some(0.1 * smallest, 1e-1));
+  }
+  if (random.one_in(4)) {
+    const double out_of_plane = search_log_uniform(random, 1e-4 * smallest * smallest, 1e-2);
+    for (Vector* v : {&m.q.start, &m.q.end, &m.r.start, &m.r.end, &m.w}) (*v)[2] *= out_of_plane;
+  }
+  m.gap.setZero();
+  return m;
+}
+
+/// With vectors within 2^3 that are multiples of 2^-22, and weights and times that are multiples of 2^-10, no sum of products
+/// in `meet` has more than 3 + 3 + 22 + 20 = 48 bits.
+SearchPoint on_grid(SearchPoint point) {
+  const auto round_to = [](double x, double unit) { return std::nearbyint(x / unit) * unit; };
+  point.visit(true, [&](Vector& v) {
+    for (double& c : v) c = round_to(std::clamp(c, -8.0, 8.0), 0x1p-22);
+  });
+  for (double& c : point.place) c = round_to(c, 0x1p-10);
+  return point;
+}
+
+SearchPoint with_gap_within(SearchPoint point, double h) {
+  const double length = point.gap.norm();
+  if (length > h) point.gap *= h / length;
+  return point;
+}
+
+Contact contact_of(Kind kind, const SearchPoint& point) {
+  const auto clamped = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  Contact contact{
+      {Vector::Zero(), Vector::Zero()}, point.q, point.r, clamped(point.place[0]), clamped(point.place[1]),
+      clamped(point.place[2])};
+  if (kind == Kind::vertex_triangle) contact.beta = std::min(contact.beta, 1 - contact.alpha);
+  return contact;
+}
+
+Query query_of(Kind kind, const SearchPoint& point, double h) {
+  Query query = meet(kind, contact_of(kind, point), point.w);
+  for (int i = 0; i < split(kind); ++i) {
+    query.set_start(i, query.start(i) + point.gap);
+    query.set_end(i, query.end(i) + point.gap);
+  }
+  query.separation = h;
+  return query;
+}
+
+std::array<double, 6> hardness(Kind kind, const SearchPoint& point) {
+  const Contact contact = contact_of(kind, point);
+  const Vector q = contact.q.at(contact.time);
+  const Vector r = contact.r.at(contact.time);
+  const Vector n = q.cross(r);
+  const Vector relative = point.w - contact.velocity(kind);
+  const auto ratio = [](double a, double b) { return b > 0 ? log2_of(std::max(a / b, 0x1p-40)) : -40; };
+  const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
+  return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
+          ratio(n.norm(), q.norm() * r.norm()),
+          ratio(std::min({contact.alpha, contact.beta, 1 - contact.alpha, 1 - contact.beta, third}), 1),
+          ratio(std::min(q.norm(), r.norm()), std::max(q.norm(), r.norm())),
+          ratio(std::min(contact.time, 1 - contact.time), 1),
+          ratio(std::max(q.norm(), r.norm()), relative.norm())};
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,210 @@
+// Tests the directed search for late and early times, and all searches with a separation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "ccd/error.hpp"
+#include "fuzz/families/search.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss {
+namespace {
+
+/// The oracle with another answer.
+class Altered final : public Subject {
+ public:
+  using Answer = std::function<Verdict(const Query&, const Verdict&)>;
+
+  explicit Altered(Answer answer, double bound = HUGE_VAL) : answer_(std::move(answer)), bound_(bound) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    return answer_(query, exact_->decide(query));
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
+  [[nodiscard]] bool claims_bound() const override { return std::isfinite(bound_); }
+  [[nodiscard]] bool takes_separation() const override { return true; }
+  [[nodiscard]] TimeSort time_sort() const override { return TimeSort::lower_bound; }
+
+ private:
+  std::string name_ = "altered";
+  std::unique_ptr<Subject> exact_ = make_any_subject("exact");
+  Answer answer_;
+  double bound_;
+};
+
+/// How far a collision is from a small region: that of times next to 0.4 and last edges as long as 0.77 at t = 0.
+double off(const Query& query, double time) {
+  return std::hypot(time - 0.4, (query.start(3) - query.start(2)).norm() - 0.77);
+}
+
+constexpr double region = 0x1p-10;
+
+/// Its times are late in the region alone, by at most 0.1 * region.
+Altered late_in_a_region() {
+  return Altered([](const Query& query, Verdict verdict) {
+    if (verdict.hit) verdict.time += 0.1 * (region - off(query, verdict.time)) * std::min(verdict.time, 1.0);
+    verdict.time = std::max(verdict.time, 0.0);
+    return verdict;
+  });
+}
+
+/// Its times are 1e-3 early, and earlier in the region.
+Altered early_in_a_region() {
+  return Altered([](const Query& query, Verdict verdict) {
+    const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);
+    verdict.time = std::max(verdict.time - 1e-3 * (1 / (1 + off(query, verdict.time))) - 0.2 * inside, 0.0);
+    return verdict;
+  });
+}
+
+/// time - t*, and whether the time is late; nothing if the subject does not report the query or it is no collision.
+struct Error {
+  double after;
+  bool is_late;
+};
+
+std::optional<Error> error_of(const Subject& subject, const Query& query) {
+  const Verdict verdict = subject.decide(query);
+  auto earliest = earliest_time(query);
+  if (!verdict.hit || !earliest) return std::nullopt;
+  return Error{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
+}
+
+/// The largest error among the first queries of a family, times `sign`.
+double largest(const Subject& subject, const Family& family, std::uint64_t queries, int sign) {
+  double found = -1;
+  for (std::uint64_t i = 0; i < queries; ++i)
+    if (const auto error = error_of(subject, make_query(family, 1, i)))
+      found = std::max(found, sign * error->after);
+  return found;
+}
+
+int late_ones(const Subject& subject, const Family& family, std::uint64_t queries) {
+  int late = 0;
+  for (std::uint64_t i = 0; i < queries; ++i) {
+    const auto error = error_of(subject, make_query(family, 1, i));
+    late += error && error->is_late ? 1 : 0;
+  }
+  return late;
+}
+
+TEST(LateSearch, FindsTimesThatAreLateInASmallRegionAlone) {
+  const Altered subject = late_in_a_region();
+  EXPECT_EQ(late_ones(subject, find_family("uniform-end"), 5000), 0);
+  EXPECT_GE(late_ones(subject, late_search(subject), 10), 3);
+}
+
+TEST(LateSearch, GoesOnToTheLatest) {
+  const Altered subject = late_in_a_region();
+  constexpr double latest = 0.1 * region * 0.4;
+  const double found = largest(subject, late_search(subject), 10, 1);
+  EXPECT_GT(found, 0.9 * latest);
+  EXPECT_LE(found, 1.1 * latest);
+}
+
+TEST(LateSearch, FindsThemForASeparationToo) {
+  const Altered subject = late_in_a_region();
+  EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), "drawn"), 10), 3);
+  EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), "0.0625"), 10), 3);
+}
+
+TEST(LateSearch, FindsNoneIfThereIsNone) {
+  const auto exact = make_any_subject("exact");
+  EXPECT_EQ(late_ones(*exact, late_search(*exact), 6), 0);
+  EXPECT_EQ(late_ones(*exact, late_search(*exact, Stop::never(), "drawn"), 6), 0);
+}
+
+TEST(LateSearch, ShowsCollisionsOfASubjectThatMissesMost) {
+  const Altered subject([](const Query& query, const Verdict& verdict) {
+    return query.x[0] < query.x[3] ? verdict : Verdict{};
+  });
+  for (std::uint64_t i = 0; i < 6; ++i)
+    EXPECT_TRUE(error_of(subject, make_query(late_search(subject), 1, i))) << i;
+}
+
+TEST(EarlySearch, FindsTheEarliestTimes) {
+  const Altered subject = early_in_a_region();
+  EXPECT_LT(largest(subject, find_family("uniform-end"), 5000, -1), 0.01);
+  EXPECT_GT(largest(subject, early_search(subject), 10, -1), 0.19);
+  EXPECT_GT(largest(subject, early_search(subject, Stop::never(), "drawn"), 10, -1), 0.19);
+}
+
+TEST(TimeSearches, GiveQueriesWithTheirSeparation) {
+  const Altered subject = late_in_a_region();
+  for (const Family& family : searches(subject, Stop::never(), "0.375")) {
+    EXPECT_TRUE(family.has_separation) << family.name;
+    EXPECT_EQ(make_query(family, 1, 0).separation, 0.375) << family.name;
+  }
+  for (const Family& family : searches(subject, Stop::never(), "drawn")) {
+    const double first = make_query(family, 1, 0).separation;
+    const double second = make_query(family, 1, 2).separation;
+    EXPECT_GT(first, 0) << family.name;
+    EXPECT_GT(second, 0) << family.name;
+    EXPECT_NE(first, second) << family.name;
+  }
+  for (const Family& family : searches(subject)) {
+    EXPECT_FALSE(family.has_separation) << family.name;
+    EXPECT_EQ(make_query(family, 1, 0).separation, 0) << family.name;
+  }
+}
+
+TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
+  const auto names = [](const Subject& subject, std::string_view separation) {
+    std::vector<std::string> found;
+    for (const Family& family : searches(subject, Stop::never(), separation)) found.push_back(family.name);
+    return found;
+  };
+  EXPECT_THAT(names(*make_any_subject("exact-decision"), ""),
+              ::testing::ElementsAre("search-miss-exact-decision", "search-far-exact-decision"));
+  EXPECT_THAT(names(*make_any_subject("exact"), "drawn"),
+              ::testing::ElementsAre("search-miss-exact~drawn", "search-far-exact~drawn",
+                                     "search-late-exact~drawn", "search-early-exact~drawn"));
+  EXPECT_THROW(names(*make_any_subject("exact"), "0"), nearmiss::Error);
+  EXPECT_THROW(names(*make_any_subject("exact"), "near"), nearmiss::Error);
+}
+
+TEST(TimeSearches, ArePureFunctions) {
+  const Altered subject = late_in_a_region();
+  for (const char* separation : {"", "drawn"})
+    for (const Family& family : searches(subject, Stop::never(), separation))
+      EXPECT_EQ(make_query(family, 1, 1), make_query(family, 1, 1)) << family.name;
+}
+
+/// Misses collisions that do not come nearer than 0.999 h.
+TEST(MissSearch, FindsMissesNextToTheSeparation) {
+  const Altered subject([](const Query& query, const Verdict& verdict) {
+    const bool near = query.separation > 0 && distance_exceeds(query, 0.999 * query.separation);
+    return near ? Verdict{} : verdict;
+  });
+  int missed = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Query query = make_query(miss_search(subject, Stop::never(), "drawn"), 1, i);
+    missed += collides(query) && !subject.decide(query).hit ? 1 : 0;
+  }
+  EXPECT_GE(missed, 5);
+}
+
+/// Reports what comes within h + 1e-3, and claims a bound of half of that.
+TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
+  const Altered subject(
+      [](const Query& query, Verdict verdict) {
+        verdict.hit = !distance_exceeds(query, query.separation + 1e-3);
+        return verdict;
+      },
+      0.5e-3);
+  int refuted = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Query query = make_query(far_search(subject, Stop::never(), "drawn"), 1, i);
+    refuted += subject.decide(query).hit && distance_exceeds(query, query.separation + 0.5e-3) ? 1 : 0;
+  }
+  EXPECT_GE(refuted, 5);
+}
+
+}  // namespace
+}  // namespace nearmiss
