@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"

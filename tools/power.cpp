@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "ccd/error.hpp"
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/studies/power.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"

@@ -9,7 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <functional>
 
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "oracle/agreement.hpp"
 

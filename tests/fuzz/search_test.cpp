@@ -1,5 +1,5 @@
 // Tests the directed search on known defects.
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 
 #include <gtest/gtest.h>
 

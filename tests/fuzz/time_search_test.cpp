@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "ccd/error.hpp"
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"

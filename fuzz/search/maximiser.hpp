@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "fuzz/families/search_point.hpp"
 #include "fuzz/random.hpp"
+#include "fuzz/search/search_point.hpp"
 
 namespace nlopt {
 class opt;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "ccd/elementary.hpp"
-#include "fuzz/families/search.hpp"
-#include "fuzz/families/searched.hpp"
+#include "fuzz/search/search.hpp"
+#include "fuzz/search/searched.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"
 

@@ -1,4 +1,4 @@
-#include "fuzz/families/searched.hpp"
+#include "fuzz/search/searched.hpp"
 
 #include <memory>
 

@@ -1,11 +1,11 @@
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "ccd/elementary.hpp"
-#include "fuzz/families/searched.hpp"
+#include "fuzz/search/searched.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/family.hpp"

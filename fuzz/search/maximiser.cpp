@@ -1,11 +1,11 @@
-#include "fuzz/families/maximiser.hpp"
+#include "fuzz/search/maximiser.hpp"
 
 #include <algorithm>
 #include <array>
 #include <nlopt.hpp>
 #include <stdexcept>
 
-#include "fuzz/families/search.hpp"
+#include "fuzz/search/search.hpp"
 
 namespace nearmiss {
 

@@ -1,4 +1,4 @@
-#include "fuzz/families/search_point.hpp"
+#include "fuzz/search/search_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "ccd/subject.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/families/maximiser.hpp"
+#include "fuzz/search/maximiser.hpp"
 #include "fuzz/stop.hpp"
 
 namespace nearmiss {
