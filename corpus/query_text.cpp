@@ -106,7 +106,6 @@ std::size_t parse_words(std::string_view line, std::span<double> numbers, std::s
   return count;
 }
 
-
 double checked_separation(double separation, std::string_view where) {
   if (separation >= 0) return separation + 0.0;  // -0 is 0
   throw Error(

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fuzz/search/search.hpp"
 #include "fuzz/scenes/mesh_family.hpp"
 #include "fuzz/scenes/scene.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "fuzz/trial/sieve.hpp"

@@ -9,8 +9,8 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
-#include "fuzz/search/search.hpp"
 #include "fuzz/parallel.hpp"
+#include "fuzz/search/search.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"

@@ -88,8 +88,9 @@ TEST(QueryLine, HasItsSeparationLast) {
   EXPECT_EQ(to_line(apart), to_line(query) + " 0x1.8p-2");
   for (const std::string& line : {to_line(apart), to_readable(apart)})
     EXPECT_EQ(parse_line(query.kind, line, "here"), apart) << line;
-  EXPECT_THAT([&] { (void)parse_line(query.kind, to_line(query) + " -0.5", "here"); },
-              ThrowsMessage<Error>("here: found the separation -0.5, expected a number that is not negative"));
+  EXPECT_THAT(
+      [&] { (void)parse_line(query.kind, to_line(query) + " -0.5", "here"); },
+      ThrowsMessage<Error>("here: found the separation -0.5, expected a number that is not negative"));
   EXPECT_THAT([&] { (void)parse_line(query.kind, to_line(query) + " 1 2", "here"); },
               ThrowsMessage<Error>("here: found 26 numbers, expected 24, or 25 with a separation"));
 }

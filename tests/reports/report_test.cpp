@@ -173,13 +173,15 @@ TEST(Csv, ANameThatBeginsLikeAFormulaIsText) {
 TEST(Csv, AFindingHasItsShrunkQueryBesideItsOwn) {
   const std::string text = findings_csv(some_campaign("wang"));
   EXPECT_THAT(
-      text, HasSubstr("\nfalse-negative,wang,vt simple-root inside in-face,1234,vt,\"fam,\"\"ily\",f:1:2,0,0," +
-                      to_line(simple) + "," + to_line(query) + "\n"));
+      text,
+      HasSubstr("\nfalse-negative,wang,vt simple-root inside in-face,1234,vt,\"fam,\"\"ily\",f:1:2,0,0," +
+                to_line(simple) + "," + to_line(query) + "\n"));
 }
 
 TEST_F(ReportTest, WritesEverythingThatItPromises) {
   write_report(some_campaign("wang"), {}, file("report"));
-  for (const char* name : {"index.html", "report.json", "statistics.csv", "distances.csv", "times.csv", "findings.csv"})
+  for (const char* name :
+       {"index.html", "report.json", "statistics.csv", "distances.csv", "times.csv", "findings.csv"})
     EXPECT_TRUE(std::filesystem::exists(file("report") / name)) << name;
   std::vector<Case> cases;
   read_cases(file("report/cases"), [&](Case&& each) { cases.push_back(std::move(each)); });
