@@ -113,6 +113,10 @@ std::string time_disagreement(const Query& query, bool happens) {
   if (time.has_value() != happens || exactly.has_value() != happens) return "time: of nothing";
   const bool happens_at_start = happens && exactly->time.is(0);
   if (keeps_contract(query, {.apart_at_start = true}) == happens_at_start) return "contract: apart at start";
+  Query contact = query;
+  contact.separation = 0;
+  if (keeps_contract(contact, {.apart_at_start = true, .apart_by = query.separation}) == happens_at_start)
+    return "contract: apart by";
   if (!happens) return "";
   if (!is_enclosure(time->known())) return "time: no enclosure";
   std::string what = known_times_disagree(query, *exactly);
