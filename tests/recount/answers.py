@@ -7,7 +7,7 @@ import numpy as np
 
 from asking import KINDS
 from enclosed import Enclosed
-from impact import SORTS, Impact, compare, sort_of_plugin
+from impact import Impact, compare, sort_of
 
 
 @dataclass
@@ -76,7 +76,7 @@ def ask(nearmiss, seed, counts, subjects):
         times = answers.times[kind] = Known(functools.partial(nearmiss.times, kind))
         for subject in subjects:
             name, description = nearmiss.plugin(subject) if '/' in subject else (subject, '')
-            sort = SORTS.get(subject) or sort_of_plugin(description)
+            sort = sort_of(name, description)
             answers.asked[name, kind] = _ask_one(
                 nearmiss, answers, subject, kind, distances, times, sort
             )

@@ -8,15 +8,24 @@ from asking import KINDS
 from enclosed import BORDERS, Enclosed, PRECISION
 from scalars import EPSILONS, paper_bound
 
-SORTS = {'exact': 'lower-bound', 'exact-scalar': 'lower-bound'}  # of built-in subjects with times
+SORTS = {  # of built-in subjects with times, over all scalars
+    'basic': 'estimate',
+    'basic-plain': 'estimate',
+    'wang-time': 'lower-bound',
+    'advance': 'lower-bound',
+    'exact': 'lower-bound',
+    'exact-scalar': 'lower-bound',
+}
 WORDS = {'an estimate of the time': 'estimate', 'a lower bound of the time': 'lower-bound'}
 ROUNDING = 1e-15  # more than the relative rounding error of one operation
 SPLIT = dict(zip(KINDS, (1, 2)))  # the first vertex of the second primitive
 
 
-def sort_of_plugin(description):
-    """The sort of time, from what nearmiss subjects says about a plug-in."""
-    return next((sort for words, sort in WORDS.items() if words in description), 'none')
+def sort_of(subject, description):
+    """The sort of time, from the name of a built-in subject, or from what nearmiss subjects says about
+    a plug-in."""
+    built_in = SORTS.get(subject.split(':')[0], 'none')
+    return next((sort for words, sort in WORDS.items() if words in description), built_in)
 
 
 @dataclass
