@@ -144,6 +144,7 @@ def _check_oracle(comparison, where, found, answers):
 def _check_truth(comparison, where, found, expected):
     for name, value in expected.items():
         comparison.same('oracle', f'{where} {name}', found[name], value)
+    comparison.same('oracle', f'{where} ties', found['ties'], 0)  # all queries ask for contact
     comparison.same(
         'oracle', f'{where} decided_by', sum(found['decided_by'].values()), expected['queries']
     )
