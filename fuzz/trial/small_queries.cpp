@@ -197,15 +197,12 @@ const std::vector<SmallQuery>& small_queries(Kind kind) {
 std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
                                             const std::function<bool(const Query&)>& fails, const Stop& stop,
                                             std::chrono::milliseconds grace) {
-  constexpr std::size_t largest_batch = 64;   // the first ones are smaller: the search may end soon
-  constexpr std::ptrdiff_t most_faults = 64;  // a process that ends must be started again
+  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the search may end soon
   const std::span list(small_queries(finding.query.kind));
   const Complexity known = complexity(finding.query);
-  std::ptrdiff_t faults = 0;
   std::vector<Verdict> verdicts;
   std::size_t first = 0;
-  for (std::size_t batch = 1; first < list.size() && faults < most_faults;
-       batch = std::min(2 * batch, largest_batch)) {
+  for (std::size_t batch = 1; first < list.size(); batch = std::min(2 * batch, largest_batch)) {
     stop.check(grace);
     const auto asked = list.subspan(first, std::min(batch, list.size() - first));
     first += asked.size();
@@ -215,9 +212,6 @@ std::optional<Query> simplest_small_failure(const Finding& finding, const Subjec
       if (can_fail(finding.what, verdicts[i], asked[i].collision) && fails(asked[i].query))
         return asked[i].query;
     }
-    faults += std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) {
-      return v.fault != Fault::none && v.fault != Fault::contract;
-    });
   }
   return std::nullopt;
 }

@@ -27,9 +27,8 @@ struct SmallQuery {
 const std::vector<SmallQuery>& small_queries(Kind kind);
 
 /// The simplest small query that `fails`, if it is simpler than the finding's query; nothing if there is none. The
-/// subject is asked in batches, and `fails` only about answers that can be failures of the finding's kind. The search
-/// ends early if the subject gives no answer too often. Throws Stopped
-/// if `stop` is due, with this grace.
+/// subject is asked in batches, and `fails` only about answers that can be failures of the finding's kind. Batches that the
+/// subject refuses are left out. Throws Stopped if `stop` is due, with this grace.
 std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
                                             const std::function<bool(const Query&)>& fails, const Stop& stop,
                                             std::chrono::milliseconds grace);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "fuzz/families/families.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "tests/bit_hash.hpp"
@@ -67,7 +68,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
-  EXPECT_EQ(hash.value(), 0x79e862232d2a837f)
+  EXPECT_EQ(hash.value(), 0x3d3e5bfe92981941)
       << std::hex << hash.value();  // each step does what it always did
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
@@ -134,16 +135,49 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   const Query query = make_query(find_family("uniform"), 1, 0);
   const Late late;
   Finding finding{Finding::What::fault, "late", "uniform", query, "uniform:1:0", 0, "vt time", query};
-  shrunk_query(finding, &late, Stop::never(), 2 * Late::takes);
+  shrunk_query(finding, &late, Stop::never(), {.time = 2 * Late::takes});
   EXPECT_GE(late.asked, 1);
   EXPECT_LE(late.asked, 2);
   finding.what = Finding::What::false_negative;
   finding.signature = "vt";
   late.asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               12 * Late::takes);  // small queries in batches of 1, 2 and 4, and its own
+               {.time = 12 * Late::takes});  // small queries in batches of 1, 2 and 4, and its own
   EXPECT_GE(late.asked, 1);
   EXPECT_LE(late.asked, 1 + 2 + 4 + 1);
+}
+
+/// Answers as basic does, after a time, and notes what it is asked.
+class Slow final : public ForwardingSubject {
+ public:
+  Slow(const Subject& basic, std::chrono::milliseconds takes)
+      : ForwardingSubject("slow", basic), takes_(takes) {}
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    std::this_thread::sleep_for(takes_);
+    asked.insert(asked.end(), queries.begin(), queries.end());
+    ForwardingSubject::decide(queries, verdicts);
+  }
+
+  mutable std::vector<Query> asked;
+
+ private:
+  std::chrono::milliseconds takes_;
+};
+
+TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
+  constexpr ShrinkLimits few{.work = 4400};
+  const auto basic = make_subject("basic");
+  const Finding finding = missed_by_basic().front();
+  const Slow fast(*basic, std::chrono::milliseconds(0));
+  const Slow slow(*basic, std::chrono::milliseconds(2));
+  const Query shrunk = shrunk_query(finding, &fast, Stop::never(), few);
+  EXPECT_EQ(shrunk_query(finding, &slow, Stop::never(), few), shrunk);
+  EXPECT_EQ(slow.asked, fast.asked);
+  EXPECT_NE(shrunk, finding.query);
+  EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));  // the limit ended the search
+  EXPECT_LE(fast.asked.size(), few.work);
+  EXPECT_GE(fast.asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
 }
 
 TEST(Shrink, LeavesAloneWhatDoesNotFail) {

@@ -154,12 +154,15 @@ TEST(SmallQueries, AreNotSearchedBeyondTheFindingItself) {
   EXPECT_LE(blind.asked, 64);
 }
 
-TEST(SmallQueries, AreLeftAfterManyFaultsAndAfterARequest) {
-  const Blind late(Fault::crash);
+TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
+  const Blind crashing(Fault::crash);
+  EXPECT_EQ(shrunk_query(missed(Kind::edge_edge), &crashing, Stop::never(), limits_in_campaign),
+            missed(Kind::edge_edge).query);
+  EXPECT_EQ(crashing.asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
+}
+
+TEST(SmallQueries, AreLeftAfterARequest) {
   const auto never = [](const Query&) { return false; };
-  EXPECT_EQ(simplest_small_failure(missed(Kind::edge_edge), late, never, Stop::never(), no_grace),
-            std::nullopt);
-  EXPECT_EQ(late.asked, 1 + 2 + 4 + 8 + 16 + 32 + 64);  // the last batch reaches 64 faults
   const std::atomic<bool> requested{true};
   const Blind blind;
   EXPECT_THROW(static_cast<void>(
