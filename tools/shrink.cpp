@@ -1,6 +1,4 @@
 // nearmiss shrink: finds the simplest query that fails in the same way.
-#include "fuzz/trial/shrink.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/complexity.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/contract.hpp"

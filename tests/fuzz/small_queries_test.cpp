@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "fuzz/families/families.hpp"
@@ -99,6 +100,29 @@ TEST(SmallQueries, AreSortedAndDecided) {
         std::count_if(list.begin(), list.end(), [](const SmallQuery& q) { return q.collision; });
     EXPECT_GT(collisions, 1000);
     EXPECT_LT(collisions, static_cast<std::ptrdiff_t>(list.size()) - 1000);
+  }
+}
+
+TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
+  for (const Kind kind : kinds) {
+    const auto& list = small_queries(kind, true);
+    std::cout << short_name(kind) << ": " << list.size() << " queries with a separation\n";
+    std::map<double, std::size_t> seen;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Query& query = list[i].query;
+      ++seen[query.separation];
+      if (i > 0) {
+        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
+      }
+      if (i % 61 == 0) {
+        const Decision exactly = decide_exactly(query);
+        EXPECT_EQ(list[i].collision, exactly.collision);
+        EXPECT_FALSE(exactly.is_tie);
+      }
+    }
+    ASSERT_EQ(seen.size(), 4);
+    for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without those with two right answers
   }
 }
 
