@@ -44,14 +44,14 @@ void print_queries(const Options& options, const Family& family) {
 
 void print_combinations(std::string_view name, const crossed::Combinations& combinations,
                         std::uint64_t queries) {
-  fmt::print("{}: {} of {} possible ones occur in {}\n", name, with_separators(combinations.seen),
-             with_separators(combinations.possible), counted(queries, "query", "queries"));
+  fmt::print("{}: {} of the {} that are made occur in {}\n", name, with_separators(combinations.seen),
+             with_separators(combinations.made), counted(queries, "query", "queries"));
   for (const std::string& missing : combinations.missing) fmt::print("never: {}\n", missing);
 }
 
 void print_coverage(const Options& options) {
   const crossed::Coverage found = crossed::coverage(options.seed, options.first, options.count);
-  for (const std::string& pair : found.impossible_pairs) fmt::print("impossible: {}\n", pair);
+  for (const std::string& pair : found.pairs_not_made) fmt::print("not made: {}\n", pair);
   print_combinations("pairs", found.pairs, options.count);
   print_combinations("triples", found.triples, options.count);
 }

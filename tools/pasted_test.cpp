@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 #include "ccd/error.hpp"
 #include "ccd/printable.hpp"
 #include "corpus/query_text.hpp"
+#include "fuzz/trial/signatures.hpp"
 #include "oracle/explanation.hpp"
 #include "oracle/oracle.hpp"
 
@@ -107,56 +109,82 @@ Form parse_form(std::string_view text, std::string_view option) {
 
 namespace {
 
-/// The function of the reader that the test calls.
+/// A function of the reader that the test calls.
 struct Asked {
   std::string name, returns;
   std::string type;  ///< in C++
 };
 
-Asked asked(const Finding& finding) {
-  if (finding.what == Finding::What::late)
-    return {"time_of_impact", "the time before which nothing happens, by your detector", "double"};
-  const bool is_contact = finding.shrunk.separation == 0;
-  return {"detects",
-          is_contact ? "whether your detector reports a collision"
-                     : "whether your detector reports that the primitives come within the separation",
-          "bool"};
+/// Whether the subject reported a collision with a time that is none.
+bool is_of_invalid_time(const Finding& finding, TimeSort sort) {
+  return finding.what == Finding::What::fault && sort != TimeSort::none &&
+         is_of_invalid_answer(finding.signature);
 }
 
-/// What must be true of the call's result.
-std::string expectation(const Finding& finding, const std::string& call, Form language) {
+std::vector<Asked> functions(const Finding& finding, TimeSort sort) {
   if (finding.what == Finding::What::late)
-    return fmt::format("{} <= {}", call, literal(largest_time(finding.shrunk), language));
+    return {{"time_of_impact", "the time before which nothing happens, by your detector", "double"}};
+  const bool is_contact = finding.shrunk.separation == 0;
+  std::vector<Asked> all{
+      {"detects",
+       is_contact ? "whether your detector reports a collision"
+                  : "whether your detector reports that the primitives come within the separation",
+       "bool"}};
+  if (is_of_invalid_time(finding, sort))
+    all.push_back({"time_of_impact", "the time that your detector gives with this answer", "double"});
+  return all;
+}
+
+/// What must be true, with these arguments of all calls.
+std::string expectation(const Finding& finding, TimeSort sort, const std::string& arguments, Form language) {
+  const bool python = language == Form::python;
+  const std::string time = "time_of_impact" + arguments;
+  if (finding.what == Finding::What::late)
+    return fmt::format("{} <= {}", time, literal(largest_time(finding.shrunk), language));
+  const std::string detects = "detects" + arguments;
   const bool collision = collides(finding.shrunk);
-  return language == Form::python ? (collision ? "" : "not ") + call
-                                  : fmt::format("{} == {}", call, collision);
+  const std::string is_right =
+      python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
+  if (!is_of_invalid_time(finding, sort)) return is_right;
+  // A report of no collision needs no time; a false positive needs one.
+  if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
+  return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
+                   : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);
+}
+
+/// What the reader has to write, as a comment, and in C++ the declarations.
+std::string request(const std::vector<Asked>& functions, bool has_separation, Form language) {
+  const bool python = language == Form::python;
+  std::string text, declarations;
+  for (const Asked& each : functions) {
+    const std::string function =
+        python ? fmt::format("{}(start, end{})", each.name, has_separation ? ", separation" : "")
+               : fmt::format("`{}`", each.name);
+    text +=
+        fmt::format("{} Write a function {} that returns {}.\n", python ? "#" : "//", function, each.returns);
+    declarations += fmt::format("{} {}(const double (&start)[4][3], const double (&end)[4][3]{});\n",
+                                each.type, each.name, has_separation ? ", double separation" : "");
+  }
+  return python ? text : text + declarations + "\n";
 }
 
 }  // namespace
 
-std::string pasted_test(const Finding& finding, Form language) {
+std::string pasted_test(const Finding& finding, TimeSort sort, Form language) {
   const Query& query = finding.shrunk;
   const bool has_separation = query.separation != 0;
-  const Asked function = asked(finding);
-  const std::string call = fmt::format("{}(start, end{})", function.name,
-                                       has_separation ? ", " + literal(query.separation, language) : "");
-  const std::string expected = expectation(finding, call, language);
-  const std::string name = query.kind == Kind::vertex_triangle ? "test_vertex_triangle" : "test_edge_edge";
-  const std::string start = vertices(query, 0, language);
-  const std::string end = vertices(query, 1, language);
-  if (language == Form::python)
-    return fmt::format(
-        "{}# Write a function {}(start, end{}) that returns {}.\n"
-        "def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n    assert {}\n",
-        comment(finding, "#"), function.name, has_separation ? ", separation" : "", function.returns, name,
-        start, end, expected);
-  return fmt::format(
-      "{}// Write a function `{}` that returns {}.\n"
-      "{} {}(const double (&start)[4][3], const double (&end)[4][3]{});\n\n"
-      "bool {}() {{\n  const double start[4][3] = {{\n{}  }};\n  const double end[4][3] = {{\n{}  }};\n"
-      "  return {};\n}}\n",
-      comment(finding, "//"), function.name, function.returns, function.type, function.name,
-      has_separation ? ", double separation" : "", name, start, end, expected);
+  const std::string arguments =
+      fmt::format("(start, end{})", has_separation ? ", " + literal(query.separation, language) : "");
+  const bool python = language == Form::python;
+  return fmt::format(fmt::runtime(python ? "{}{}def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
+                                           "    assert {}\n"
+                                         : "{}{}bool {}() {{\n  const double start[4][3] = {{\n{}  }};\n"
+                                           "  const double end[4][3] = {{\n{}  }};\n  return {};\n}}\n"),
+                     comment(finding, python ? "#" : "//"),
+                     request(functions(finding, sort), has_separation, language),
+                     query.kind == Kind::vertex_triangle ? "test_vertex_triangle" : "test_edge_edge",
+                     vertices(query, 0, language), vertices(query, 1, language),
+                     expectation(finding, sort, arguments, language));
 }
 
 }  // namespace nearmiss::tools

@@ -1,6 +1,4 @@
 // nearmiss shrink: finds the simplest query that fails in the same way.
-#include "fuzz/trial/shrink.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/complexity.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/contract.hpp"
@@ -97,7 +96,8 @@ void run(const Options& options) {
   const std::string became = fmt::format("distinct numbers: {} -> {}; their significant bits: {} -> {}",
                                          before.distinct, after.distinct, before.bits, after.bits);
   const bool is_case = form == Form::case_file;
-  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, form), options, became);
+  write(is_case ? to_text(shrunk_case(finding, became)) : pasted_test(finding, subject->time_sort(), form),
+        options, became);
 }
 
 }  // namespace

@@ -54,22 +54,22 @@ class Occurrences {
           use(fmt::format("{} {}", numbering_.name[i], numbering_.name[j]), pairs_[i * size_ + j] != 0);
   }
 
-  /// The combinations that are possible, and those that occur here.
-  [[nodiscard]] Combinations pairs_among(const Occurrences& possible) const {
-    return compared(pairs_, possible.pairs_, 2);
+  /// The combinations that the family makes, and those that occur here.
+  [[nodiscard]] Combinations pairs_among(const Occurrences& made) const {
+    return compared(pairs_, made.pairs_, 2);
   }
-  [[nodiscard]] Combinations triples_among(const Occurrences& possible) const {
-    return compared(triples_, possible.triples_, 3);
+  [[nodiscard]] Combinations triples_among(const Occurrences& made) const {
+    return compared(triples_, made.triples_, 3);
   }
 
  private:
   using Flags = std::vector<std::uint8_t>;
 
-  [[nodiscard]] Combinations compared(const Flags& seen, const Flags& possible, int values) const {
+  [[nodiscard]] Combinations compared(const Flags& seen, const Flags& made, int values) const {
     Combinations result;
-    for (std::size_t place = 0; place < possible.size(); ++place) {
-      if (possible[place] == 0) continue;
-      ++result.possible;
+    for (std::size_t place = 0; place < made.size(); ++place) {
+      if (made[place] == 0) continue;
+      ++result.made;
       if (seen[place] != 0)
         ++result.seen;
       else
@@ -88,9 +88,9 @@ class Occurrences {
   Flags pairs_, triples_;
 };
 
-/// All levels that are possible.
-Occurrences possible_occurrences(const Numbering& numbering) {
-  Occurrences possible(numbering);
+/// All levels that the family makes.
+Occurrences occurrences_made(const Numbering& numbering) {
+  Occurrences made(numbering);
   std::size_t all = 1;
   for (const Factor& factor : factors()) all *= factor.values.size();
   for (std::size_t number = 0; number < all; ++number) {
@@ -100,21 +100,21 @@ Occurrences possible_occurrences(const Numbering& numbering) {
       levels[f] = static_cast<std::uint8_t>(rest % factors()[f].values.size());
       rest /= factors()[f].values.size();
     }
-    if (is_possible(levels)) possible.add(levels);
+    if (is_made(levels)) made.add(levels);
   }
-  return possible;
+  return made;
 }
 
 }  // namespace
 
 Coverage coverage(std::uint64_t seed, std::uint64_t first, std::uint64_t count) {
   const Numbering numbering;
-  const Occurrences possible = possible_occurrences(numbering);
+  const Occurrences made = occurrences_made(numbering);
   Occurrences seen(numbering);
   for (std::uint64_t i = 0; i < count; ++i) seen.add(levels_of(seed, first + i));
-  Coverage result{seen.pairs_among(possible), seen.triples_among(possible), {}};
-  possible.for_each_pair([&](const std::string& text, bool occurs) {
-    if (!occurs) result.impossible_pairs.push_back(text);
+  Coverage result{seen.pairs_among(made), seen.triples_among(made), {}};
+  made.for_each_pair([&](const std::string& text, bool occurs) {
+    if (!occurs) result.pairs_not_made.push_back(text);
   });
   return result;
 }

@@ -9,15 +9,15 @@ namespace nearmiss::crossed {
 
 /// The combinations of the values of two factors, or of three.
 struct Combinations {
-  std::uint64_t possible = 0;
+  std::uint64_t made = 0;  ///< number of those that the family makes
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< that are possible and were not seen: "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< those that it makes and that were not seen: "shape=sliver when=at-1"
 };
 
 /// The combinations in queries first .. first + count - 1 of the family.
 struct Coverage {
   Combinations pairs, triples;
-  std::vector<std::string> impossible_pairs;
+  std::vector<std::string> pairs_not_made;
 };
 
 Coverage coverage(std::uint64_t seed, std::uint64_t first, std::uint64_t count);

@@ -39,7 +39,7 @@ bool is_free(Motion motion) {
   return motion == Motion::deforming || motion == Motion::fast || motion == Motion::slow;
 }
 
-/// Whether F can have these roots. With p = α q + β r + τ w for τ = t - time, F is τ det(w, q, r).
+/// Whether the family makes these roots of F. With p = α q + β r + τ w for τ = t - time, F is τ det(w, q, r).
 bool has_roots(Shape shape, Motion motion, Roots roots) {
   if (roots == Roots::all) return true;
   if (motion == Motion::rest) return false;  // F is constant
@@ -56,7 +56,7 @@ bool has_roots(Shape shape, Motion motion, Roots roots) {
 
 std::span<const Factor> factors() { return all_factors; }
 
-bool is_possible(const Levels& levels) {
+bool is_made(const Levels& levels) {
   const Shape shape = levels.shape();
   if (shape == Shape::point && (levels.where() != Where::vertex || levels.motion() == Motion::along))
     return false;  // a point has neither an inside nor a direction
@@ -75,7 +75,7 @@ Levels draw_levels(Random& random) {
     for (std::size_t i = 0; i < factor_count; ++i)
       levels[i] =
           static_cast<std::uint8_t>(random.integer(0, static_cast<int>(all_factors[i].values.size()) - 1));
-    if (is_possible(levels)) return levels;
+    if (is_made(levels)) return levels;
   }
 }
 

@@ -40,13 +40,13 @@ struct Levels : std::array<std::uint8_t, factor_count> {
 /// All factors, in the order of Levels.
 std::span<const Factor> factors();
 
-/// Whether there are queries with these levels.
-bool is_possible(const Levels& levels);
+/// Whether the family makes queries with these levels.
+bool is_made(const Levels& levels);
 
 /// Whether queries with these levels touch exactly, by construction, at the time that the levels give.
 bool touches(const Levels& levels);
 
-/// Draws every level independently; draws again if they are impossible together.
+/// Draws every level independently; draws again if the family makes no query with them.
 Levels draw_levels(Random& random);
 
 /// The levels of query `index` of the family; the query itself is not made.

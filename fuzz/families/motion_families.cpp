@@ -70,7 +70,8 @@ Query far_start(Random& random, Kind kind, double x) {
 // --- contact hardly after t = 0 -------------------------------------------------------------------------
 
 /// The second primitive always contains the origin. The first one moves from -2^x w to w, and meets it at
-/// t = 2^x / (1 + 2^x). Edges move along an axis, so that adding a tiny number to their coordinates is exact.
+/// t = 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch before. Edges move along an axis, so that
+/// adding a tiny number to their coordinates is exact.
 Query first_moment(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   const Vector axis = Vector::Unit(random.integer(0, 2));
@@ -162,8 +163,9 @@ std::vector<Family> motion_families() {
                                      {"size of the primitives = 10^x", -6, 6, false, far_end})),
       with_collisions(with_parameter("far-start", "exact contact at t = 0, before a long motion",
                                      {"size of the primitives = 10^x", -6, 6, false, far_start})),
-      with_collisions(with_parameter("first-moment", "exact contact at t < 2^-49, but not at t = 0",
-                                     {"contact is at about t = 2^x", -110, -50, true, first_moment})),
+      with_collisions(with_parameter(
+          "first-moment", "exact contact at t < 2^-49; one query in a hundred touches at t = 0, too",
+          {"contact is at about t = 2^x", -110, -50, true, first_moment})),
       {.name = "one-point",
        .about = "each primitive is one point at rest, the same or up to four ulps apart",
        .make = one_point},

@@ -1,5 +1,6 @@
 #include "fuzz/trial/shrunk_finding.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -22,37 +23,57 @@ constexpr std::chrono::milliseconds grace{1000};
 
 using Clock = std::chrono::steady_clock;
 
-/// A subject that refuses further queries when its answers have taken as long as it may.
+/// Whether a new process is needed after a fault.
+bool ends_process(const Verdict& verdict) {
+  switch (verdict.fault) {
+    case Fault::crash:
+    case Fault::time:
+    case Fault::memory:
+    case Fault::exception:
+    case Fault::protocol:
+    case Fault::load:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// A subject that refuses further queries when a limit is reached.
 class Limited final : public ForwardingSubject {
-  /// What the subject answers, unless its time is over.
+  /// What the subject answers to this number of queries, unless a limit is reached.
   template <class Ask>
-  auto asked(const Ask& ask) const {
-    if (left_ <= Clock::duration::zero()) throw Error("the subject has answered as long as it may");
+  auto asked(std::size_t queries, const Ask& ask) const {
+    if (work_ <= 0) throw Error("the subject has answered as many queries as it may");
+    if (time_ <= Clock::duration::zero()) throw Error("the subject has answered as long as it may");
+    work_ -= ShrinkLimits::of_call + static_cast<std::int64_t>(queries);
     const auto before = Clock::now();
     auto answer = ask();
-    left_ -= Clock::now() - before;
+    time_ -= Clock::now() - before;
     return answer;
   }
 
  public:
-  Limited(const Subject& to, Clock::duration limit) : ForwardingSubject(to.name(), to), left_(limit) {}
+  Limited(const Subject& to, std::int64_t work, Clock::duration time)
+      : ForwardingSubject(to.name(), to), work_(work), time_(time) {}
 
   using ForwardingSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    asked([&] {
+    asked(queries.size(), [&] {
       to().decide(queries, verdicts);
       return true;
     });
+    work_ -= ShrinkLimits::of_process * std::count_if(verdicts.begin(), verdicts.end(), ends_process);
   }
   [[nodiscard]] double distance_bound(const Query& query) const override {
-    return asked([&] { return to().distance_bound(query); });
+    return asked(1, [&] { return to().distance_bound(query); });
   }
   [[nodiscard]] BoundAnswer ask_bound(const Query& query) const override {
-    return asked([&] { return to().ask_bound(query); });
+    return asked(1, [&] { return to().ask_bound(query); });
   }
 
  private:
-  mutable Clock::duration left_;
+  mutable std::int64_t work_;
+  mutable Clock::duration time_;
 };
 
 /// The finding's failure of a subject.
@@ -78,11 +99,11 @@ class SameFailure {
   const Stop& stop_;
 };
 
-/// The search among small queries, and then the steps of the shrinker, may take half of the time each.
+/// The search among small queries, and then the steps of the shrinker, may reach half of the limits each.
 Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, const Stop& stop,
-                                Clock::duration limit) {
-  const Limited first(subject, limit / 2);
-  const Limited second(subject, limit / 2);
+                                const ShrinkLimits& limits) {
+  const Limited first(subject, limits.work / 2, limits.time / 2);
+  const Limited second(subject, limits.work / 2, limits.time / 2);
   const SameFailure fails_at_first(finding, first, stop);
   const SameFailure fails(finding, second, stop);
   const bool every_query_is_slow = is_of_time_limit(finding.signature);
@@ -95,7 +116,7 @@ Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, 
 }  // namespace
 
 Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop,
-                   std::chrono::milliseconds limit) {
+                   const ShrinkLimits& limits) {
   switch (finding.what) {
     case Finding::What::truth_mismatch:
       return finding.query;
@@ -105,7 +126,7 @@ Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& s
         return oracle_failure(query) == Failure{finding.what, finding.signature};
       });
     default:
-      return shrunk_failure_of_subject(finding, *subject, stop, limit);
+      return shrunk_failure_of_subject(finding, *subject, stop, limits);
   }
 }
 

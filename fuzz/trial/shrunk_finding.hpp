@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
@@ -10,11 +11,27 @@
 
 namespace nearmiss {
 
+/// How much the search for the simplest query may ask of a subject.
+struct ShrinkLimits {
+  static constexpr std::int64_t of_call = 10;       ///< the work of a call, in queries
+  static constexpr std::int64_t of_process = 1000;  ///< that of a new process, after a fault that ended one
+
+  /// The number of queries that are asked, with the work of calls and processes. It counts no time, so it ends the search
+  /// at the same query on every machine.
+  std::int64_t work = 1'200'000;
+  /// The time of the answers. Only a slow subject reaches it.
+  std::chrono::milliseconds time = std::chrono::minutes(1);
+};
+
+/// For findings of a campaign, so that subjects spend their time on cases. An answer may take 0.4 ms, and the start of a
+/// process 40 ms, before the time ends the search.
+inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(5)};
+
 /// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure
 /// of the oracle. A query that the subject refuses does not fail. A contradiction to a recorded truth cannot
-/// be shrunk, because the truth is known for one query only. The search ends when the subject's answers have taken as long
-/// as `limit`: a subject that is very slow is asked few queries. Throws Stopped.
+/// be shrunk, because the truth is known for one query only. The result depends on the machine only if the time ends the
+/// search. Throws Stopped.
 Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop = Stop::never(),
-                   std::chrono::milliseconds limit = std::chrono::minutes(1));
+                   const ShrinkLimits& limits = {});
 
 }  // namespace nearmiss

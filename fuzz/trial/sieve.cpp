@@ -38,11 +38,10 @@ void Sieve::shrink(std::vector<Finding>& findings) const {
   in_parallel(jobs_, findings.size(), [&](std::size_t i) {
     Finding& finding = findings[i];
     if (finding.is_shrunk) return;
-    constexpr std::chrono::seconds longest(1);  // so that a slow subject spends its time on cases
     try {
       // Every step would take as long as the time limit. `nearmiss shrink` does it.
       const bool is_slow = finding.what == Finding::What::fault && is_of_time_limit(finding.signature);
-      if (!is_slow) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_, longest);
+      if (!is_slow) finding.shrunk = shrunk_query(finding, subject_of(finding), stop_, limits_in_campaign);
       if (finding.what == Finding::What::late && finding.shrunk != finding.query)
         finding.time = time_of_shrunk(finding, *subject_of(finding));
       finding.is_shrunk = true;

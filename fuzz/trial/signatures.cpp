@@ -29,6 +29,12 @@ std::string without_numbers(std::string_view text) {
   return printable(result);
 }
 
+/// Whether the signature is that of a fault without further features, of either kind.
+bool is_of(Fault fault, std::string_view text) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](Kind kind) { return text == fault_signature(kind, {.fault = fault}); });
+}
+
 }  // namespace
 
 std::string contact_signature(const Query& query) {
@@ -62,10 +68,9 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
   }
 }
 
-bool is_of_time_limit(std::string_view signature) {
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [&](Kind kind) { return signature == fault_signature(kind, {.fault = Fault::time}); });
-}
+bool is_of_time_limit(std::string_view signature) { return is_of(Fault::time, signature); }
+
+bool is_of_invalid_answer(std::string_view signature) { return is_of(Fault::invalid, signature); }
 
 std::string disagreement_signature(Kind kind, std::string_view text) {
   return text.empty() ? "" : signature(kind, text);

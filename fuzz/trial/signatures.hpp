@@ -26,6 +26,9 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
 /// Whether the signature is that of a query over its time limit.
 bool is_of_time_limit(std::string_view signature);
 
+/// Whether the signature is that of an answer that is none, or of a collision without the time that was promised.
+bool is_of_invalid_answer(std::string_view signature);
+
 /// The signature of a disagreement between the exact methods, or between them and the filter: `text` lists the answers
 /// (oracle/agreement.hpp), as in "vt collision (no: filter; yes: exact, sturm, parity)". "" if they agree.
 std::string disagreement_signature(Kind kind, std::string_view text);

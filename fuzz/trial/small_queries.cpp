@@ -83,11 +83,13 @@ class Maker {
  public:
   explicit Maker(Kind kind) : kind_(kind), symmetries_(symmetries(kind)) {}
 
-  std::vector<SmallQuery> run() {
+  std::vector<SmallQuery> run(bool apart) {
     extend(0, most_numbers);
     draw();
+    if (apart) separate();
     std::sort(list_.begin(), list_.end(), [](const SmallQuery& a, const SmallQuery& b) {
-      return std::tie(a.complexity, a.query.x) < std::tie(b.complexity, b.query.x);
+      return std::tie(a.complexity, a.query.x, a.query.separation) <
+             std::tie(b.complexity, b.query.x, b.query.separation);
     });
     decide_all();
     return std::move(list_);
@@ -135,13 +137,30 @@ class Maker {
     }
   }
 
+  /// Gives every query each of the separations.
+  void separate() {
+    std::vector<SmallQuery> separated;
+    for (const SmallQuery& each : list_)
+      for (const double h : {1.0, 2.0, 0.5, 0.25}) {
+        const Query query = with_separation(each.query, h);
+        separated.push_back({query, complexity(query)});
+      }
+    list_ = std::move(separated);
+  }
+
+  /// Decides the queries, and leaves out those with two right answers.
   void decide_all() {
     std::vector<Query> queries(list_.size());
     std::transform(list_.begin(), list_.end(), queries.begin(),
                    [](const SmallQuery& each) { return each.query; });
     std::vector<Decision> decisions(list_.size());
     decide(queries, decisions);
-    for (std::size_t i = 0; i < list_.size(); ++i) list_[i].collision = decisions[i].collision;
+    std::vector<SmallQuery> decided;
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      list_[i].collision = decisions[i].collision;
+      if (!decisions[i].is_tie) decided.push_back(list_[i]);
+    }
+    list_ = std::move(decided);
   }
 
   Kind kind_;
@@ -162,7 +181,7 @@ bool can_fail(Finding::What what, const Verdict& verdict, bool collision) {
     case Finding::What::fault:
       return is_fault || is_false_positive;
     case Finding::What::late:
-      return !is_fault && verdict.hit && collision;
+      return !is_fault && verdict.hit && collision && verdict.time > 0;
     default:
       return false;
   }
@@ -183,29 +202,29 @@ bool ask(const Subject& subject, std::span<const SmallQuery> asked, std::vector<
   }
 }
 
+template <Kind kind, bool apart>
+const std::vector<SmallQuery>& list_of() {
+  static const auto list = Maker(kind).run(apart);
+  return list;
+}
+
 }  // namespace
 
-const std::vector<SmallQuery>& small_queries(Kind kind) {
-  if (kind == Kind::vertex_triangle) {
-    static const auto list = Maker(Kind::vertex_triangle).run();
-    return list;
-  }
-  static const auto list = Maker(Kind::edge_edge).run();
-  return list;
+const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
+  if (kind == Kind::vertex_triangle)
+    return apart ? list_of<Kind::vertex_triangle, true>() : list_of<Kind::vertex_triangle, false>();
+  return apart ? list_of<Kind::edge_edge, true>() : list_of<Kind::edge_edge, false>();
 }
 
 std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
                                             const std::function<bool(const Query&)>& fails, const Stop& stop,
                                             std::chrono::milliseconds grace) {
-  constexpr std::size_t largest_batch = 64;   // the first ones are smaller: the search may end soon
-  constexpr std::ptrdiff_t most_faults = 64;  // a process that ends must be started again
-  const std::span list(small_queries(finding.query.kind));
+  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the search may end soon
+  const std::span list(small_queries(finding.query.kind, finding.query.separation != 0));
   const Complexity known = complexity(finding.query);
-  std::ptrdiff_t faults = 0;
   std::vector<Verdict> verdicts;
   std::size_t first = 0;
-  for (std::size_t batch = 1; first < list.size() && faults < most_faults;
-       batch = std::min(2 * batch, largest_batch)) {
+  for (std::size_t batch = 1; first < list.size(); batch = std::min(2 * batch, largest_batch)) {
     stop.check(grace);
     const auto asked = list.subspan(first, std::min(batch, list.size() - first));
     first += asked.size();
@@ -215,9 +234,6 @@ std::optional<Query> simplest_small_failure(const Finding& finding, const Subjec
       if (can_fail(finding.what, verdicts[i], asked[i].collision) && fails(asked[i].query))
         return asked[i].query;
     }
-    faults += std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) {
-      return v.fault != Fault::none && v.fault != Fault::contract;
-    });
   }
   return std::nullopt;
 }

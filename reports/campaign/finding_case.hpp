@@ -12,7 +12,8 @@ namespace nearmiss {
 /// The case of a finding, with its truth if the finding implies one.
 Case to_case(const Finding& finding);
 
-/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it.
+/// A name for the case's file: what failed, the subject, and an `id` that distinguishes it. Subjects with similar names, such
+/// as "a b" and "a;b", have the same name, so the id must distinguish their cases too.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
 /// A part of a valid file name: letters, digits, '-' and '.' stay, and every other character becomes '_'. A text of more

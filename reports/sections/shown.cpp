@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "corpus/query_text.hpp"
 #include "reports/campaign/finding_case.hpp"
@@ -14,6 +16,27 @@
 namespace nearmiss {
 
 namespace {
+
+/// A file name as a machine that ignores case sees it.
+std::string without_case(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+/// Gives each file a name of its own, also on a machine that ignores case.
+class OwnNames {
+ public:
+  /// NAME.case; NAME-2.case, NAME-3.case ... if that is taken.
+  std::string take(const std::string& name) {
+    std::string own = name;
+    for (int i = 2; !taken_.insert(without_case(own)).second; ++i) own = fmt::format("{}-{}", name, i);
+    return own + ".case";
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
 
 ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
   Finding simplest = finding;
@@ -34,31 +57,33 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::pair<Finding::What, std::string>, std::size_t> number;
+  std::map<std::string, std::size_t> number;  // of files with the same name, but for the number
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))
       result.push_back(shown(finding, campaign.statistics.times_seen(signature_of(finding)),
-                             ++number[{finding.what, finding.subject}]));
+                             ++number[without_case(case_file_name(finding, ""))]));
   return result;
 }
 
 std::vector<ShownFarthest> farthest_cases(const Statistics& statistics) {
+  OwnNames names;
   std::vector<ShownFarthest> cases;
   for (const auto& [key, counts] : statistics.counts) {
     if (counts.farthest.empty()) continue;
     const FarCase& far = counts.farthest.front();
-    cases.push_back(
-        {key,
-         far,
-         counts.distance_unit(),
-         {fmt::format("{}-{}-{}.case", file_name(key.subject), short_name(key.kind), file_name(key.family)),
-          {.name = {},
-           .query = far.query,
-           .truth = false,
-           .why = fmt::format("false positive of {}, {}", key.subject,
-                              times_the_bound(far.ratio, counts.distance_unit())),
-           .provenance = far.provenance}}});
+    const std::string name =
+        fmt::format("{}-{}-{}", file_name(key.subject), short_name(key.kind), file_name(key.family));
+    cases.push_back({key,
+                     far,
+                     counts.distance_unit(),
+                     {names.take(name),
+                      {.name = {},
+                       .query = far.query,
+                       .truth = false,
+                       .why = fmt::format("false positive of {}, {}", key.subject,
+                                          times_the_bound(far.ratio, counts.distance_unit())),
+                       .provenance = far.provenance}}});
   }
   return cases;
 }

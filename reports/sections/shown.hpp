@@ -25,8 +25,9 @@ struct ShownFinding {
   Exported shrunk, original;
 };
 
-/// The first findings of each signature (FirstFindings). The files are numbered separately for each subject
-/// and each kind of failure. All findings are in findings.csv.
+/// The first findings of each signature (FirstFindings). The files are numbered separately for each kind of failure and
+/// each subject; subjects whose file names differ in case alone, or not at all, share the numbers. All findings are in
+/// findings.csv.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
 /// The command that replays a finding in the report's folder, with the run's limits and bound. A plug-in's
@@ -41,7 +42,8 @@ struct ShownFarthest {
   Exported exported;
 };
 
-/// The farthest false positive of each subject, kind and family that has one, in the order of their keys.
+/// The farthest false positive of each subject, kind and family that has one, in the order of their keys. No two files have
+/// the same name, case ignored.
 std::vector<ShownFarthest> farthest_cases(const Statistics& statistics);
 
 /// The time of one subject and kind that is the farthest before t*, or the farthest after it.

@@ -7,10 +7,10 @@ namespace nearmiss {
 namespace {
 
 // The only place that says which class a family has.
-constexpr std::array<std::string_view, 7> ordinary{"uniform", "uniform-end", "uniform-slow", "mesh",
-                                                   "floats",  "decimals",    "kilometres"};
+constexpr std::array<std::string_view, 6> ordinary{"uniform", "uniform-end", "uniform-slow",
+                                                   "mesh",    "floats",      "kilometres"};
 
-constexpr std::array<std::string_view, 31> degenerate{"planted",
+constexpr std::array<std::string_view, 32> degenerate{"planted",
                                                       "planted-ulp",
                                                       "grazing",
                                                       "parallel",
@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 31> degenerate{"planted",
                                                       "planar",
                                                       "small-integer",
                                                       "degenerate",
+                                                      "decimals",
                                                       "near-parallel-edges",
                                                       "needle",
                                                       "rigid",

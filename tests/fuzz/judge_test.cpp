@@ -9,7 +9,7 @@
 #include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "fuzz/trial/shrink.hpp"
+#include "fuzz/trial/complexity.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"

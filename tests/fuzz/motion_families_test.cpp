@@ -1,7 +1,9 @@
 // The families of contacts at the ends of the step, without motion and at two times keep their promises.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "fuzz/families/contacts.hpp"
 #include "oracle/oracle.hpp"
@@ -67,6 +69,14 @@ TEST(FirstMoment, MostFirstTouchBefore2ToTheMinus49ButNotAtTheStart) {
               300)
         << family;
   }
+}
+
+TEST(FirstMoment, AboutOneInAHundredTouchesAtTheStart) {
+  const std::vector<Query> queries = testing::first_queries("first-moment", 4000);
+  const auto touching = std::count_if(queries.begin(), queries.end(),
+                                      [](const Query& query) { return collides_exactly(at_rest(query, 0)); });
+  EXPECT_GT(touching, 20);
+  EXPECT_LT(touching, 60);
 }
 
 TEST(OnePoint, PrimitivesArePointsAtRestAndHalfOfThemAreOne) {

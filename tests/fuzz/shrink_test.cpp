@@ -11,6 +11,8 @@
 #include <thread>
 
 #include "fuzz/families/families.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
+#include "fuzz/trial/complexity.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "tests/bit_hash.hpp"
@@ -67,7 +69,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
-  EXPECT_EQ(hash.value(), 0x79e862232d2a837f)
+  EXPECT_EQ(hash.value(), 0x3d3e5bfe92981941)
       << std::hex << hash.value();  // each step does what it always did
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
@@ -81,6 +83,68 @@ TEST(Shrink, KeepsOnlyWhatMatters) {
   Query expected{.kind = query.kind};
   expected.x[3] = expected.x[12 + 3] = 1;  // the vertex rests along this axis
   EXPECT_EQ(shrunk, expected);
+}
+
+TEST(Shrink, SimplifiesTheSeparation) {
+  const Query query = with_separation(make_query(find_family("uniform"), 1, 0), 0.1234);
+  const auto separation = [&](double least, double most) {
+    const auto fails = [&](const Query& q) { return least <= q.separation && q.separation <= most; };
+    return nearmiss::shrunk(query, fails).separation;
+  };
+  EXPECT_EQ(separation(0, 1), 0);
+  EXPECT_EQ(separation(1e-300, 10), 1);
+  EXPECT_EQ(separation(0.12, 0.6), 0.5);
+  EXPECT_EQ(separation(0.12, 0.3), 0.25);
+  EXPECT_EQ(separation(0.12, 0.13), 0.125);
+}
+
+TEST(Shrink, ScalesTheSeparationWithTheCoordinates) {
+  Query query = with_separation(make_query(find_family("uniform"), 1, 0), 0.35);
+  query.x[3] = 0.7;
+  const Query shrunk =
+      nearmiss::shrunk(query, [](const Query& q) { return q.separation > 0 && q.x[3] == 2 * q.separation; });
+  Query expected = with_separation({.kind = query.kind}, 1);
+  expected.x[3] = expected.x[12 + 3] = 2;
+  EXPECT_EQ(shrunk, expected);
+}
+
+/// Gives t = 1/2 as the lower bound of the time of every query.
+class Half final : public Subject {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  using Subject::decide;
+  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
+    return Verdict::accepted(Stage::unspecified, 0.5);
+  }
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override {
+    return std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] bool claims_bound() const override { return false; }
+  [[nodiscard]] bool takes_separation() const override { return true; }
+  [[nodiscard]] TimeSort time_sort() const override { return TimeSort::lower_bound; }
+
+ private:
+  std::string name_ = "half";
+};
+
+TEST(Shrink, ALateTimeStaysLate) {
+  const Half half;
+  const Judge judge(half);
+  int late = 0;
+  for (const char* family : {"uniform", "planted", "uniform~0.1", "uniform~1e-3"})
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      const Query query = make_query(find_family(family), 1, i);
+      const auto failure = judge.failure(query);
+      if (!failure) continue;
+      EXPECT_EQ(failure->what, Finding::What::late);
+      const Finding finding{failure->what, "half", family, query, "", 0, failure->signature, query};
+      const Query shrunk = shrunk_query(finding, &half, Stop::never(), limits_in_campaign);
+      EXPECT_EQ(judge.failure(shrunk), failure) << family << " " << i;
+      EXPECT_EQ(shrunk.separation > 0, query.separation > 0);
+      EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
+      ++late;
+    }
+  EXPECT_GT(late, 40);
 }
 
 TEST(Shrink, ChangesEqualNumbersTogether) {
@@ -134,16 +198,49 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   const Query query = make_query(find_family("uniform"), 1, 0);
   const Late late;
   Finding finding{Finding::What::fault, "late", "uniform", query, "uniform:1:0", 0, "vt time", query};
-  shrunk_query(finding, &late, Stop::never(), 2 * Late::takes);
+  shrunk_query(finding, &late, Stop::never(), {.time = 2 * Late::takes});
   EXPECT_GE(late.asked, 1);
   EXPECT_LE(late.asked, 2);
   finding.what = Finding::What::false_negative;
   finding.signature = "vt";
   late.asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               12 * Late::takes);  // small queries in batches of 1, 2 and 4, and its own
+               {.time = 12 * Late::takes});  // small queries in batches of 1, 2 and 4, and its own
   EXPECT_GE(late.asked, 1);
   EXPECT_LE(late.asked, 1 + 2 + 4 + 1);
+}
+
+/// Answers as basic does, after a time, and notes what it is asked.
+class Slow final : public ForwardingSubject {
+ public:
+  Slow(const Subject& basic, std::chrono::milliseconds takes)
+      : ForwardingSubject("slow", basic), takes_(takes) {}
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    std::this_thread::sleep_for(takes_);
+    asked.insert(asked.end(), queries.begin(), queries.end());
+    ForwardingSubject::decide(queries, verdicts);
+  }
+
+  mutable std::vector<Query> asked;
+
+ private:
+  std::chrono::milliseconds takes_;
+};
+
+TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
+  constexpr ShrinkLimits few{.work = 4400};
+  const auto basic = make_subject("basic");
+  const Finding finding = missed_by_basic().front();
+  const Slow fast(*basic, std::chrono::milliseconds(0));
+  const Slow slow(*basic, std::chrono::milliseconds(2));
+  const Query shrunk = shrunk_query(finding, &fast, Stop::never(), few);
+  EXPECT_EQ(shrunk_query(finding, &slow, Stop::never(), few), shrunk);
+  EXPECT_EQ(slow.asked, fast.asked);
+  EXPECT_NE(shrunk, finding.query);
+  EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));  // the limit ended the search
+  EXPECT_LE(fast.asked.size(), few.work);
+  EXPECT_GE(fast.asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
 }
 
 TEST(Shrink, LeavesAloneWhatDoesNotFail) {
@@ -173,6 +270,14 @@ TEST(Complexity, CountsWhatThereIsToSay) {
       falling,
       (Complexity{
           .awkward = 3, .numbers = 6, .moving = 1, .distinct = 3, .bits = 4, .exponents = 4, .negative = 1}));
+  EXPECT_EQ(complexity(with_separation(falling_vertex(0.25, 0.375, 1, -1), 12)),
+            (Complexity{.awkward = 3 + 1,
+                        .numbers = 6 + 1,
+                        .moving = 1,
+                        .distinct = 3 + 1,
+                        .bits = 4 + 2,
+                        .exponents = 4 + 3,
+                        .negative = 1}));
   Query third{};
   third.x[0] = 1.0 / 3;
   third.x[12] = std::numeric_limits<double>::denorm_min();

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "fuzz/families/families.hpp"
@@ -102,6 +103,29 @@ TEST(SmallQueries, AreSortedAndDecided) {
   }
 }
 
+TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
+  for (const Kind kind : kinds) {
+    const auto& list = small_queries(kind, true);
+    std::cout << short_name(kind) << ": " << list.size() << " queries with a separation\n";
+    std::map<double, std::size_t> seen;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Query& query = list[i].query;
+      ++seen[query.separation];
+      if (i > 0) {
+        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
+      }
+      if (i % 61 == 0) {
+        const Decision exactly = decide_exactly(query);
+        EXPECT_EQ(list[i].collision, exactly.collision);
+        EXPECT_FALSE(exactly.is_tie);
+      }
+    }
+    ASSERT_EQ(seen.size(), 4);
+    for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without those with two right answers
+  }
+}
+
 /// Reports nothing, and counts the queries about which it is asked. It may be late.
 class Blind final : public Subject {
  public:
@@ -154,12 +178,15 @@ TEST(SmallQueries, AreNotSearchedBeyondTheFindingItself) {
   EXPECT_LE(blind.asked, 64);
 }
 
-TEST(SmallQueries, AreLeftAfterManyFaultsAndAfterARequest) {
-  const Blind late(Fault::crash);
+TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
+  const Blind crashing(Fault::crash);
+  EXPECT_EQ(shrunk_query(missed(Kind::edge_edge), &crashing, Stop::never(), limits_in_campaign),
+            missed(Kind::edge_edge).query);
+  EXPECT_EQ(crashing.asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
+}
+
+TEST(SmallQueries, AreLeftAfterARequest) {
   const auto never = [](const Query&) { return false; };
-  EXPECT_EQ(simplest_small_failure(missed(Kind::edge_edge), late, never, Stop::never(), no_grace),
-            std::nullopt);
-  EXPECT_EQ(late.asked, 1 + 2 + 4 + 8 + 16 + 32 + 64);  // the last batch reaches 64 faults
   const std::atomic<bool> requested{true};
   const Blind blind;
   EXPECT_THROW(static_cast<void>(

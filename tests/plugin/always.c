@@ -1,5 +1,5 @@
-/* A complete plug-in. The return value of its answers, its sort of time, whether it takes a
- * separation, and its claimed distance bound are set when it is compiled. */
+/* A complete plug-in. The return value and the time of its answers, its sort of time,
+ * whether it takes a separation, and its claimed distance bound are set when it is compiled. */
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -11,6 +11,9 @@
 #ifndef ANSWER
 #define ANSWER 1
 #endif
+#ifndef TIME
+#define TIME 0.5
+#endif
 #ifdef BAD_NAME
 #define NAME "+1+1\033[31m\xff"
 #else
@@ -19,7 +22,7 @@
 
 static int answer(const double* x, double* toi) {
   (void)x;
-  if (ANSWER == 1) *toi = 0.5;
+  if (ANSWER == 1) *toi = TIME;
   return ANSWER;
 }
 

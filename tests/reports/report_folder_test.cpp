@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ccd/error.hpp"
 #include "reports/campaign/finding_case.hpp"
@@ -96,6 +99,33 @@ TEST_F(ReportFolder, HasNamesThatAFileSystemTakes) {
   EXPECT_NE(file_name(std::string(255, 'y') + "1"), file_name(std::string(255, 'y') + "2"));
   EXPECT_EQ(file_name(std::string(60, 'y')), std::string(60, 'y'));
   EXPECT_EQ(file_name(std::string(61, 'y')).size(), 60);
+}
+
+// The name of a file has '_' for ' ' and ';', and some file systems take a for A.
+TEST_F(ReportFolder, HasAFileForEachCaseOfSubjectsWithSimilarNames) {
+  Campaign campaign;
+  campaign.runs.push_back({{{"command", "fuzz"}}, {{}}, {}});
+  const std::vector<std::string> subjects{"a b", "a;b", "A_b", "a_b-vt-fam__ily", "a_b-vt-fam"};
+  for (const std::string& subject : subjects) {
+    const Campaign one = some_campaign(subject);
+    const Counts& counts = one.statistics.counts.begin()->second;
+    for (const char* family : {"fam  ily", "fam;;ily", "fam__ily-2"})
+      campaign.statistics.counts[{subject, Kind::vertex_triangle, family}] = counts;
+    campaign.runs.front().findings.push_back(one.runs.front().findings.front());
+  }
+  write_report(campaign, {}, file("report"));
+  const auto json = ordered_json::parse(read("report/report.json"));
+  std::set<std::string> names;
+  for (const char* section : {"findings", "farthest"})
+    for (const auto& each : json[section])
+      for (const char* key : {"file", "original_file"})
+        if (each.contains(key)) {
+          std::string name = each[key];
+          std::transform(name.begin(), name.end(), name.begin(), ::tolower);
+          EXPECT_TRUE(names.insert(name).second) << name;
+          EXPECT_THAT(read(fs::path("report") / each[key].get<std::string>()), HasSubstr(each["subject"]));
+        }
+  EXPECT_EQ(names.size(), subjects.size() * (2 + 3));
 }
 
 TEST_F(ReportFolder, RefusesAFolderThatIsNoReport) {

@@ -31,9 +31,9 @@ class PastedTest : public testing::CommandLine {
     return to_line(parse_line(Kind::vertex_triangle, read("text.txt"), "text.txt"));
   }
 
-  /// Compiles a test in C++, with a detector that prints its numbers and gives this answer, and runs it.
+  /// Compiles a test in C++, with a detector that prints its numbers and gives this answer and time, and runs it.
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
-                                   const std::string& answer) const {
+                                   const std::string& answer, const std::string& time = "0") const {
     write("test.cpp", test +
                           "#include <cstdio>\n#include <initializer_list>\n"
                           "bool detects(const double (&start)[4][3], const double (&end)[4][3]) {\n"
@@ -42,21 +42,25 @@ class PastedTest : public testing::CommandLine {
                           "      for (const double x : point) std::printf(\"%a \", x);\n"
                           "  return ANSWER;\n"
                           "}\n"
+                          "double time_of_impact(const double (&)[4][3], const double (&)[4][3]) {\n"
+                          "  return TIME;\n"
+                          "}\n"
                           "int main() { return TEST() ? 0 : 1; }\n");
-    const std::string options =
-        "-std=c++17 -Wall -Wextra -Wpedantic -Werror -DTEST=" + name + " -DANSWER=" + answer;
+    const std::string options = "-std=c++17 -Wall -Wextra -Wpedantic -Werror -DTEST=" + name +
+                                " -DANSWER=" + answer + " '-DTIME=" + time + "'";
     EXPECT_TRUE(succeeds("g++ " + options + " test.cpp -o test"));
     return succeeds("./test");
   }
 
-  /// Runs a test in Python, with a detector that prints its numbers and gives this answer.
+  /// Runs a test in Python, with a detector that prints its numbers and gives this answer and time.
   [[nodiscard]] bool passes_in_python(const std::string& test, const std::string& name,
-                                      const std::string& answer) const {
+                                      const std::string& answer, const std::string& time = "0") const {
     write("test.py", test +
                          "def detects(start, end):\n"
                          "    print(*(float(x).hex() for point in start + end for x in point), end=' ')\n"
                          "    return " +
-                         answer + "\n" + name + "()\n");
+                         answer + "\ndef time_of_impact(start, end):\n    return " + time + "\n" + name +
+                         "()\n");
     return succeeds("python3 test.py 2>error.txt");
   }
 };
@@ -126,6 +130,52 @@ TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
   EXPECT_THAT(
       cpp, HasSubstr("\ndouble time_of_impact(const double (&start)[4][3], const double (&end)[4][3]);\n"));
   EXPECT_THAT(cpp, HasSubstr("  return time_of_impact(start, end) <= "));
+}
+
+TEST_F(PastedTest, ExpectsATimeInTheStepWithACollision) {
+  write("q.vt", hit);
+  const std::string arguments = "q.vt --subject " + plugin("invalid_time");
+  const std::string python = run("shrink " + arguments + " --as python").out;
+  EXPECT_THAT(python, HasSubstr("# always gave no answer (vt invalid).\n"));
+  EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end) that returns "));
+  EXPECT_THAT(python, HasSubstr("# Write a function time_of_impact(start, end) that returns "));
+  const std::string cpp = run("shrink " + arguments + " --as c++").out;
+  const std::string name = "test_vertex_triangle";
+  for (const std::string time : {"0", "1"}) {
+    EXPECT_TRUE(passes_in_python(python, name, "True", time)) << time;
+    EXPECT_TRUE(passes_in_cpp(cpp, name, "true", time)) << time;
+  }
+  for (const std::string time : {"2", "-1e-300"}) {
+    EXPECT_FALSE(passes_in_python(python, name, "True", time)) << time;
+    EXPECT_FALSE(passes_in_cpp(cpp, name, "true", time)) << time;
+  }
+  EXPECT_FALSE(passes_in_python(python, name, "True", "float('nan')"));
+  EXPECT_FALSE(passes_in_cpp(cpp, name, "true", "__builtin_nan(\"\")"));
+  EXPECT_FALSE(passes_in_python(python, name, "False", "0"));
+  EXPECT_FALSE(passes_in_cpp(cpp, name, "false", "0"));
+}
+
+TEST_F(PastedTest, ExpectsATimeInTheStepWithAFalsePositive) {
+  write("q.vt", miss);
+  const std::string arguments = "q.vt --subject " + plugin("invalid_time_above");
+  const std::string python = run("shrink " + arguments + " --as python").out;
+  EXPECT_THAT(python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
+  const std::string cpp = run("shrink " + arguments + " --as c++").out;
+  const std::string name = "test_vertex_triangle";
+  EXPECT_TRUE(passes_in_python(python, name, "True", "0.5"));
+  EXPECT_TRUE(passes_in_cpp(cpp, name, "true", "0.5"));
+  EXPECT_FALSE(passes_in_python(python, name, "True", "2"));
+  EXPECT_FALSE(passes_in_cpp(cpp, name, "true", "2"));
+  EXPECT_TRUE(passes_in_python(python, name, "False", "2"));
+  EXPECT_TRUE(passes_in_cpp(cpp, name, "false", "2"));
+}
+
+TEST_F(PastedTest, AsksForNoTimeOfASubjectThatGivesNone) {
+  write("q.vt", hit);
+  const std::string arguments = "q.vt --subject " + plugin("several") + ":told:answer=3";
+  const std::string python = run("shrink " + arguments + " --as python").out;
+  EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid).\n"));
+  EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
 }
 
 TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {

@@ -25,10 +25,11 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes the campaign in a.db, waits until it has saved and then for some time, and sends it a
+  /// Starts or resumes a campaign in a.db, waits until it has saved and then for some time, and sends it a
   /// signal. Returns the exit code; -1 if the signal ended it.
-  [[nodiscard]] int run_until_a_signal(std::chrono::milliseconds after, int signal) const {
-    Background process(file(""), std::string(campaign) + " --db a.db --resume");
+  [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
+                                       int signal) const {
+    Background process(file(""), command + " --db a.db --resume");
     process.wait_for_a_change(file("a.db-wal"));
     const auto end = std::chrono::steady_clock::now() + after;
     if (process.wait_until([&] { return std::chrono::steady_clock::now() >= end; })) process.stop(signal);
@@ -67,7 +68,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   int kills = 0;
   // The times between start and signal cover more than the interval between two saves. These times grow until
   // the campaign is complete, even on a slow machine.
-  while (run_until_a_signal(std::chrono::milliseconds(137 * kills % 1000 + 20 * kills),
+  while (run_until_a_signal(campaign, std::chrono::milliseconds(137 * kills % 1000 + 20 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
   RecordProperty("kills", kills);
@@ -76,6 +77,21 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   // A complete campaign does not run again.
   EXPECT_EQ(run(std::string(campaign) + " --db a.db --resume").code, 1);
   EXPECT_EQ(timeless_report("a.db"), report);
+}
+
+TEST_F(Resume, TheReportOnAPluginIsTheSameHoweverTheCampaignWasRun) {
+  const std::string sampling = "fuzz --cases 2000 --seed 9 --subject " + plugin("sampling") + ":tolerance=0";
+  EXPECT_EQ(run(sampling + " --jobs 1 --db one.db").code, 1);
+  EXPECT_EQ(run(sampling + " --jobs 2 --db two.db").code, 1);
+  const json report = timeless_report("one.db");
+  EXPECT_GT(report["findings"].size(), 10);
+  EXPECT_EQ(json::diff(report, timeless_report("two.db")), json::array());
+  int interruptions = 0;
+  while (run_until_a_signal(sampling, std::chrono::milliseconds(100 + 500 * interruptions),
+                            interruptions % 2 == 0 ? SIGKILL : SIGINT) != 1)
+    ++interruptions;
+  EXPECT_GT(interruptions, 0);
+  EXPECT_EQ(json::diff(report, timeless_report("a.db")), json::array());
 }
 
 TEST_F(Resume, ResumesOnlyTheSameCampaign) {

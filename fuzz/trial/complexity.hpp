@@ -1,0 +1,47 @@
+// How simple a query is for a reader.
+#pragma once
+
+#include <array>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "ccd/query.hpp"
+
+namespace nearmiss {
+
+/// The complexity of a query. Two queries are compared by the members in this order.
+struct Complexity {
+  /// What magnitudes that are hard to draw add up to: nothing for an integer of one digit, 1 for another multiple of 1/4
+  /// below 100, and 2 for any other.
+  int awkward = 0;
+  int numbers =
+      0;  ///< nonzero coordinates, of which one at rest counts once, and the separation unless it is 0
+  int moving = 0;     ///< coordinates that are not at rest
+  int distinct = 0;   ///< magnitudes other than 0, of the coordinates and the separation
+  int bits = 0;       ///< sum of the significant bits of these magnitudes
+  int exponents = 0;  ///< sum of the absolute values of their exponents
+  int negative = 0;   ///< coordinates with a minus sign, -0 included
+
+  bool operator==(const Complexity&) const = default;
+  bool operator<(const Complexity& other) const {
+    const auto key = [](const Complexity& c) {
+      return std::tie(c.awkward, c.numbers, c.moving, c.distinct, c.bits, c.exponents, c.negative);
+    };
+    return key(*this) < key(other);
+  }
+};
+
+Complexity complexity(const Query& query);
+
+/// The coordinates of a query, and its separation.
+using Numbers = std::array<double, 25>;
+Numbers numbers_of(const Query& query);
+
+/// The magnitudes of some numbers other than 0, sorted and without repetition.
+std::vector<double> magnitudes(std::span<const double> numbers);
+
+/// The number of bits of a magnitude from the first to the last set bit.
+int significant_bits(double magnitude);
+
+}  // namespace nearmiss
