@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds grace{1000};
 
 using Clock = std::chrono::steady_clock;
 
-/// Whether a new process is needed after a fault.
+/// Whether a new process may be needed after a fault.
 bool ends_process(const Verdict& verdict) {
   switch (verdict.fault) {
     case Fault::crash:

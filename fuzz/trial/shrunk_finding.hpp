@@ -14,7 +14,7 @@ namespace nearmiss {
 /// How much the search for the simplest query may ask of a subject.
 struct ShrinkLimits {
   static constexpr std::int64_t of_call = 10;       ///< the work of a call, in queries
-  static constexpr std::int64_t of_process = 1000;  ///< that of a new process, after a fault that ended one
+  static constexpr std::int64_t of_process = 1000;  ///< that of a fault that may need a new process
 
   /// The number of queries that are asked, with the work of calls and processes. It counts no time, so it ends the search
   /// at the same query on every machine.

