@@ -33,7 +33,8 @@ constexpr const char* about =
 
 constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 the results have a false negative, a late time, a refuted bound, an oracle\n"
-    "disagreement or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be written (one\n"
+    "disagreement or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be "
+    "written (one\n"
     "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
     "not answer are counted, and are no reason for 1.";
 
