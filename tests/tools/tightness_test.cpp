@@ -34,14 +34,11 @@ TEST_F(OptionValues, AreAskedTheSameQueries) {
   EXPECT_GT(steps[2]["false_positives"], steps[1]["false_positives"]);
 }
 
-TEST_F(OptionValues, AreSearchedOneByOneAndCompareWithASeparation) {
+TEST_F(OptionValues, AreSearchedOneByOne) {
   EXPECT_LE(run(tightness + sampling + " --values 0.01,0.1 --search --cases 132").code, 1);
   const json families = read_json("new.json")["subjects"]["sampling:tolerance=0.1"]["ee"]["families"];
   for (const char* searched : {"search-late-sampling:tolerance=0.01", "search-early-sampling:tolerance=0.1"})
     EXPECT_TRUE(families.contains(searched)) << searched;
-  std::filesystem::remove(file("new.json"));
-  expect_refused(tightness + sampling + " --values 0.1 --cases 60 --separation 0.1",
-                 {"answers for contact only"});
 }
 
 TEST_F(OptionValues, ARunIsRepeatedByACampaign) {
@@ -61,6 +58,7 @@ TEST_F(OptionValues, AreRefusedWithoutAnOptionToTakeThem) {
   expect_refused(tightness + "exact --values 1,2", {"found 'exact', expected NAME:KEY=*"});
   expect_refused(tightness + sampling + " --values 1,2 --tolerance D2", {"--tolerance"});
   expect_refused(tightness + sampling + " --values 1,-1", {"tolerance=LENGTH"});
+  expect_refused(tightness + sampling + " --values 1,2 --separation 0.1", {"answers for contact only"});
   expect_refused(tightness + sampling + " --values 1,1", {"two subjects named 'sampling:tolerance=1'"});
 }
 
