@@ -10,6 +10,7 @@
 #include "corpus/query_text.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
+#include "reports/sections/option_sweep.hpp"
 #include "reports/sections/sweep.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
@@ -100,6 +101,8 @@ ordered_json summary_json(const Campaign& campaign) {
   }
   if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
   if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
+  if (auto sweeps = option_sweeps_json(campaign.statistics); !sweeps.empty())
+    json["option_sweeps"] = std::move(sweeps);
   return json;
 }
 

@@ -55,8 +55,8 @@ void add_comparison_options(CLI::App& command, Comparison& comparison) {
           Comparison::caution));
 }
 
-void SeparationOption::add_to(CLI::App& command, bool can_be_drawn) {
-  command
+CLI::Option* SeparationOption::add_to(CLI::App& command, bool can_be_drawn) {
+  return command
       .add_option(
           "--separation", text,
           fmt::format("Ask whether the primitives come within the distance H of each other, in the unit of "

@@ -34,7 +34,7 @@ struct SeparationOption {
   std::string text;
 
   /// `drawn`: whether the option may be "drawn".
-  void add_to(CLI::App& command, bool can_be_drawn = false);
+  CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
   /// The query with the separation, if one is given. Throws Error.
   [[nodiscard]] Query apply(const Query& query) const;

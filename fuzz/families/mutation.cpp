@@ -245,6 +245,7 @@ Query scaled(Random& random, const Query& query) {
   const int exponent = random.one_in(4) ? random.integer(-1000, 1000) : random.integer(-20, 20);
   Query result = query;
   for (double& c : result.x) c = std::ldexp(c, exponent);
+  result.separation = std::ldexp(query.separation, exponent);
   return result;
 }
 
@@ -282,7 +283,24 @@ using Apply = Query (*)(Random& random, const Query& query);
 /// The changed query if it is finite; else the given one.
 Query applied(Apply apply, Random& random, const Query& query) {
   const Query result = apply(random, query);
-  return is_finite(result) ? result : query;
+  return is_finite(result) && std::isfinite(result.separation) ? result : query;
+}
+
+/// Changes a separation h > 0 by a fraction or by a power of two, or makes it a power of two.
+Query separation_changed(Random& random, const Query& query) {
+  const double h = query.separation;
+  switch (random.integer(0, 2)) {
+    case 0: {
+      const double fraction = random.log_uniform(0x1p-53, 1);
+      return with_separation(query, h + fraction * h * random.uniform(-1, 1));
+    }
+    case 1: {
+      const int up_or_down = sign(random);
+      return with_separation(query, std::ldexp(h, up_or_down * random.integer(1, 8)));
+    }
+    default:
+      return with_separation(query, std::ldexp(1, std::ilogb(h)));
+  }
 }
 
 }  // namespace
@@ -295,6 +313,7 @@ Query mutated(Random& random, const Query& query) {
     for (int count = random.integer(1, 3); count > 0; --count)
       result = applied(random.one_in(2) ? by_a_fraction : one_of(random, table).apply, random, result);
     if (random.one_in(2)) result = applied(restored, random, result);
+    if (result.separation > 0 && random.one_in(4)) result = applied(separation_changed, random, result);
   } while (result == query);
   return result;
 }
@@ -308,6 +327,7 @@ Query crossed(Random& random, const Query& first, const Query& second) {
     const bool from_first = (choices >> part[static_cast<std::size_t>(parts)] & 1) != 0;
     result.x[i] = (from_first ? first : second).x[i];
   }
+  result.separation = (choices >> 24 & 1) != 0 ? first.separation : second.separation;
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include "fuzz/libfuzzer/untraced.hpp"
 #include "oracle/oracle.hpp"
 
+const nearmiss::libfuzzer::Target nearmiss::libfuzzer::target{.takes_separations = true};
+
 void nearmiss::libfuzzer::examine(const Query& query) {
   const Verdict verdict = subject().decide(query);
   const Decision truth = untraced([&] { return decide(query); });

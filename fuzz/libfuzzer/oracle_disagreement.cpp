@@ -9,6 +9,8 @@
 
 namespace nearmiss::libfuzzer {
 
+const Target target{};
+
 namespace {
 
 /// Whether the filter agrees with exact arithmetic for every instruction set of this machine.

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ccd/error.hpp"
@@ -27,7 +28,7 @@ namespace nearmiss::libfuzzer {
 
 namespace {
 
-constexpr std::size_t signals = 7;
+constexpr std::size_t signals = 8;
 constexpr std::size_t values = 128;
 
 // libFuzzer clears these before each run, and treats each one that is set afterwards as covered.
@@ -44,7 +45,7 @@ std::string environment(const char* name, const char* otherwise) {
 
 const Subject& subject() {
   // A plug-in runs in this process, since libFuzzer sees no other one's coverage.
-  static const std::string name = environment("NEARMISS_SUBJECT", "wang");
+  static const std::string name = environment("NEARMISS_SUBJECT", target.subject);
   static const auto subject = is_plugin(name) ? make_subject(name) : make_built_in(name);
   return *subject;
 }
@@ -92,16 +93,28 @@ bool keeps_contract_of_subject(const Query& query) {
   return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
 }
 
-/// The query in an input; a default one if the input is not a query.
-Query query_of(const std::uint8_t* data, std::size_t size) {
-  return from_bytes(data, size).value_or(Query{});
+/// The query in an input, as the target and its subject ask it; nothing if the input is not a query.
+std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
+  auto query = from_bytes(data, size);
+  if (query && !(target.takes_separations && subject().takes_separation())) query->separation = 0;
+  return query;
+}
+
+/// The same, but a default query if the input is not a query.
+Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
+
+/// Throws Error if the target is not for this subject.
+void expect_subject() {
+  if (target.needs_lower_bounds && subject().time_sort() != TimeSort::lower_bound)
+    throw Error(fmt::format("{}: promises no lower bound of the time, expected a subject that does",
+                            subject().name()));
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   try {
-    (void)subject();
+    expect_subject();
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     std::exit(2);
@@ -110,7 +123,7 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto query = from_bytes(data, size);
+  const auto query = asked(data, size);
   if (!query || !keeps_contract_of_subject(*query)) return -1;
   examine(*query);
   return 0;
@@ -120,8 +133,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                                unsigned seed) {
   if (max_size < query_bytes) return 0;
   Random random(seed, 0, 0);
-  to_bytes(mutated(random, query_of(data, size)), data);
-  return query_bytes;
+  return to_bytes(mutated(random, query_of(data, size)), data);
 }
 
 extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* first, std::size_t first_size,
@@ -129,6 +141,5 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* first, std:
                                                  std::uint8_t* out, std::size_t max_size, unsigned seed) {
   if (max_size < query_bytes) return 0;
   Random random(seed, 1, 0);
-  to_bytes(crossed(random, query_of(first, first_size), query_of(second, second_size)), out);
-  return query_bytes;
+  return to_bytes(crossed(random, query_of(first, first_size), query_of(second, second_size)), out);
 }

@@ -10,10 +10,21 @@
 
 namespace nearmiss::libfuzzer {
 
+/// What a target needs.
+struct Target {
+  const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names one
+  bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds
+  /// Whether queries may have a separation. In all other cases, also with a subject that takes none, they ask for contact.
+  bool takes_separations = false;
+};
+
+/// Each target defines its own.
+extern const Target target;
+
 /// Tests one query; each target defines it.
 void examine(const Query& query);
 
-/// The subject on trial: the one that NEARMISS_SUBJECT names, or wang.
+/// The subject on trial.
 const Subject& subject();
 
 /// Feedback in addition to coverage. libFuzzer keeps every query that shows a value for the first time, and mutates it
@@ -24,6 +35,7 @@ enum class Signal {
   false_stage,   ///< the stage at which the subject accepted a false positive
   margin,        ///< how much less tolerance a collision needs than the subject has
   distance,      ///< distance of a false positive, divided by its bound
+  agreement,     ///< how many digits a time has in common with the exact earliest time
   answers,       ///< the answer of each exact method of the oracle
   details,       ///< other properties that each method reports
 };

@@ -6,6 +6,8 @@
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
+const nearmiss::libfuzzer::Target nearmiss::libfuzzer::target{};
+
 void nearmiss::libfuzzer::examine(const Query& query) {
   const Verdict verdict = subject().decide(query);
   if (!verdict.hit) return;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
+/// Some queries of each family.
+std::vector<Case> cases_of(std::span<const Family> families) {
   constexpr std::uint64_t of_each_family = 10;
   std::vector<Case> cases;
-  for (const fs::path& folder : folders)
-    read_cases(folder, [&](Case&& each) {
-      std::replace(each.name.begin(), each.name.end(), '/', '-');
-      cases.push_back(std::move(each));
-    });
-  for (const Family& family : families()) {
+  for (const Family& family : families) {
     for (std::uint64_t i = 0; i < of_each_family; ++i) {
       Case each;
       each.query = make_query(family, 1, i);
@@ -43,10 +40,21 @@ std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
   return cases;
 }
 
+/// The cases in the folders, and queries of the families that ask for contact.
+std::vector<Case> make_cases(const std::vector<fs::path>& folders) {
+  std::vector<Case> cases = cases_of(families());
+  for (const fs::path& folder : folders)
+    read_cases(folder, [&](Case&& each) {
+      std::replace(each.name.begin(), each.name.end(), '/', '-');
+      cases.push_back(std::move(each));
+    });
+  return cases;
+}
+
 std::string bytes(const Query& query) {
   std::array<std::uint8_t, query_bytes> data{};
-  to_bytes(query, data.data());
-  return {data.begin(), data.end()};
+  const std::size_t size = to_bytes(query, data.data());
+  return {data.begin(), data.begin() + size};
 }
 
 std::string sample_csv(const Case& each) {
@@ -123,8 +131,10 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     fs::create_directories(folder / target);
     replace_file(folder / target / name, text);
   };
+  for (const Case& each : cases_of(separation_families()))
+    for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
   for (const Case& each : make_cases(cases)) {
-    for (const char* target : {"false_negative", "refuted_bound", "oracle_disagreement"})
+    for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})
       write(target, each.name, bytes(each.query));
     write("read_case", each.name, to_text(each));
     write("read_csv", each.name, sample_csv(each));

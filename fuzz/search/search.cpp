@@ -86,6 +86,10 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
     if (h == 0 || bound == 0) return closest_ratio(query, bound);
     return distance_beyond_separation(query, bound, [](double hi) { return 0.999 * hi; }).hi;
   };
+  // From -1 to 0, so that a collision leads to the separation.
+  const auto depth_of = [&](const Query& query) {
+    return h == 0 ? 0 : std::min(minimum_distance(query).hi / h - 1, 0.0);
+  };
   const auto objective = [&](const SearchPoint& m) {
     const Query query = query_of(kind, m, h);
     const auto value = [&](const Verdict& answer) {
@@ -94,7 +98,7 @@ Query search_far(const Searched& subject, Random& random, Kind kind) {
         return std::isnan(needed) ? -1 : -log2_of(needed);
       }
       const Decision truth = decide(query);
-      if (truth.collision || truth.is_tie) return 0.0;
+      if (truth.collision || truth.is_tie) return depth_of(query);
       const double bound = subject->claims_bound() ? subject->distance_bound(query) : reach(*subject, query);
       const double ratio = ratio_of(query, bound);
       if (!subject->claims_bound()) return ratio;

@@ -1,0 +1,162 @@
+#include "tools/campaign_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <tuple>
+
+#include "fuzz/scenes/mesh_family.hpp"
+#include "fuzz/scenes/scene.hpp"
+#include "fuzz/search/search.hpp"
+#include "fuzz/trial/campaign.hpp"
+#include "fuzz/trial/sieve.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
+#include "tools/terminal.hpp"
+#include "tools/values.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+/// The time limit of a campaign.
+using TimeLimit = std::optional<std::chrono::duration<double>>;
+
+/// The finished fraction of the campaign: of its cases, or of its time if that ends sooner.
+std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
+  std::optional<double> part;
+  if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
+  if (time) part = std::max(part.value_or(0), now.elapsed / *time);
+  return part;
+}
+
+std::string show(const CampaignProgress& now, const TimeLimit& time, const Statistics& statistics) {
+  const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
+  std::string farthest = times_the_bound(0);
+  double largest = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (counts.max_ratio() > largest) {
+      largest = counts.max_ratio();
+      farthest = times_the_bound(largest, counts.distance_unit());
+    }
+  std::string line = with_separators(now.cases);
+  if (now.of != 0) line += " of " + with_separators(now.of);
+  line += fmt::format(" cases, {:.0f}/s, {} false negatives, farthest {}", rate,
+                      with_separators(statistics.false_negatives()), farthest);
+  if (const auto faults = statistics.faults(); faults != 0)
+    line += fmt::format(", {} without answer", with_separators(faults));
+  std::chrono::duration<double> left(static_cast<double>(now.of - now.cases) / rate);
+  if (time) left = now.of != 0 ? std::min(left, *time - now.elapsed) : *time - now.elapsed;
+  return line + ", " + show_duration(std::max(left, {})) + " left";
+}
+
+/// The families chosen with --family, --sweep, --mesh and --search.
+std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
+                                    const Stop& stop) {
+  std::vector<Family> known(families().begin(), families().end());
+  if (!options.mesh.empty())
+    known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
+  const std::size_t contact = known.size();
+  known.insert(known.end(), separation_families().begin(), separation_families().end());
+  // "all" means the families that fit the question.
+  const bool is_drawn = options.separation.text == drawn_separation;
+  const auto all = std::span(known).first(is_drawn ? known.size() : contact);
+  auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
+                                       : find_sweeps(options.sweeps, options.steps, known);
+  if (options.separation.is_given())
+    for (Family& family : chosen)
+      if (!family.has_separation) family = with_separation(family, options.separation.text);
+  const auto has_separation = [](const Family& family) { return family.has_separation; };
+  if (std::any_of(chosen.begin(), chosen.end(), has_separation)) expect_separations(subjects);
+  if (!options.search) return chosen;
+  for (const auto& subject : subjects)
+    for (Family& family : searches(*subject, stop, options.separation.text))
+      chosen.push_back(std::move(family));
+  return chosen;
+}
+
+/// Everything that the campaign's results depend on. The time limit is left out, because it changes the
+/// number of rounds, not the result of a round.
+RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
+  RunInfo info = options.trial.run_info("fuzz", subjects);
+  std::string& again = info["again"];
+  info["seed"] = fmt::format("{}", plan.seed);
+  again += fmt::format(" --seed {}", plan.seed);
+  const std::string families =
+      fmt::format("{}", fmt::join(options.sweeps.empty() ? options.families : options.sweeps, ","));
+  if (options.sweeps.empty()) {
+    info["families"] = families;
+    again += fmt::format(" --family {}", families);
+  } else {
+    info["families"] = fmt::format("{} in {} steps", families, options.steps);
+    again += fmt::format(" --sweep {} --steps {}", families, options.steps);
+  }
+  if (options.separation.is_given()) {
+    info["separation"] = options.separation.text;
+    again += fmt::format(" --separation {}", options.separation.text);
+  }
+  if (options.search) {
+    info["families"] += ", search";
+    again += " --search";
+  }
+  if (!options.mesh.empty()) {
+    const std::string start = options.mesh.front().string();
+    const std::string end = options.mesh.back().string();
+    info["scene"] = start + " " + end;
+    again += fmt::format(" --mesh {} {}", shell_quoted(start), shell_quoted(end));
+  }
+  info["cases"] = std::string(until_the_time_is_over);
+  if (plan.cases != 0) {
+    info["cases"] = fmt::format("{}", plan.cases);
+    again += fmt::format(" --cases {}", plan.cases);
+  } else if (plan.first != 0) {
+    info["cases"] = fmt::format("the first {}", plan.first);
+    again += fmt::format(" --first {}", plan.first);
+  }
+  return info;
+}
+
+}  // namespace
+
+int record_campaign(const CampaignOptions& options) {
+  Stop stop(interrupted());
+  const Subjects subjects = options.trial.make_subjects(stop);
+  CampaignPlan plan;
+  plan.families = chosen_families(options, subjects, stop);
+  plan.seed = options.seed;
+  plan.cases = options.cases;
+  plan.first = options.first;
+  plan.comparison = options.trial.comparison;
+  plan.jobs = options.trial.jobs;
+  std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
+
+  Record record(options.record, info_of(options, plan, subjects),
+                {.index = plan.shard, .count = plan.shards, .environment = plugin_environment(subjects)});
+  plan.before = record.statistics();
+  plan.findings_before = record.findings();
+  const bool only_time_ends_it = plan.cases == 0 && plan.first == 0;
+  TimeLimit time;
+  if (!options.time.empty()) time = parse_duration(options.time, "--time");
+  if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
+  if (time) stop.limit(*time);
+  Sieve(subjects, plan.jobs, stop).shrink(plan.findings_before);  // what an interrupted run left
+  record.replace_findings(plan.findings_before);
+  CampaignProgress reached;
+  {
+    Progress progress(options.record.quiet);
+    reached = run_campaign(
+        plan, subjects,
+        [&](TrialResult&& result, const CampaignProgress& now) {
+          record.add(std::move(result));
+          if (progress.due()) progress.show(show(now, time, record.statistics()), part_done(now, time));
+          return true;
+        },
+        stop);
+  }
+  return record.finish(stop.is_requested(), reached.complete || (only_time_ends_it && !stop.is_requested()));
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,31 @@
+// A campaign as the commands fuzz, ladder and tightness run it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/arguments.hpp"
+#include "tools/record.hpp"
+#include "tools/trial_options.hpp"
+
+namespace nearmiss::tools {
+
+struct CampaignOptions {
+  TrialOptions trial;
+  std::vector<std::string> families{"all"}, sweeps;
+  SeparationOption separation;
+  int steps = 17;
+  bool search = false;
+  std::vector<std::filesystem::path> mesh;
+  std::uint64_t cases = 0, first = 0;
+  std::string time, shard = "0/1";
+  std::uint64_t seed = 1;
+  RecordOptions record;
+};
+
+/// Runs the campaign, or the rest of it, and records its results. Returns the exit code. Throws Error.
+int record_campaign(const CampaignOptions& options);
+
+}  // namespace nearmiss::tools
