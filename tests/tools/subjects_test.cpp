@@ -58,7 +58,8 @@ TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {
   EXPECT_THAT(output.out, HasSubstr("ee; 53 bits; a lower bound of the time; batches of 1\n"));
   EXPECT_THAT(output.out,
               HasSubstr("batches of 64\n                        presumes: the distance at t = 0 is more than "
-                        "9.5367431640625e-07; coordinates are multiples of 0.0009765625; edges and paths are at most 2 long\n"));
+                        "9.5367431640625e-07; coordinates are multiples of 0.0009765625; edges and paths are "
+                        "at most 2 long\n"));
 }
 
 }  // namespace
