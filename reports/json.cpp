@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corpus/query_text.hpp"
+#include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/option_sweep.hpp"
@@ -99,6 +100,8 @@ ordered_json summary_json(const Campaign& campaign) {
     family["class"] = name(class_of(key.family));
     family.update(counts_json(counts, is_random(key.family)));
   }
+  if (auto common = common_factors_json(campaign.statistics); !common.empty())
+    json["common_factors"] = std::move(common);
   if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
   if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
   if (auto sweeps = option_sweeps_json(campaign.statistics); !sweeps.empty())

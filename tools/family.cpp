@@ -5,12 +5,12 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/families/common_factors.hpp"
 #include "fuzz/families/coverage.hpp"
 #include "fuzz/families/crossed.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/sections/common_factors_table.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"
@@ -62,19 +62,21 @@ void print_common_factors(const Options& options, const Family& family) {
   const auto asked =
       keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);
   const Subject& subject = *asked.front();
-  std::map<Kind, crossed::FactorCounts> counts;
+  FactorTable table;
   for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
     const Query query = make_query(family, options.seed, index);
     const Verdict verdict = subject.decide(query);
     if (verdict.fault == Fault::none && collides(subject.rounded(query)))
-      counts[query.kind].add(crossed::levels_of(options.seed, index), !verdict.hit);
+      count_collision(table, {subject.name(), query.kind, family.name, ""},
+                      family.factors(options.seed, index), !verdict.hit);
   }
-  for (const auto& [kind, each] : counts) {
-    fmt::print("{} {}: {} of {} missed", subject.name(), short_name(kind), with_separators(each.misses()),
-               counted(each.collisions(), "collision", "collisions"));
-    if (const auto common = each.common())
-      fmt::print("; {:.0f} % of the missed ones have {}, and {:.0f} % of all", 100 * common->share,
-                 common->text, 100 * common->share_of_collisions);
+  const std::vector<CommonFactors> common = common_factors(table);
+  for (const auto& [key, each] : table) {
+    if (!key.values.empty()) continue;
+    fmt::print("{} {}: {} of {} missed", key.subject, short_name(key.kind),
+               with_separators(each.false_negatives), counted(each.collisions, "collision", "collisions"));
+    for (const CommonFactors& of_kind : common)
+      if (of_kind.key.kind == key.kind) fmt::print("; {}", to_text(of_kind));
     fmt::print("\n");
   }
 }

@@ -85,11 +85,13 @@ Levels levels_of(std::uint64_t seed, std::uint64_t index) {
   return draw_levels(random);
 }
 
-std::string to_text(const Levels& levels) {
-  std::vector<std::string> words;
+std::vector<std::string> to_texts(const Levels& levels) {
+  std::vector<std::string> texts;
   for (std::size_t i = 0; i < factor_count; ++i)
-    words.push_back(fmt::format("{}={}", all_factors[i].name, all_factors[i].values[levels[i]]));
-  return fmt::format("{}", fmt::join(words, " "));
+    texts.push_back(fmt::format("{}={}", all_factors[i].name, all_factors[i].values[levels[i]]));
+  return texts;
 }
+
+std::string to_text(const Levels& levels) { return fmt::format("{}", fmt::join(to_texts(levels), " ")); }
 
 }  // namespace nearmiss::crossed

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fuzz/families/families.hpp"
 
@@ -51,6 +52,9 @@ Levels draw_levels(Random& random);
 
 /// The levels of query `index` of the family; the query itself is not made.
 Levels levels_of(std::uint64_t seed, std::uint64_t index);
+
+/// "shape=sliver", "motion=rest" and so on, in the order of the factors.
+std::vector<std::string> to_texts(const Levels& levels);
 
 /// "shape=sliver motion=rest ..."
 std::string to_text(const Levels& levels);

@@ -33,6 +33,8 @@ struct Family {
   bool timed = true;                     ///< whether the subjects' times count
   bool compare_all = false;              ///< whether all methods of the oracle decide every query
   bool has_separation = false;           ///< whether the queries have a separation h > 0
+  /// The values of the factors with which a query was made, "FACTOR=VALUE", one of each; null if there are no factors.
+  std::vector<std::string> (*factors)(std::uint64_t seed, std::uint64_t index) = nullptr;
 };
 
 /// A family with a parameter.

@@ -49,6 +49,10 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
     return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);
   };
+  if (block.family->factors != nullptr)
+    batch.factors = [factors = block.family->factors, seed = plan.seed, first](std::size_t i) {
+      return factors(seed, first + kinds.size() * i);
+    };
   return batch;
 }
 

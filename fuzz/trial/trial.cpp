@@ -160,6 +160,9 @@ class Judging {
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
     const Outcome outcome = judges_[s].judge(answers_[s][i], truth, *counts_[s]);
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
+    if (batch_.factors && outcome.collision && outcome.verdict.fault == Fault::none)
+      count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
+                      batch_.factors(i), !outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
     if (auto failure = failure_of(outcome, truth))
       keep(i, subjects_[s]->name(), std::move(*failure), truth.query(), outcome);

@@ -27,6 +27,8 @@ struct Batch {
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
   /// Returns the origin of query i of the batch; called only for queries that are kept.
   std::function<std::string(std::size_t)> provenance = {};
+  /// If set, returns the values of the factors with which query i was made; called for collisions.
+  std::function<std::vector<std::string>(std::size_t)> factors = {};
   /// If set, receives every outcome: that of query i for the subject with this index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 

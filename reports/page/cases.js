@@ -34,6 +34,8 @@ function drawFindings() {
       "do. They are pale at t = 0, and pale and dashed at t = 1. If a time is late, they are also shown at that time, toi. Mouse and arrow " +
       "keys turn the pictures.";
   if (seen === 0) return;
+  for (const each of report.common_factors ?? [])
+    element("common-factors").append(made("li", `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));
   const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));
   fillTable(element("findings"), [
     picture("shrunk"),

@@ -8,6 +8,7 @@
 
 #include "corpus/query_text.hpp"
 #include "reports/sections/class_table.hpp"
+#include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/time_table.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/text/text.hpp"
@@ -171,7 +172,9 @@ std::string summary_table(const Statistics& statistics) {
   if (!classes.empty()) classes += "\n";
   std::string times = time_table(statistics);
   if (!times.empty()) times += "\n";
-  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + times + classes +
+  std::string common = common_factors_lines(statistics);
+  if (!common.empty()) common += "\n";
+  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + times + classes + common +
          oracle_lines(statistics) + extremes + footnotes + footnote_on_units(statistics);
 }
 

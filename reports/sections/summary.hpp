@@ -26,7 +26,7 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
 std::string oracle_complaint(const Statistics& statistics);
 
 /// One line for each verdict; then a table with a row for each subject and kind, a table of times (time_table.hpp), a table by
-/// class of families (class_table.hpp), and the oracle's counters.
+/// class of families (class_table.hpp), what misses have in common (common_factors_table.hpp), and the oracle's counters.
 std::string summary_table(const Statistics& statistics);
 
 }  // namespace nearmiss

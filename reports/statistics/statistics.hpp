@@ -10,6 +10,7 @@
 #include "ccd/query.hpp"
 #include "reports/statistics/counts.hpp"
 #include "reports/statistics/extreme.hpp"
+#include "reports/statistics/factor_counts.hpp"
 #include "reports/statistics/finding.hpp"
 #include "reports/statistics/funnel.hpp"
 
@@ -41,9 +42,10 @@ struct Statistics {
   std::map<CountsKey, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
   std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
-  std::map<Signature, std::uint64_t> seen;                      ///< number of queries that failed in each way
-  std::map<std::string, Extreme> extremes;                      ///< by tolerance or tests
-  std::uint64_t oracle_disagreements = 0;  ///< queries about which the exact methods disagree
+  FactorTable factors;                      ///< collisions of the families whose queries have factors
+  std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed in each way
+  std::map<std::string, Extreme> extremes;  ///< by tolerance or tests
+  std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
       0;  ///< cases for which the oracle contradicts the recorded truth
 

@@ -19,6 +19,7 @@ struct MapRow {
 using CountsRow = MapRow<CountsKey, Counts>;
 using OracleRow = MapRow<KindAndFamily, OracleCounts>;
 using FunnelRow = MapRow<StepAndKind, Funnel>;
+using FactorRow = MapRow<FactorKey, FactorCounts>;
 using SeenRow = MapRow<Signature, std::uint64_t>;
 
 template <class Row, class Member, class Key>
@@ -53,6 +54,14 @@ Table<FunnelRow> funnels() {
   return counters_table<FunnelRow>("funnel", "step, kind",
                                    {key_column<FunnelRow>("step", &StepAndKind::first),
                                     key_column<FunnelRow>("kind", &StepAndKind::second)});
+}
+
+Table<FactorRow> factors() {
+  return counters_table<FactorRow>(
+      "factor", "subject, kind, family, factor_values",
+      {key_column<FactorRow>("subject", &FactorKey::subject), key_column<FactorRow>("kind", &FactorKey::kind),
+       key_column<FactorRow>("family", &FactorKey::family),
+       key_column<FactorRow>("factor_values", &FactorKey::values)});
 }
 
 Table<SeenRow> seen() {
@@ -111,6 +120,7 @@ void make_statistics_tables(SQLite::Database& db) {
   counts().make(db);
   oracle().make(db);
   funnels().make(db);
+  factors().make(db);
   seen().make(db);
   extremes().make(db);
   campaign().make(db);
@@ -120,6 +130,7 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
   write_map(db, counts(), statistics.counts);
   write_map(db, oracle(), statistics.oracle);
   write_map(db, funnels(), statistics.funnels);
+  write_map(db, factors(), statistics.factors);
   write_map(db, seen(), statistics.seen);
   std::vector<Extreme> rows;
   for (const auto& [name, each] : statistics.extremes) rows.push_back(each);
@@ -135,6 +146,7 @@ Statistics read_statistics(TableReader& read) {
   read_map(read, counts(), statistics.counts);
   read_map(read, oracle(), statistics.oracle);
   read_map(read, funnels(), statistics.funnels);
+  read_map(read, factors(), statistics.factors);
   read_map(read, seen(), statistics.seen);
   read(extremes(), [&](Extreme&& row) { statistics.extremes[row.name] = std::move(row); });
   return statistics;

@@ -7,7 +7,7 @@ namespace {
 constexpr int application_id = 0x6e656172;  // "near"
 
 /// Version of the tables and of their contents; every change raises it.
-constexpr int schema_version = 16;
+constexpr int schema_version = 17;
 
 }  // namespace
 

@@ -8,7 +8,9 @@
 #include <set>
 #include <string>
 
+#include "fuzz/families/crossed.hpp"
 #include "fuzz/trial/sieve.hpp"
+#include "oracle/oracle.hpp"
 #include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
@@ -224,6 +226,28 @@ TEST(Campaign, AProvenanceMakesItsQueryAgain) {
     seen.insert(family);
   }
   EXPECT_EQ(seen.size(), 3);
+}
+
+TEST(Campaign, CountsTheFactorsOfTheCollisionsOfCrossed) {
+  CampaignPlan plan = plan_of(2000, 2);
+  plan.families = {find_family("crossed")};
+  const Statistics statistics = run(plan, true).statistics;
+  const auto basic = make_subject("basic");
+  std::map<std::string, FactorCounts> expected;
+  for (std::uint64_t i = 1; i < plan.cases; i += 2) {
+    const Query query = make_query(plan.families.front(), plan.seed, i);
+    if (!collides(query)) continue;
+    const FactorCounts one{1, basic->decide(query).hit ? std::uint64_t{0} : 1};
+    const crossed::Levels levels = crossed::levels_of(plan.seed, i);
+    expected[""].merge(one);
+    if (levels.when() == crossed::When::at_1) expected["when=at-1"].merge(one);
+    if (levels.when() == crossed::When::at_1 && levels.scale() == 4)
+      expected["when=at-1 scale=1e6"].merge(one);
+  }
+  for (const auto& [values, counts] : expected)
+    EXPECT_EQ(statistics.factors.at({"basic", Kind::edge_edge, "crossed", values}), counts) << values;
+  EXPECT_EQ(expected.size(), 3);
+  EXPECT_GT(expected.at("when=at-1 scale=1e6").false_negatives, 0);
 }
 
 TEST(Campaign, StopsWhenTheTimeIsOver) {

@@ -40,6 +40,7 @@ class Answers:
     family: dict  # kind -> names
     number: dict  # kind -> numbers within the family
     queries: dict  # kind -> lines
+    factors: dict  # kind -> (family, number) -> values, for families with factors
     collision: dict  # kind -> bool
     asked: dict  # (subject, kind) -> Asked
     times: dict  # kind -> Known enclosures of t*
@@ -99,7 +100,19 @@ def _queries(nearmiss, seed, counts):
             queries[kind] += lines
         family[kind] = np.array(family[kind])
         number[kind] = np.array(number[kind])
-    return family, number, queries
+    return family, number, queries, _factors(nearmiss, seed, counts)
+
+
+def _factors(nearmiss, seed, counts):
+    name = 'crossed'
+    count = counts.get(name, 0)
+    return {
+        kind: {
+            (name, KINDS.index(kind) + 2 * i): values
+            for i, values in enumerate(nearmiss.factors(name, seed, kind, count) if count else [])
+        }
+        for kind in KINDS
+    }
 
 
 def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):

@@ -73,6 +73,13 @@ class Nearmiss:
             'family', name, '--seed', seed, '--kind', kind, '--count', count
         ).splitlines()
 
+    def factors(self, name, seed, kind, count):
+        """The values of the factors of the same queries, as lists."""
+        options = '--seed', seed, '--kind', kind, '--count', count
+        return [
+            line.split() for line in self.run('family', name, '--factors', *options).splitlines()
+        ]
+
     def collisions(self, kind, queries):
         """Whether each query is a collision."""
         lines = self._ask('oracle', kind, queries)

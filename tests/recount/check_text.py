@@ -63,6 +63,9 @@ def _check_output(comparison, where, text, json_report, verdicts):
     if len({row[2] for row in by_class(json_report)}) > 1:
         heading = ['subject', 'kind', 'class', 'queries']
         _check_table(comparison, where, lines, heading, by_class(json_report))
+    found = [line for line in lines if ' % of the missed ones have ' in line]
+    expected = [common_factors(each) for each in json_report.get('common_factors', [])]
+    comparison.same('text', f'{where} common factors', found, expected)
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
     expected = oracle_line(json_report['oracle']['total'])
     comparison.same('text', f'{where} oracle', found and found[0], expected)
@@ -75,6 +78,15 @@ def _check_ladder(comparison, lines, found):
     fits = [line for line in lines if ' of the claimed distance' in line]
     expected = [fit(each) for each in found['fits'] if not each['origin']]
     comparison.same('text', 'nearmiss fuzz fits', fits, expected)
+
+
+def common_factors(found):
+    """What the missed collisions of a family have in common, in words."""
+    collisions = f'{found["collisions"]:,} collision{"" if found["collisions"] == 1 else "s"}'
+    return (
+        f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
+        f'{collisions} missed; {found["text"]}'
+    )
 
 
 def verdict(found):

@@ -21,6 +21,7 @@ from check_csv import (
     check_times_csv,
 )
 from check_deciders import check_deciders
+from check_factors import check_common_factors
 from check_page import check_page
 from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
 from check_text import check_text
@@ -48,6 +49,7 @@ def check_report(comparison, report, answers, units):
     comparison.section(check_ladder, 'ladder', report, answers, units)
     comparison.section(check_deciders, 'deciders', report, answers)
     comparison.section(check_findings, 'findings', report, answers)
+    comparison.section(check_common_factors, 'common_factors', report, answers)
 
 
 def check_all(comparison, report, answers, units):

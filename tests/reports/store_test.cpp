@@ -230,14 +230,14 @@ TEST_F(StoreTest, RefusesWhatIsNoStore) {
 
 TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("other.db"));
-  for (const std::string version : {"7", "15", "17"}) {
+  for (const std::string version : {"7", "16", "18"}) {
     sqlite3* db = nullptr;
     sqlite3_open(file("other.db").c_str(), &db);
     sqlite3_exec(db, ("PRAGMA user_version = " + version).c_str(), nullptr, nullptr, nullptr);
     sqlite3_close(db);
     EXPECT_THAT([&] { load_campaign(file("other.db")); },
                 ThrowsMessage<Error>(
-                    ::testing::EndsWith("other.db: found store version " + version + ", expected 16")));
+                    ::testing::EndsWith("other.db: found store version " + version + ", expected 17")));
   }
 }
 

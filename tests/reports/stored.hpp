@@ -1,6 +1,7 @@
 // What the tests save in stores.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "reports/campaign/campaign.hpp"
@@ -34,6 +35,8 @@ inline Statistics some_statistics(const std::string& subject) {
       Extreme::Of::accepting_tolerance, "mu", 1.0 / 3, stored_query, "uniform:1:3", 7};
   statistics.extremes["tau"] = nothing_found(Extreme::Of::keeping_tolerance, "tau");
   statistics.funnels[{"scene:cloth#3", Kind::edge_edge}] = {{1, 2, 3, 4, 5}, 6, 7, 8};
+  const std::array<std::string, 2> values{"scale=1", "when=at-1"};
+  count_collision(statistics.factors, {subject, Kind::edge_edge, "crossed", ""}, values, true);
   statistics.seen[{Finding::What::false_negative, subject, "ee simple-root inside crossing"}] = 5;
   statistics.oracle_disagreements = 3;
   statistics.mismatches_with_recorded_truth = 4;

@@ -75,6 +75,9 @@ async function checkFindings(page, report) {
   assert.equal(await count(page, "#findings tbody tr"), report.findings.length);
   const kept = report.signatures.map((each) => each.seen).reduce((a, b) => a + b);
   assert.match(await page.textContent("#findings-note"), new RegExp(`^${kept.toLocaleString("en-US")} failures in ${report.signatures.length} ways`));
+  const common = await page.locator("#common-factors li").allTextContents();
+  assert.ok(common.length > 0);
+  assert.deepEqual(common, report.common_factors.map((each) => `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));
   const seen = await page.locator("#findings .seen").allTextContents();
   assert.deepEqual(seen, report.findings.map(({ seen: n }) => (n === 1 ? "seen once" : `seen ${n.toLocaleString("en-US")} times`)));
   const shrunk = page.locator("#findings tbody tr").first().locator("pre");

@@ -1,0 +1,20 @@
+// What the missed collisions of a family with factors have in common.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// "89 % of the missed ones have scale=1e-6, and 20 % of all"
+std::string to_text(const CommonFactors& common);
+
+/// A line for each subject, kind and family with factors and misses.
+std::string common_factors_lines(const Statistics& statistics);
+
+/// An array with the same.
+nlohmann::ordered_json common_factors_json(const Statistics& statistics);
+
+}  // namespace nearmiss

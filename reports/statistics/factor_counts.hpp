@@ -1,0 +1,66 @@
+// Which values of its factors the collisions have in common that a subject misses. The queries of some families, such as
+// `crossed`, have factors, and each has a value: "scale=1e-3".
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "ccd/query.hpp"
+#include "reports/statistics/counter.hpp"
+
+namespace nearmiss {
+
+/// Identifies the collisions of a family, answered by a subject, that have these values.
+struct FactorKey {
+  std::string subject;
+  Kind kind{};
+  std::string family;
+  std::string values;  ///< "" for all collisions, "scale=1e-3", or two values: "when=at-1 scale=1e-3"
+
+  bool operator==(const FactorKey&) const = default;
+  bool operator<(const FactorKey& other) const {
+    return std::tie(subject, kind, family, values) <
+           std::tie(other.subject, other.kind, other.family, other.values);
+  }
+};
+
+struct FactorCounts {
+  std::uint64_t collisions = 0;
+  std::uint64_t false_negatives = 0;
+
+  static constexpr auto counters() {
+    return std::tuple{Counter{"collisions", &FactorCounts::collisions},
+                      Counter{"false_negatives", &FactorCounts::false_negatives}};
+  }
+
+  void merge(const FactorCounts& other) { merge_counters(*this, other); }
+  bool operator==(const FactorCounts&) const = default;
+};
+static_assert(declares_all_members<FactorCounts>());
+
+using FactorTable = std::map<FactorKey, FactorCounts>;
+
+/// Counts a collision with these values, one of each factor: among all, by one value, and by two. key.values is empty.
+void count_collision(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
+                     bool missed);
+
+/// A value of a factor, or values of two, that many of the misses of a subject have.
+struct CommonFactors {
+  FactorKey key;
+  FactorCounts with;  ///< the collisions that have the values
+  FactorCounts all;
+
+  [[nodiscard]] double share() const;  ///< of the misses
+  [[nodiscard]] double share_of_collisions() const;
+};
+
+/// For each subject, kind and family with misses: among the values and pairs of values that at least half of the misses
+/// have, the one with the largest lift, which is share() / share_of_collisions(). Of equal lifts, the one of more misses;
+/// then a single value before a pair; then the first in alphabetical order.
+std::vector<CommonFactors> common_factors(const FactorTable& table);
+
+}  // namespace nearmiss
