@@ -214,7 +214,7 @@ TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
 TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   // A limit on the size of files simulates a full disk.
   const Output output =
-      run("fuzz --time 24h --subject basic --family planted --db a.db", "ulimit -f 600; trap '' XFSZ;");
+      run("fuzz --time 24h --subject basic --family planted --db a.db", "ulimit -f 1200; trap '' XFSZ;");
   EXPECT_EQ(output.code, 2);
   EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
   EXPECT_THAT(output.error, HasSubstr("a.db: "));
