@@ -66,6 +66,24 @@ class ResultTable(unittest.TestCase):
             )
             self.assertEqual(shown == "0", missed == 0)
 
+    def test_times_are_those_of_the_report(self):
+        rows = [cells(line) for line in self.said.stdout.splitlines() if "| estimate |" in line]
+        classes = [
+            (kind, of, each)
+            for kind in ("vt", "ee")
+            for of, each in self.report["subjects"]["basic"][kind]["classes"].items()
+        ]
+        self.assertEqual(
+            [row[:3] for row in rows], [["basic", kind, of] for kind, of, _ in classes]
+        )
+        for row, (_, _, each) in zip(rows, classes):
+            self.assertEqual(
+                row[4:8], [f"{each['times_given']:,}", "–", f"{each['stuck']:,}", "0"]
+            )
+            self.assertAlmostEqual(
+                float(row[10]), each["max_early"], delta=0.06 * each["max_early"]
+            )
+
     def test_nobody_who_misses_nothing_has_a_query(self):
         self.assertIn(("basic", "vt"), self.rows)
         self.assertNotIn(("wang", "vt"), self.rows)
