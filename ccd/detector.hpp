@@ -32,7 +32,7 @@ struct DetectorInfo {
 inline constexpr std::size_t most_detectors = 64;
 inline constexpr std::size_t longest_name = 255;
 
-/// What of a description, a name or a contract contradicts nearmiss_subject.h; "" if nothing does.
+/// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
 std::string fault_of_name(std::string_view name);
 std::string fault_of(const Contract& contract);

@@ -38,7 +38,7 @@ std::string vertices(const Query& query, std::size_t time, Form language) {
   return text;
 }
 
-/// What happens first at t*, in words: "The primitives touch".
+/// The event at t*, in words: "The primitives touch".
 std::string what_happens(const Query& query) {
   return query.separation == 0
              ? "The primitives touch"
@@ -98,17 +98,6 @@ std::string comment(const Finding& finding, std::string_view mark) {
   return text;
 }
 
-}  // namespace
-
-Form parse_form(std::string_view text, std::string_view option) {
-  if (text == "case") return Form::case_file;
-  if (text == "c++") return Form::cpp;
-  if (text == "python") return Form::python;
-  throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
-}
-
-namespace {
-
 /// A function of the reader that the test calls.
 struct Asked {
   std::string name, returns;
@@ -135,7 +124,7 @@ std::vector<Asked> functions(const Finding& finding, TimeSort sort) {
   return all;
 }
 
-/// What must be true, with these arguments of all calls.
+/// The condition that the test asserts, with these arguments of all calls.
 std::string expectation(const Finding& finding, TimeSort sort, const std::string& arguments, Form language) {
   const bool python = language == Form::python;
   const std::string time = "time_of_impact" + arguments;
@@ -152,7 +141,7 @@ std::string expectation(const Finding& finding, TimeSort sort, const std::string
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);
 }
 
-/// What the reader has to write, as a comment, and in C++ the declarations.
+/// The request for functions of the reader, as a comment, and in C++ their declarations.
 std::string request(const std::vector<Asked>& functions, bool has_separation, Form language) {
   const bool python = language == Form::python;
   std::string text, declarations;
@@ -169,6 +158,13 @@ std::string request(const std::vector<Asked>& functions, bool has_separation, Fo
 }
 
 }  // namespace
+
+Form parse_form(std::string_view text, std::string_view option) {
+  if (text == "case") return Form::case_file;
+  if (text == "c++") return Form::cpp;
+  if (text == "python") return Form::python;
+  throw Error(fmt::format("{}: found '{}', expected case, c++ or python", option, printable(text)));
+}
 
 std::string pasted_test(const Finding& finding, TimeSort sort, Form language) {
   const Query& query = finding.shrunk;

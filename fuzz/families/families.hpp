@@ -51,7 +51,7 @@ Family at_value(const Family& family, double value);
 /// fewer whole numbers than steps, each occurs once. Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// What a separation is that is not a number.
+/// The word in place of a number for separations that each query draws.
 inline constexpr std::string_view drawn_separation = "drawn";
 
 /// Gives a query its separation; random numbers are drawn for `drawn` alone.

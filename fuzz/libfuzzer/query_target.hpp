@@ -10,7 +10,7 @@
 
 namespace nearmiss::libfuzzer {
 
-/// What a target needs.
+/// The needs of a target.
 struct Target {
   const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names one
   bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds

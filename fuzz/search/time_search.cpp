@@ -39,7 +39,7 @@ double lateness(const GivenTime& given) {
 
 double earliness(const GivenTime& given) { return -given.difference(); }
 
-/// What one search knows of the subject's answers.
+/// The subject's answers in one search.
 struct Answers {
   int slow = 0;        ///< queries over the time limit
   bool found = false;  ///< whether a query is wanted

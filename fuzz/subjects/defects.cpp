@@ -76,7 +76,7 @@ struct DefectiveSteps {
 enum class Sound : std::uint8_t { wang, wang_time, advance };
 constexpr std::array<std::string_view, 3> sound_names{"wang", "wang-time", "advance"};
 
-/// What makes a sound subject defective.
+/// The change that makes a sound subject defective.
 struct Change {
   Sound sound = Sound::wang;
   DefectiveSteps steps = {};

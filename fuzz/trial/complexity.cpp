@@ -9,7 +9,7 @@ namespace nearmiss {
 
 namespace {
 
-/// What a magnitude adds to Complexity::awkward.
+/// The part of a magnitude in Complexity::awkward.
 int awkwardness(double magnitude) {
   if (magnitude < 10 && magnitude == std::floor(magnitude)) return 0;
   return magnitude < 100 && 4 * magnitude == std::floor(4 * magnitude) ? 1 : 2;

@@ -12,8 +12,8 @@ namespace nearmiss {
 
 /// The complexity of a query. Two queries are compared by the members in this order.
 struct Complexity {
-  /// What magnitudes that are hard to draw add up to: nothing for an integer of one digit, 1 for another multiple of 1/4
-  /// below 100, and 2 for any other.
+  /// The sum over magnitudes that are hard to draw: 0 for an integer of one digit, 1 for another multiple of 1/4 below 100,
+  /// and 2 for any other.
   int awkward = 0;
   int numbers =
       0;  ///< nonzero coordinates, of which one at rest counts once, and the separation unless it is 0

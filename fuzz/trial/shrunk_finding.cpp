@@ -40,7 +40,7 @@ bool ends_process(const Verdict& verdict) {
 
 /// A subject that refuses further queries when a limit is reached.
 class Limited final : public ForwardingSubject {
-  /// What the subject answers to this number of queries, unless a limit is reached.
+  /// The subject's answer, which costs the work of this number of queries. Throws Error if a limit is reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
     if (work_ <= 0) throw Error("the subject has answered as many queries as it may");

@@ -1,4 +1,4 @@
-// What the missed collisions of a family with factors have in common.
+// The factors that missed collisions have in common, as text and JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

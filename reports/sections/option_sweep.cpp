@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -22,13 +20,6 @@ struct OptionStep {
   std::string pattern;
   double value;
 };
-
-std::optional<double> number_in(std::string_view text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
-}
 
 /// A step for each option of the subject that is a number.
 std::vector<OptionStep> steps_of(std::string_view subject) {

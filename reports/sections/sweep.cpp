@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -25,11 +24,8 @@ struct SweepStep {
 std::optional<SweepStep> step_of(std::string_view name) {
   const auto at = name.rfind('@');
   if (at == std::string_view::npos) return std::nullopt;
-  SweepStep step{std::string(name.substr(0, at)), 0};
-  const char* const end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data() + at + 1, end, step.value);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return step;
+  const auto value = number_in(name.substr(at + 1));
+  return value ? std::optional(SweepStep{std::string(name.substr(0, at)), *value}) : std::nullopt;
 }
 
 }  // namespace

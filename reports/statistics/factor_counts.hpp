@@ -1,4 +1,4 @@
-// Which values of its factors the collisions have in common that a subject misses. The queries of some families, such as
+// The values of factors that the missed collisions of a subject have in common. The queries of some families, such as
 // `crossed`, have factors, and each has a value: "scale=1e-3".
 #pragma once
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include "reports/statistics/histogram.hpp"
@@ -39,6 +40,13 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
 std::string percent(std::uint64_t part, std::uint64_t total) {
   return total == 0 ? ""
                     : fmt::format("{:.3g} %", 100 * static_cast<double>(part) / static_cast<double>(total));
+}
+
+std::optional<double> number_in(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
 }
 
 std::string whole_ns(const std::optional<double>& ns) { return ns ? fmt::format("{:.0f}", *ns) : "-"; }

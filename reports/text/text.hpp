@@ -21,6 +21,9 @@ std::string with_separators(std::uint64_t number);
 /// A part of a total as "12.3 %"; "" if the total is 0.
 std::string percent(std::uint64_t part, std::uint64_t total);
 
+/// The number that the whole text is; nothing if it is none.
+std::optional<double> number_in(std::string_view text);
+
 /// A time in ns, rounded to a whole number; "-" if there is none.
 std::string whole_ns(const std::optional<double>& ns);
 

@@ -46,8 +46,8 @@ struct WorkerFailure {
   bool goes_on = false;   ///< the worker can be used for other queries
 };
 
-/// What a worker wrote about its plug-in, with values that are possible; texts are printable. Throws Error for what no
-/// detector can be.
+/// The description that a worker wrote of its plug-in, with values that are possible; texts are printable. Throws Error if
+/// no detector can have it.
 DetectorInfo info_of(const PluginDescription& about);
 /// The names of all detectors in the shared object. Throws Error.
 std::vector<std::string> names_of(const PluginDescription& about);

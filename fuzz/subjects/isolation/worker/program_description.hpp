@@ -1,4 +1,4 @@
-// What a program says about itself.
+// The description that a program gives of itself.
 #pragma once
 
 #include <string>
