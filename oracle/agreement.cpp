@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "oracle/sturm/separation.hpp"
-#include "oracle/sturm/sturm.hpp"
+#include "oracle/sturm/times.hpp"
 
 namespace nearmiss {
 
@@ -91,27 +90,16 @@ Answers ask_others(const Query& query, const Answer& first, std::span<const Meth
   return {asked, std::move(answers)};
 }
 
-namespace {
-
-/// By the second method: whether the distance is at most h, and whether it is below h, before a time. For h = 0, both mean
-/// contact.
-Reach before(const Query& query, double time) {
-  if (query.separation > 0) return time > 1 ? reach(query) : reach_before(query, time);
-  const bool meet = meet_before(query, time);
-  return {meet, meet};
-}
-
-}  // namespace
-
 std::string time_disagreement(const Query& query) {
   EarliestTime time(query);
+  SturmTimes by_sturm(query);
   const auto [lo, hi] = time.enclosure();
-  if (before(query, lo).at_most) return "time (sturm: earlier)";
   const double after = std::nextafter(hi, 2.0);
-  const Reach found = before(query, after);
-  if (!found.at_most) return "time (sturm: later)";
-  return found.below == time.makes_late(after) ? ""
-                                               : "time at which the distance falls below h (sturm: another)";
+  if (by_sturm.is_before(lo)) return "time (sturm: earlier)";
+  if (!by_sturm.is_before(after)) return "time (sturm: later)";
+  return by_sturm.makes_late(after) == time.makes_late(after)
+             ? ""
+             : "time at which the distance falls below h (sturm: another)";
 }
 
 bool is_sampled(const Query& query, std::uint64_t one_in) {

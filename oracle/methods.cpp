@@ -15,8 +15,9 @@ Answer by_exact(const Query& query) { return to_answer(query, decide_exactly(que
 
 Answer by_sturm(const Query& query) {
   if (query.separation > 0) {
-    const Reach found = reach(query);
-    return {.collision = found.below, .at_most = found.at_most};
+    SturmApproach approach(query);
+    const bool below = approach.is_below_before(SturmApproach::step_is_over);
+    return {.collision = below, .at_most = below || approach.is_at_most_before(SturmApproach::step_is_over)};
   }
   const RootCount count = count_roots(query);
   Answer answer{.collision = count.collision, .on_boundary = count.on_boundary};

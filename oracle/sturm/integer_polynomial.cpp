@@ -22,6 +22,11 @@ int variations(const Sequence& sequence, const Sign& sign_of) {
 
 }  // namespace
 
+bool operator<(const Dyadic& a, const Dyadic& b) {
+  if (a.exponent < b.exponent) return (a.numerator << (b.exponent - a.exponent)) < b.numerator;
+  return a.numerator < (b.numerator << (a.exponent - b.exponent));
+}
+
 IntegerPolynomial::IntegerPolynomial(std::vector<Integer> coefficients) : c_(std::move(coefficients)) {
   while (!c_.empty() && c_.back() == 0) c_.pop_back();
 }
@@ -166,11 +171,6 @@ int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const D
   return sign_variations(sequence, lo) - sign_variations(sequence, hi);
 }
 
-IntegerPolynomial square_free(const IntegerPolynomial& f) {
-  if (f.degree() < 1) return f;
-  return f.quotient(remainder_sequence(f, f.derivative()).back());
-}
-
 /// f divided by the factor of its simple root t.
 IntegerPolynomial without_root(const IntegerPolynomial& f, const Dyadic& t) {
   return f.quotient(IntegerPolynomial({-t.numerator, Integer(1) << t.exponent}));
@@ -197,60 +197,77 @@ struct SturmSequence {
   IntegerPolynomial f;
   std::vector<IntegerPolynomial> sturm;
 
-  explicit SturmSequence(IntegerPolynomial square_free)
-      : f(std::move(square_free)), sturm(remainder_sequence(f, f.derivative())) {}
-
-  [[nodiscard]] int count_roots(const Dyadic& lo, const Dyadic& hi) const {
-    return sign_variations(sturm, lo) - sign_variations(sturm, hi);
+  /// Of the polynomial with the same roots, each of them simple.
+  explicit SturmSequence(IntegerPolynomial polynomial)
+      : f(std::move(polynomial)), sturm(remainder_sequence(f, f.derivative())) {
+    const IntegerPolynomial& common = sturm.back();  // of f and its derivative
+    if (common.degree() > 0) *this = SturmSequence(f.quotient(common));
   }
 };
 
-/// Adds the roots of f in (lo, hi); f is not zero at the ends.
-void isolate(const SturmSequence& sequence, const Dyadic& lo, const Dyadic& hi,
-             std::vector<SturmRoot>& roots) {
+/// A place in (0, 1) that is no root, or an end, with the number of sign changes there.
+struct Place {
+  Dyadic t;
+  int variations;
+
+  Place(const SturmSequence& sequence, Dyadic place)
+      : t(std::move(place)), variations(sign_variations(sequence.sturm, t)) {}
+};
+
+/// Adds the roots of f between two places.
+void isolate(const SturmSequence& sequence, const Place& lo, const Place& hi, std::vector<SturmRoot>& roots) {
   const IntegerPolynomial& f = sequence.f;
-  if (f.degree() < 1) return;
-  const int count = sequence.count_roots(lo, hi);
+  const int count = lo.variations - hi.variations;
   if (count == 0) return;
   if (count == 1) {
-    roots.emplace_back(f, lo, hi);
+    roots.emplace_back(f, lo.t, hi.t);
     return;
   }
-  const Dyadic division = between(lo, hi);
+  const Dyadic division = between(lo.t, hi.t);
   if (f.sign_at(division) == 0) {
     roots.emplace_back(division);
     const SturmSequence rest(without_root(f, division));
-    isolate(rest, lo, division, roots);
-    isolate(rest, division, hi, roots);
+    const Place middle(rest, division);
+    isolate(rest, Place(rest, lo.t), middle, roots);
+    isolate(rest, middle, Place(rest, hi.t), roots);
   } else {
-    isolate(sequence, lo, division, roots);
-    isolate(sequence, division, hi, roots);
+    const Place middle(sequence, division);
+    isolate(sequence, lo, middle, roots);
+    isolate(sequence, middle, hi, roots);
   }
 }
 
 }  // namespace
 
 SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
-    : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)) {
-  constexpr int halvings = 24;  // so that interval arithmetic shows most signs
-  const int sign_at_lo = f_.sign_at(lo_);
-  for (int i = 0; i < halvings; ++i) {
-    Dyadic middle = between(lo_, hi_);
-    const int sign = f_.sign_at(middle);
-    if (sign == 0) {
-      is_dyadic_ = true;
-      lo_ = std::move(middle);
-      return;
-    }
-    (sign == sign_at_lo ? lo_ : hi_) = std::move(middle);
+    : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)), sign_at_lo_(f_.sign_at(lo_)) {}
+
+void SturmRoot::halve() {
+  ++halvings_;
+  Dyadic middle = between(lo_, hi_);
+  const int sign = f_.sign_at(middle);
+  is_dyadic_ = sign == 0;
+  (is_dyadic_ || sign == sign_at_lo_ ? lo_ : hi_) = std::move(middle);
+}
+
+int SturmRoot::sign(const IntegerPolynomial& g) {
+  if (g.is_zero()) return 0;
+  constexpr int most_halvings = 24;  // interval arithmetic shows most signs by then
+  for (;;) {
+    if (is_dyadic_) return g.sign_at(lo_);
+    if (const int sign = g.sign_on(lo_, hi_); sign != 0) return sign;
+    if (halvings_ == most_halvings) return tarski_query(f_, g, lo_, hi_);
+    constexpr int at_once = 6;
+    for (int i = 0; i < at_once && !is_dyadic_; ++i) halve();
   }
 }
 
-int SturmRoot::sign(const IntegerPolynomial& g) const {
-  if (is_dyadic_) return g.sign_at(lo_);
-  if (g.is_zero()) return 0;
-  const int sign = g.sign_on(lo_, hi_);
-  return sign != 0 ? sign : tarski_query(f_, g, lo_, hi_);
+bool SturmRoot::is_below(const Dyadic& number) const {
+  if (is_dyadic_) return lo_ < number;
+  if (!(lo_ < number)) return false;
+  if (!(number < hi_)) return true;
+  const int sign = f_.sign_at(number);
+  return sign != 0 && sign != sign_at_lo_;
 }
 
 std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {
@@ -265,7 +282,10 @@ std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {
   }
   const int most = rest.most_roots_inside();
   if (most == 1) roots.emplace_back(rest, zero, one);
-  if (most > 1) isolate(SturmSequence(square_free(rest)), zero, one, roots);
+  if (most > 1) {
+    const SturmSequence sequence(rest);
+    isolate(sequence, Place(sequence, zero), Place(sequence, one), roots);
+  }
   return roots;
 }
 

@@ -14,6 +14,8 @@ struct Dyadic {
   unsigned exponent = 0;
 };
 
+bool operator<(const Dyadic& a, const Dyadic& b);
+
 /// A polynomial by its coefficients, the constant first and without trailing zeros, so the zero polynomial
 /// has none.
 class IntegerPolynomial {
@@ -51,7 +53,7 @@ class IntegerPolynomial {
 };
 
 /// A real root in [0, 1]: a dyadic number, or the only root, a simple one, of a polynomial in an open interval at whose ends
-/// it is not zero.
+/// it is not zero. Questions may narrow the interval.
 class SturmRoot {
  public:
   explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_(std::move(value)) {}
@@ -59,14 +61,20 @@ class SturmRoot {
 
   /// The sign of g at this root. If the root is not dyadic, and interval arithmetic does not show the sign, Tarski's query
   /// finds it.
-  [[nodiscard]] int sign(const IntegerPolynomial& g) const;
+  [[nodiscard]] int sign(const IntegerPolynomial& g);
+  /// Whether the root is less than a number.
+  [[nodiscard]] bool is_below(const Dyadic& number) const;
   /// Whether the root is t = 0 or t = 1.
   [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }
 
  private:
+  void halve();
+
   bool is_dyadic_ = false;
   IntegerPolynomial f_;
   Dyadic lo_, hi_;  ///< the ends of the interval; for a dyadic root, lo_ is its value
+  int sign_at_lo_ = 0;
+  int halvings_ = 0;
 };
 
 /// The distinct roots of f in [0, 1], in no particular order; f must not be zero.

@@ -116,13 +116,11 @@ std::vector<SegmentMembership> Primitives::make_segments() const {
   return {{x0, x2, x3}, {x1, x2, x3}, {x2, x0, x1}, {x3, x0, x1}};
 }
 
-IntegerPolynomial after(double time) {
-  if (time == 0) return IntegerPolynomial({0, 1});
+Dyadic to_dyadic(double time) {
+  if (time == 0) return {0, 0};
   const OddMultiple number(time);
-  const Integer one = 1;
-  return number.exponent < 0
-             ? IntegerPolynomial({-Integer(number.odd), one << static_cast<unsigned>(-number.exponent)})
-             : IntegerPolynomial({-(Integer(number.odd) << static_cast<unsigned>(number.exponent)), one});
+  if (number.exponent >= 0) return {Integer(number.odd) << static_cast<unsigned>(number.exponent), 0};
+  return {number.odd, static_cast<unsigned>(-number.exponent)};
 }
 
 }  // namespace nearmiss::sturm

@@ -64,7 +64,6 @@ class Primitives {
   std::vector<SegmentMembership> segments_;
 };
 
-/// A positive multiple of t - time.
-IntegerPolynomial after(double time);
+Dyadic to_dyadic(double time);
 
 }  // namespace nearmiss::sturm

@@ -4,7 +4,7 @@
 // points of the primitives are those of such a pair, or of a vertex of each.
 //
 // The distance is at most h at some time iff it is at t = 0, or at a root of the excess of a pair or, if that is identically
-// 0, of one of its `inside`: at the first such time, the pair's conditions begin to hold.
+// 0, of one of its `inside`: at the first such time, the conditions of the closest pair begin to hold.
 //
 // The distance is below h at some time iff it is so in an open interval, where one pair has the closest points, and none of
 // its polynomials changes its sign. Such an interval of greatest length begins at 0 or at a root of one of them. So it is
@@ -12,6 +12,7 @@
 #include "oracle/sturm/separation.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -22,25 +23,96 @@ namespace nearmiss {
 namespace sturm {
 namespace {
 
-struct FeaturePair {
-  IntegerPolynomial excess;
-  std::vector<IntegerPolynomial> inside;
-  IntegerPolynomial extent;
+/// A time at which the conditions of a pair may begin to hold.
+struct Candidate {
+  SturmRoot t;
+  const IntegerPolynomial* root_of = nullptr;  ///< one of the pair's that is 0 at t, if that is known
+  std::optional<bool> at_most;                 ///< whether the conditions hold at t
+  std::optional<bool> below;                   ///< whether they hold strictly right behind t
+
+  int sign(const IntegerPolynomial& p) { return &p == root_of ? 0 : t.sign(p); }
+
+  /// The sign of p right behind t.
+  int sign_behind(const IntegerPolynomial& p) {
+    int found = sign(p);
+    for (IntegerPolynomial d = p; found == 0 && !d.is_zero(); found = t.sign(d)) d = d.derivative();
+    return found;
+  }
 };
 
-/// The sign of p right behind t.
-int sign_behind(IntegerPolynomial p, const SturmRoot& t) {
-  int sign = t.sign(p);
-  for (; sign == 0 && !p.is_zero(); sign = t.sign(p)) p = p.derivative();
-  return sign;
-}
+class FeaturePair {
+ public:
+  FeaturePair(IntegerPolynomial excess, std::vector<IntegerPolynomial> inside, IntegerPolynomial extent)
+      : excess_(std::move(excess)), inside_(std::move(inside)), extent_(std::move(extent)) {}
+
+  bool is_at_most_before(const Dyadic& time) {
+    const auto holds = [&](Candidate& each) { return each.t.is_below(time) && is_at_most_at(each); };
+    return any_of(start_, holds) || any_of(excess_.is_zero() ? inside_roots() : excess_roots(), holds);
+  }
+
+  bool is_below_before(const Dyadic& time) {
+    const auto counts = [&](const Candidate& each) { return each.t.is_below(time); };
+    if (start_.front().sign(excess_) > 0 && !any_of(excess_roots(), counts))
+      return false;  // always farther apart
+    const auto holds = [&](Candidate& each) { return counts(each) && is_below_behind(each); };
+    return any_of(start_, holds) || any_of(excess_roots(), holds) || any_of(inside_roots(), holds);
+  }
+
+ private:
+  using Candidates = std::vector<Candidate>;
+
+  template <class Holds>
+  static bool any_of(Candidates& candidates, const Holds& holds) {
+    return std::any_of(candidates.begin(), candidates.end(), holds);
+  }
+
+  bool is_at_most_at(Candidate& at) {
+    if (!at.at_most)
+      at.at_most = at.sign(excess_) <= 0 && at.sign(extent_) > 0 &&
+                   std::all_of(inside_.begin(), inside_.end(),
+                               [&](const IntegerPolynomial& p) { return at.sign(p) >= 0; });
+    return *at.at_most;
+  }
+
+  bool is_below_behind(Candidate& at) {
+    if (!at.below)
+      at.below = at.t.is_below({1, 0}) && at.sign_behind(excess_) < 0 && at.sign_behind(extent_) > 0 &&
+                 std::all_of(inside_.begin(), inside_.end(),
+                             [&](const IntegerPolynomial& p) { return at.sign_behind(p) >= 0; });
+    return *at.below;
+  }
+
+  static void add_roots(const IntegerPolynomial& p, Candidates& candidates) {
+    if (p.is_zero()) return;
+    for (SturmRoot& t : roots_in_unit_interval(p)) candidates.push_back({std::move(t), &p, {}, {}});
+  }
+
+  Candidates& excess_roots() {
+    if (!excess_roots_) add_roots(excess_, excess_roots_.emplace());
+    return *excess_roots_;
+  }
+
+  Candidates& inside_roots() {
+    if (!inside_roots_) {
+      inside_roots_.emplace();
+      for (const IntegerPolynomial& p : inside_) add_roots(p, *inside_roots_);
+    }
+    return *inside_roots_;
+  }
+
+  IntegerPolynomial excess_;
+  std::vector<IntegerPolynomial> inside_;
+  IntegerPolynomial extent_;
+  Candidates start_{{SturmRoot(Dyadic{0, 0}), nullptr, {}, {}}};
+  std::optional<Candidates> excess_roots_, inside_roots_;  // with pointers to the polynomials above
+};
 
 class FeaturePairs {
  public:
-  explicit FeaturePairs(Primitives& primitives) : primitives_(primitives) {
-    const Integer& h = primitives.separation();
+  explicit FeaturePairs(const Query& query) : primitives_(query) {
+    const Integer& h = primitives_.separation();
     squared_separation_ = IntegerPolynomial({h * h});
-    if (primitives.kind() == Kind::vertex_triangle) {
+    if (query.kind == Kind::vertex_triangle) {
       for (std::size_t i = 1; i < 4; ++i) {
         add_vertices(0, i);
         add_vertex_and_edge(0, i, i % 3 + 1);
@@ -52,17 +124,18 @@ class FeaturePairs {
         add_vertex_and_edge(i + 2, 0, 1);
       }
     }
-    const IntegerPolynomial& area = primitives.area();
-    pairs_.push_back(
-        {primitives.F() * primitives.F() - squared_separation_ * area, primitives.weights(), area});
+    const IntegerPolynomial& area = primitives_.area();
+    all.emplace_back(primitives_.F() * primitives_.F() - squared_separation_ * area, primitives_.weights(),
+                     area);
   }
 
-  [[nodiscard]] const std::vector<FeaturePair>& all() const { return pairs_; }
+  std::vector<FeaturePair> all;
 
  private:
   void add_vertices(std::size_t i, std::size_t j) {
     const IntegerPolynomialVector d = primitives_.x(i) - primitives_.x(j);
-    pairs_.push_back({dot(d, d) - squared_separation_, {}, IntegerPolynomial({1})});
+    all.emplace_back(dot(d, d) - squared_separation_, std::vector<IntegerPolynomial>(),
+                     IntegerPolynomial({1}));
   }
 
   /// The squared distance of a point from a line, times the squared length e·e, is d·d e·e - (d·e)².
@@ -71,76 +144,43 @@ class FeaturePairs {
     const IntegerPolynomialVector e = primitives_.x(to) - primitives_.x(from);
     const IntegerPolynomial along = dot(d, e);
     const IntegerPolynomial length = dot(e, e);
-    pairs_.push_back(
-        {(dot(d, d) - squared_separation_) * length - along * along, {along, length - along}, length});
+    all.emplace_back((dot(d, d) - squared_separation_) * length - along * along,
+                     std::vector{along, length - along}, length);
   }
 
-  Primitives& primitives_;
+  Primitives primitives_;
   IntegerPolynomial squared_separation_;
-  std::vector<FeaturePair> pairs_;
 };
 
-bool is_at_most_at(const std::vector<FeaturePair>& pairs, const SturmRoot& t) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const FeaturePair& pair) {
-    return t.sign(pair.excess) <= 0 && t.sign(pair.extent) > 0 &&
-           std::all_of(pair.inside.begin(), pair.inside.end(),
-                       [&](const IntegerPolynomial& p) { return t.sign(p) >= 0; });
-  });
-}
-
-bool is_below_behind(const FeaturePair& pair, const SturmRoot& t) {
-  return sign_behind(pair.excess, t) < 0 && sign_behind(pair.extent, t) > 0 &&
-         std::all_of(pair.inside.begin(), pair.inside.end(),
-                     [&](const IntegerPolynomial& p) { return sign_behind(p, t) >= 0; });
-}
-
-/// Whether holds(t) is true for a root t of p in [0, 1]; false if p is identically 0.
 template <class Holds>
-bool any_root(const IntegerPolynomial& p, const Holds& holds) {
-  if (p.is_zero()) return false;
-  const auto roots = roots_in_unit_interval(p);
-  return std::any_of(roots.begin(), roots.end(), holds);
-}
-
-template <class Holds>
-bool any_root(const std::vector<IntegerPolynomial>& all, const Holds& holds) {
-  return std::any_of(all.begin(), all.end(), [&](const IntegerPolynomial& p) { return any_root(p, holds); });
-}
-
-/// Whether the distance is at most h at a time t for which `counts` is true, and whether it is below h right behind one.
-template <class Counts>
-Reach reach_where(const Query& query, const Counts& counts) {
-  const PlainArithmetic guard;
-  Primitives primitives(query);
-  const std::vector<FeaturePair> pairs = FeaturePairs(primitives).all();
-  const SturmRoot start(Dyadic{0, 0});
-  const IntegerPolynomial after_step = after(1);
-  Reach found;
-  for (const FeaturePair& pair : pairs) {
-    if (start.sign(pair.excess) > 0 && !any_root(pair.excess, counts)) continue;  // always farther apart
-    const auto is_below = [&](const SturmRoot& t) {
-      return counts(t) && t.sign(after_step) < 0 && is_below_behind(pair, t);
-    };
-    if (is_below(start) || any_root(pair.excess, is_below) || any_root(pair.inside, is_below))
-      return {true, true};
-    if (found.at_most) continue;
-    const auto is_at_most = [&](const SturmRoot& t) { return counts(t) && is_at_most_at(pairs, t); };
-    found.at_most = is_at_most(start) || (pair.excess.is_zero() ? any_root(pair.inside, is_at_most)
-                                                                : any_root(pair.excess, is_at_most));
-  }
-  return found;
+bool any_pair(std::vector<FeaturePair>& pairs, const Holds& holds) {
+  return std::any_of(pairs.begin(), pairs.end(), holds);
 }
 
 }  // namespace
 }  // namespace sturm
 
-Reach reach(const Query& query) {
-  return sturm::reach_where(query, [](const sturm::SturmRoot& /*t*/) { return true; });
+struct SturmApproach::Pairs {
+  std::vector<sturm::FeaturePair> all;
+};
+
+SturmApproach::SturmApproach(const Query& query) {
+  const PlainArithmetic guard;
+  pairs_.reset(new Pairs{sturm::FeaturePairs(query).all});
 }
 
-Reach reach_before(const Query& query, double time) {
-  const sturm::IntegerPolynomial after_time = sturm::after(time);
-  return sturm::reach_where(query, [&](const sturm::SturmRoot& t) { return t.sign(after_time) < 0; });
+SturmApproach::~SturmApproach() = default;
+
+bool SturmApproach::is_at_most_before(double time) {
+  const PlainArithmetic guard;
+  const sturm::Dyadic end = sturm::to_dyadic(time);
+  return sturm::any_pair(pairs_->all, [&](sturm::FeaturePair& pair) { return pair.is_at_most_before(end); });
+}
+
+bool SturmApproach::is_below_before(double time) {
+  const PlainArithmetic guard;
+  const sturm::Dyadic end = sturm::to_dyadic(time);
+  return sturm::any_pair(pairs_->all, [&](sturm::FeaturePair& pair) { return pair.is_below_before(end); });
 }
 
 }  // namespace nearmiss

@@ -1,23 +1,32 @@
 // The second exact method for queries with a separation h > 0.
 #pragma once
 
+#include <memory>
+
 #include "ccd/query.hpp"
 
 namespace nearmiss {
 
-/// How near two primitives come in a part of the step.
-struct Reach {
-  bool at_most = false;  ///< the distance is at most h at some time
-  bool below = false;    ///< the distance is less than h at some time
+/// How near two primitives come in a part of the step. It is exact for every finite query with h > 0, and shares no code with
+/// the first method: roots are isolated by Sturm's theorem, Tarski's queries give signs there, and derivatives give signs right
+/// behind them. They are isolated when a question needs them, and kept for the next.
+class SturmApproach {
+ public:
+  explicit SturmApproach(const Query& query);
+  ~SturmApproach();
+  SturmApproach(const SturmApproach&) = delete;
+  SturmApproach& operator=(const SturmApproach&) = delete;
 
-  bool operator==(const Reach&) const = default;
+  static constexpr double step_is_over = 2;  ///< a time after all of [0, 1]
+
+  /// Whether the distance is at most h at some t in [0, 1] with t < time.
+  bool is_at_most_before(double time);
+  /// Whether the distance is less than h at some t in [0, 1] with t < time.
+  bool is_below_before(double time);
+
+ private:
+  struct Pairs;
+  std::unique_ptr<Pairs> pairs_;
 };
-
-/// How near they come in [0, 1]. It is exact for every finite query with h > 0, and shares no code with the first method: roots
-/// are isolated by Sturm's theorem, Tarski's queries give signs there, and derivatives give signs right behind them.
-Reach reach(const Query& query);
-
-/// How near they come in [0, time), for time <= 1.
-Reach reach_before(const Query& query, double time);
 
 }  // namespace nearmiss

@@ -1,6 +1,7 @@
 #include "oracle/sturm/sturm.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 enum class ContactPlace { none, inside, at_border };
 
-ContactPlace contact_at(Primitives& primitives, const SturmRoot& t) {
+ContactPlace contact_at(Primitives& primitives, SturmRoot& t) {
   if (t.sign(primitives.area()) > 0) {
     int least = 1;
     for (const IntegerPolynomial& weight : primitives.weights()) {
@@ -29,31 +30,27 @@ ContactPlace contact_at(Primitives& primitives, const SturmRoot& t) {
 }
 
 /// The multiplicity of the root t of F.
-int multiplicity(const IntegerPolynomial& F, const SturmRoot& t) {
+int multiplicity(const IntegerPolynomial& F, SturmRoot& t) {
   int m = 1;
   for (IntegerPolynomial d = F.derivative(); !d.is_zero() && t.sign(d) == 0; d = d.derivative()) ++m;
   return m;
 }
 
 /// The times of which the first contact is one, if there is a contact: the roots of F. If F is identically zero, the set of
-/// colliding times is closed, and its least element is 0 or a root of one of the polynomials whose signs decide. Calls
-/// `holds` with each of these times until it returns true; returns whether it did.
-template <class Holds>
-bool any_candidate(Primitives& primitives, const Holds& holds) {
-  const auto any_root = [&](const IntegerPolynomial& p) {
-    const auto roots = roots_in_unit_interval(p);
-    return std::any_of(roots.begin(), roots.end(), holds);
-  };
-  if (!primitives.F().is_zero()) return any_root(primitives.F());
+/// colliding times is closed, and its least element is 0 or a root of one of the polynomials whose signs decide.
+std::vector<SturmRoot> contact_candidates(Primitives& primitives) {
+  if (!primitives.F().is_zero()) return roots_in_unit_interval(primitives.F());
   std::vector<const IntegerPolynomial*> deciding{&primitives.area()};
   for (const IntegerPolynomial& weight : primitives.weights()) deciding.push_back(&weight);
   for (const SegmentMembership& on : primitives.segments()) {
     deciding.push_back(&on.off_line);
     deciding.push_back(&on.beyond);
   }
-  return holds(SturmRoot(Dyadic{0, 0})) ||
-         std::any_of(deciding.begin(), deciding.end(),
-                     [&](const IntegerPolynomial* p) { return !p->is_zero() && any_root(*p); });
+  std::vector<SturmRoot> times{SturmRoot(Dyadic{0, 0})};
+  for (const IntegerPolynomial* p : deciding)
+    if (!p->is_zero())
+      for (SturmRoot& t : roots_in_unit_interval(*p)) times.push_back(std::move(t));
+  return times;
 }
 
 }  // namespace
@@ -64,31 +61,50 @@ RootCount count_roots(const Query& query) {
   const PlainArithmetic guard;
   Primitives primitives(query);
   RootCount count;
-  if (primitives.F().is_zero()) {
-    count.planar = true;
-    count.collision = any_candidate(
-        primitives, [&](const SturmRoot& t) { return contact_at(primitives, t) != ContactPlace::none; });
-    count.on_boundary = count.collision;
-    return count;
-  }
-  for (const SturmRoot& t : roots_in_unit_interval(primitives.F())) {
+  count.planar = primitives.F().is_zero();
+  for (SturmRoot& t : contact_candidates(primitives)) {
     const ContactPlace place = contact_at(primitives, t);
     if (place == ContactPlace::none) continue;
     count.collision = true;
-    count.on_boundary |= place == ContactPlace::at_border;
+    count.on_boundary |= count.planar || place == ContactPlace::at_border;
+    if (count.planar) break;
     ++count.distinct;
     count.with_multiplicity += multiplicity(primitives.F(), t);
   }
   return count;
 }
 
-bool meet_before(const Query& query, double time) {
-  using namespace sturm;
+struct SturmContact::Candidates {
+  struct Candidate {
+    sturm::SturmRoot t;
+    std::optional<bool> is_contact;
+  };
+
+  sturm::Primitives primitives;
+  std::vector<Candidate> all;
+
+  explicit Candidates(const Query& query) : primitives(query) {
+    for (sturm::SturmRoot& t : sturm::contact_candidates(primitives)) all.push_back({std::move(t), {}});
+  }
+
+  bool is_contact(Candidate& at) {
+    if (!at.is_contact) at.is_contact = sturm::contact_at(primitives, at.t) != sturm::ContactPlace::none;
+    return *at.is_contact;
+  }
+};
+
+SturmContact::SturmContact(const Query& query) {
   const PlainArithmetic guard;
-  Primitives primitives(query);
-  const IntegerPolynomial after_time = after(time);
-  return any_candidate(primitives, [&](const SturmRoot& t) {
-    return t.sign(after_time) < 0 && contact_at(primitives, t) != ContactPlace::none;
+  candidates_ = std::make_unique<Candidates>(query);
+}
+
+SturmContact::~SturmContact() = default;
+
+bool SturmContact::is_before(double time) {
+  const PlainArithmetic guard;
+  const sturm::Dyadic end = sturm::to_dyadic(time);
+  return std::any_of(candidates_->all.begin(), candidates_->all.end(), [&](Candidates::Candidate& each) {
+    return each.t.is_below(end) && candidates_->is_contact(each);
   });
 }
 

@@ -1,6 +1,8 @@
 // The second exact method: roots counted by Sturm sequences over the integers.
 #pragma once
 
+#include <memory>
+
 #include "ccd/query.hpp"
 
 namespace nearmiss {
@@ -22,7 +24,20 @@ struct RootCount {
 /// method.
 RootCount count_roots(const Query& query);
 
-/// Whether the primitives share a point at some t in [0, 1] with t < time, by the same method.
-bool meet_before(const Query& query, double time);
+/// The contacts of two primitives, by the same method.
+class SturmContact {
+ public:
+  explicit SturmContact(const Query& query);
+  ~SturmContact();
+  SturmContact(const SturmContact&) = delete;
+  SturmContact& operator=(const SturmContact&) = delete;
+
+  /// Whether the primitives share a point at some t in [0, 1] with t < time.
+  bool is_before(double time);
+
+ private:
+  struct Candidates;
+  std::unique_ptr<Candidates> candidates_;
+};
 
 }  // namespace nearmiss

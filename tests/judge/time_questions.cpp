@@ -7,8 +7,7 @@
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/separation.hpp"
-#include "oracle/sturm/sturm.hpp"
+#include "oracle/sturm/times.hpp"
 #include "oracle/subjects.hpp"
 #include "oracle/within_separation.hpp"
 #include "tests/judge/questions.hpp"
@@ -20,13 +19,6 @@ namespace {
 using exact::Number;
 using exact::Root;
 using Rational = boost::multiprecision::mpq_rational;
-
-/// What happens in [0, time), by the second method. For contact, both answers are the same.
-Reach reach_until(const Query& query, double time) {
-  if (query.separation > 0) return time > 1 ? reach(query) : reach_before(query, time);
-  const bool meet = meet_before(query, time);
-  return {meet, meet};
-}
 
 /// The exact times, by the first method. For contact, both are the same.
 std::optional<exact::FirstApproach> exact_times(const Query& query) {
@@ -65,22 +57,21 @@ std::string known_times_disagree(const Query& query, exact::FirstApproach& exact
 }
 
 /// Compares what a time says about other times with the second method.
-std::string comparisons_disagree(const Query& query, EarliestTime& time) {
+std::string comparisons_disagree(const Query& query, EarliestTime& time, SturmTimes& by_sturm) {
   std::set<double> others;
   for (const auto& [lo, hi] : {time.known(), known_time(query, 0).time})
     for (const double other :
          {lo / 2, below(lo), lo, above(lo), lo + (hi - lo) / 2, below(hi), hi, above(hi), (1 + hi) / 2})
       others.insert(other);
   for (const double other : others) {
-    const Reach happens = reach_until(query, other);
-    if (time.is_before(other) != happens.at_most) return "time: before";
-    if (time.makes_late(other) != happens.below) return "time: late";
+    if (time.is_before(other) != by_sturm.is_before(other)) return "time: before";
+    if (time.makes_late(other) != by_sturm.makes_late(other)) return "time: late";
   }
   return "";
 }
 
 /// Checks the enclosures of all widths.
-std::string enclosures_disagree(const Query& query, EarliestTime& time, Root& exactly) {
+std::string enclosures_disagree(const Query& query, EarliestTime& time, SturmTimes& by_sturm, Root& exactly) {
   for (const double width : {1.0, 1e-3, 1e-12, 0.0}) {
     const Enclosure enclosure = time.enclosure(width);
     if (!is_enclosure(enclosure) || !contains(enclosure, exactly)) return "time: no enclosure of it";
@@ -90,8 +81,8 @@ std::string enclosures_disagree(const Query& query, EarliestTime& time, Root& ex
   }
   const auto [lo, hi] = time.enclosure();
   if (lo < time.known().lo || time.known().hi < hi) return "time: enclosures apart";
-  if (reach_until(query, lo).at_most) return "time: too late";
-  if (!reach_until(query, above(hi)).at_most) return "time: too early";
+  if (by_sturm.is_before(lo)) return "time: too late";
+  if (!by_sturm.is_before(above(hi))) return "time: too early";
   if ((lo == hi) != (exactly.is(Number(lo)) || exactly.is(Number(hi)))) return "time: not exact";
   const std::string rational = time.rational();
   if (lo == hi && rational.empty()) return "time: no rational";
@@ -120,8 +111,9 @@ std::string time_disagreement(const Query& query, bool happens) {
   if (!happens) return "";
   if (!is_enclosure(time->known())) return "time: no enclosure";
   std::string what = known_times_disagree(query, *exactly);
-  if (what.empty()) what = comparisons_disagree(query, *time);
-  if (what.empty()) what = enclosures_disagree(query, *time, exactly->time);
+  SturmTimes by_sturm(query);
+  if (what.empty()) what = comparisons_disagree(query, *time, by_sturm);
+  if (what.empty()) what = enclosures_disagree(query, *time, by_sturm, exactly->time);
   if (what.empty() && verdict.time != time->enclosure().lo) what = "subject: time";
   return what;
 }

@@ -108,8 +108,9 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   ASSERT_TRUE(approach && approach->below);
   EXPECT_TRUE(approach->time.is(0));
   EXPECT_TRUE(approach->below->is(exact::Number(0.5)));
-  EXPECT_TRUE(reach_before(query, 0.75).below);
-  EXPECT_FALSE(reach_before(query, 0.5).below);
+  SturmApproach approach_by_sturm(query);
+  EXPECT_TRUE(approach_by_sturm.is_below_before(0.75));
+  EXPECT_FALSE(approach_by_sturm.is_below_before(0.5));
 }
 
 /// Separations of about the size of a query with coordinates up to 1, some of them exact distances of points on a grid.
@@ -129,12 +130,12 @@ void expect_agreement(const Query& query, const std::string& repeat) {
   EXPECT_LE(known.lo, narrow.lo) << repeat;
   EXPECT_GE(known.hi, narrow.hi) << repeat;
   EXPECT_LE(narrow.hi, std::nextafter(narrow.lo, 2)) << repeat;
+  SturmApproach by_sturm(query);
   for (const double at :
        {known.lo, known.hi, narrow.lo, narrow.hi, std::nextafter(narrow.hi, 2), narrow.lo / 2, 1.0}) {
     if (at > 1) continue;
-    const Reach before = reach_before(query, at);
-    EXPECT_EQ(time->is_before(at), before.at_most) << repeat << " at " << at;
-    EXPECT_EQ(time->makes_late(at), before.below) << repeat << " at " << at;
+    EXPECT_EQ(time->is_before(at), by_sturm.is_at_most_before(at)) << repeat << " at " << at;
+    EXPECT_EQ(time->makes_late(at), by_sturm.is_below_before(at)) << repeat << " at " << at;
   }
 }
 

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/integer_polynomial.hpp"
+#include "oracle/sturm/primitives.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
 
@@ -19,10 +22,10 @@ TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
   const IntegerPolynomial t({0, 1});
   const IntegerPolynomial f = t * (t - IntegerPolynomial({1})) * IntegerPolynomial({-1, 2}) *
                               IntegerPolynomial({-2, 1}) * IntegerPolynomial({-2, 0, 9});
-  const auto roots = sturm::roots_in_unit_interval(f * f);
+  auto roots = sturm::roots_in_unit_interval(f * f);
   ASSERT_EQ(roots.size(), 4);
   int below_half = 0;
-  for (const auto& root : roots) {
+  for (auto& root : roots) {
     EXPECT_EQ(root.sign(f), 0);
     below_half += root.sign(IntegerPolynomial({-1, 2})) < 0 ? 1 : 0;
   }
@@ -32,7 +35,7 @@ TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
 TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
   // 2^602 ((t - 1/2)² - 2^-600)
   const Integer scale = Integer(1) << 602;
-  const auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({scale / 4 - 4, -scale, scale}));
+  auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({scale / 4 - 4, -scale, scale}));
   ASSERT_EQ(roots.size(), 2);
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({-1, 2})) * roots[1].sign(IntegerPolynomial({-1, 2})), -1);
 }
@@ -40,11 +43,34 @@ TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
 TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
   // f = -(3t - 1)(t - 3): one root, 1/3, in [0, 1]; 1 - 4t is negative there.
   const IntegerPolynomial f({-3, 10, -3});
-  const auto roots = sturm::roots_in_unit_interval(f);
+  auto roots = sturm::roots_in_unit_interval(f);
   ASSERT_EQ(roots.size(), 1);
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({1, -4})), -1);
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({-1, 3})), 0);
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({0, 0, 0, 0, 1})), 1);
+}
+
+TEST(IntegerPolynomial, ComparesRootsWithNumbers) {
+  // (2t - 1) (9t² - 2): the roots are 1/2 and √2/3 = 0.4714..., of which a double is nearest to the second.
+  auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({-1, 2}) * IntegerPolynomial({-2, 0, 9}));
+  ASSERT_EQ(roots.size(), 2);
+  if (roots[0].is_below({1, 1})) std::swap(roots[0], roots[1]);
+  auto& half = roots[0];
+  auto& irrational = roots[1];
+  const double nearest = std::sqrt(2) / 3;
+  const auto expect_order = [&] {
+    EXPECT_FALSE(half.is_below({0, 0}));
+    EXPECT_FALSE(half.is_below({1, 1}));
+    EXPECT_TRUE(half.is_below(sturm::to_dyadic(std::nextafter(0.5, 1))));
+    EXPECT_TRUE(half.is_below({1, 0}));
+    EXPECT_FALSE(irrational.is_below(sturm::to_dyadic(std::nextafter(nearest, 0))));
+    EXPECT_TRUE(irrational.is_below(sturm::to_dyadic(std::nextafter(nearest, 1))));
+  };
+  expect_order();
+  // These questions narrow the intervals.
+  EXPECT_EQ(half.sign(IntegerPolynomial({-1, 2})), 0);
+  EXPECT_EQ(irrational.sign(IntegerPolynomial({-2, 0, 9})), 0);
+  expect_order();
 }
 
 TEST(CountRoots, OneTwoAndThree) {
