@@ -156,10 +156,11 @@ Query degenerate(Random& random, Kind kind) {
   return query;
 }
 
-/// Every coordinate is an integer in -3 .. 3, which gives coincidences of all sorts.
+/// Every coordinate is an integer in -most .. most, which gives coincidences of all sorts.
+template <int most>
 Query small_integer(Random& random, Kind kind) {
   Query query{.kind = kind};
-  for (double& c : query.x) c = random.integer(-3, 3);
+  for (double& c : query.x) c = random.integer(-most, most);
   return query;
 }
 
@@ -185,7 +186,9 @@ std::vector<Family> random_families() {
       plain("sliver", "thin triangles and nearly parallel edges", sliver),
       plain("planar", "everything stays in one plane: F is zero identically", planar),
       plain("small-integer", "coordinates are integers in -3 .. 3: touching, coplanar, coincident",
-            small_integer),
+            small_integer<3>),
+      plain("unit-integer", "coordinates are -1, 0 or 1: most queries touch or are degenerate",
+            small_integer<1>),
       plain("degenerate", "small integers with coincident points and points at rest", degenerate),
   };
 }

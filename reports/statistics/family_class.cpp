@@ -10,13 +10,14 @@ namespace {
 constexpr std::array<std::string_view, 6> ordinary{"uniform", "uniform-end", "uniform-slow",
                                                    "mesh",    "floats",      "kilometres"};
 
-constexpr std::array<std::string_view, 32> degenerate{"planted",
+constexpr std::array<std::string_view, 33> degenerate{"planted",
                                                       "planted-ulp",
                                                       "grazing",
                                                       "parallel",
                                                       "sliver",
                                                       "planar",
                                                       "small-integer",
+                                                      "unit-integer",
                                                       "degenerate",
                                                       "decimals",
                                                       "near-parallel-edges",

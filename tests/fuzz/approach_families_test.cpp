@@ -9,7 +9,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/separation.hpp"
+#include "oracle/sturm/times.hpp"
 #include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {
@@ -21,6 +21,15 @@ using testing::count_of_400;
 using testing::first_queries;
 using testing::longest_edge;
 using Closest = ApproachFeatures::Closest;
+
+constexpr double after_the_step = 2;
+
+/// Whether the distance first reaches h at `time`, and falls below it at once.
+void expect_above_before_and_below_after(const Query& query, double time) {
+  SturmTimes by_sturm(query);
+  EXPECT_FALSE(by_sturm.is_before(time));
+  EXPECT_TRUE(by_sturm.makes_late(std::nextafter(time, 2)));
+}
 
 std::string at(const char* family, int x) { return std::string(family) + "@" + std::to_string(x); }
 
@@ -46,7 +55,9 @@ TEST_P(SeparationFamily, FiltersAndBothExactMethodsAgree) {
     const Decision decision = decide(query);
     EXPECT_EQ(decision.collision, exact.collision);
     EXPECT_EQ(decision.is_tie, exact.is_tie);
-    EXPECT_EQ(reach(query), (Reach{exact.collision || exact.is_tie, exact.collision}));
+    SturmTimes by_sturm(query);
+    EXPECT_EQ(by_sturm.is_before(after_the_step), exact.collision || exact.is_tie);
+    EXPECT_EQ(by_sturm.makes_late(after_the_step), exact.collision);
   }
 }
 
@@ -97,7 +108,9 @@ TEST(TiedSeparation, HalfAreTiesAndTheOthersAreTiesBeforeTheSeparationIsMoved) {
       const double h = query.separation;
       if (is_tie(query, h)) {
         ++ties;
-        EXPECT_EQ(reach(query), (Reach{true, false}));
+        SturmTimes by_sturm(query);
+        EXPECT_TRUE(by_sturm.is_before(after_the_step));
+        EXPECT_FALSE(by_sturm.makes_late(after_the_step));
       } else {
         EXPECT_NE(is_tie(query, moved_by_ulps(h, x)), is_tie(query, moved_by_ulps(h, -x)));
       }
@@ -151,8 +164,7 @@ TEST(ReachedSeparation, TheTimeHasTheBinaryPlacesOfTheParameter) {
 TEST(ReachedSeparation, TheDistanceIsAboveHBeforeAndBelowHAfter) {
   for (const Query& query : first_queries("reached-separation", 200)) {
     const double time = first_time(query);
-    EXPECT_EQ(reach_before(query, time), (Reach{false, false}));
-    EXPECT_EQ(reach_before(query, std::nextafter(time, 2)), (Reach{true, true}));
+    expect_above_before_and_below_after(query, time);
   }
 }
 
@@ -161,8 +173,7 @@ TEST(SlowApproach, TheDistanceFallsToHInsideTheStep) {
     for (const Query& query : first_queries(at("slow-approach", x), 200)) {
       const double time = first_time(query);
       EXPECT_EQ(16 * time, std::floor(16 * time));
-      EXPECT_EQ(reach_before(query, time), (Reach{false, false}));
-      EXPECT_EQ(reach_before(query, std::nextafter(time, 2)), (Reach{true, true}));
+      expect_above_before_and_below_after(query, time);
     }
 }
 

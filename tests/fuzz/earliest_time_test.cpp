@@ -10,8 +10,8 @@
 
 #include "fuzz/families/families.hpp"
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/separation.hpp"
 #include "oracle/sturm/sturm.hpp"
+#include "oracle/sturm/times.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 
@@ -34,21 +34,6 @@ INSTANTIATE_TEST_SUITE_P(All, EarliestTimes,
                          ::testing::ValuesIn(all_families().begin(), all_families().end()),
                          testing::name_of_test);
 
-/// The second method's answers to the questions of EarliestTime about [0, time).
-struct Happened {
-  bool at_most;  ///< contact, or a distance of at most h
-  bool below;    ///< contact, or a distance below h
-};
-
-Happened before(const Query& query, double time) {
-  if (query.separation == 0) {
-    const bool contact = meet_before(query, time);
-    return {contact, contact};
-  }
-  const auto [at_most, below] = time > 1 ? reach(query) : reach_before(query, time);
-  return {at_most, below};
-}
-
 TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
   const Family& family = GetParam();
   const std::uint64_t count = family.block_cases < 25 ? 20 : 200;
@@ -61,10 +46,10 @@ TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
     EXPECT_LE(known.lo, narrow.lo) << i;
     EXPECT_LE(narrow.hi, known.hi) << i;
     EXPECT_LE(narrow.hi, above(narrow.lo)) << i;
+    SturmTimes by_sturm(query);
     for (const double at : times_around(known, narrow)) {
-      const Happened happened = before(query, at);
-      EXPECT_EQ(time->is_before(at), happened.at_most) << family.name << ':' << i << " at " << at;
-      EXPECT_EQ(time->makes_late(at), happened.below) << family.name << ':' << i << " at " << at;
+      EXPECT_EQ(time->is_before(at), by_sturm.is_before(at)) << family.name << ':' << i << " at " << at;
+      EXPECT_EQ(time->makes_late(at), by_sturm.makes_late(at)) << family.name << ':' << i << " at " << at;
     }
   }
 }
@@ -102,8 +87,9 @@ TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
     if (!time || !(time->known().hi < 1)) continue;
     const RootCount roots = count_roots(query);
     later += roots.distinct > 1 ? 1 : 0;
-    EXPECT_FALSE(meet_before(query, time->known().lo)) << i;
-    EXPECT_TRUE(meet_before(query, above(time->known().hi))) << i;
+    SturmTimes by_sturm(query);
+    EXPECT_FALSE(by_sturm.is_before(time->known().lo)) << i;
+    EXPECT_TRUE(by_sturm.is_before(above(time->known().hi))) << i;
   }
   EXPECT_GT(later, 100);
 }
@@ -115,11 +101,11 @@ TEST(EarliestTime, NeedsAContact) {
   EXPECT_FALSE(earliest_time(query));
 }
 
-TEST(MeetBefore, ComparesWithTimesOfAnySize) {
-  const Query query = falling();
+TEST(SturmTimes, AreComparedWithTimesOfAnySize) {
+  SturmTimes by_sturm(falling());
   for (const double time : {-1.0, 0.0, 0x1p-1074, 0.25, 0.375})
-    EXPECT_FALSE(meet_before(query, time)) << time;
-  for (const double time : {above(0.375), 1.0, 3.0, 0x1p60}) EXPECT_TRUE(meet_before(query, time)) << time;
+    EXPECT_FALSE(by_sturm.is_before(time)) << time;
+  for (const double time : {above(0.375), 1.0, 3.0, 0x1p60}) EXPECT_TRUE(by_sturm.is_before(time)) << time;
 }
 
 }  // namespace

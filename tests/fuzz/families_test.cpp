@@ -76,6 +76,7 @@ TEST_P(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
       {"sliver", 0x8f6615bf8edcd37a},
       {"planar", 0x79b70d5d5080ceee},
       {"small-integer", 0x5ff28ae8897b3d34},
+      {"unit-integer", 0xfdfecb83791de02f},
       {"degenerate", 0x09b99353cfe012e2},
       {"stiff", 0x2802db844ad3bd2f},
       {"aspect", 0x4d28aa5db5fd6a9e},

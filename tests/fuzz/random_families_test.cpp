@@ -101,17 +101,20 @@ TEST(Planar, FIsZeroIdentically) {
   EXPECT_EQ(count_of_400("planar", [](const Query& query) { return count_roots(query).planar; }), 400);
 }
 
-TEST(SmallInteger, CoordinatesAreIntegersUpToThree) {
+void expect_integers(const std::string& family, double up_to) {
   double largest = 0;
-  EXPECT_EQ(count_of_400("small-integer",
+  EXPECT_EQ(count_of_400(family,
                          [&](const Query& query) {
                            largest = std::max(largest, largest_coordinate(query));
                            return std::all_of(query.x.begin(), query.x.end(),
                                               [](double c) { return c == std::nearbyint(c); });
                          }),
             400);
-  EXPECT_EQ(largest, 3);
+  EXPECT_EQ(largest, up_to);
 }
+
+TEST(SmallInteger, CoordinatesAreIntegersUpToThree) { expect_integers("small-integer", 3); }
+TEST(UnitInteger, CoordinatesAreIntegersUpToOne) { expect_integers("unit-integer", 1); }
 
 TEST(Degenerate, PointsCoincideOrRest) {
   EXPECT_GT(count_of_400("degenerate",

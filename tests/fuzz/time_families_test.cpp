@@ -39,7 +39,7 @@ bool is_sixteenths(double time) { return 16 * time == std::floor(16 * time); }
 std::ptrdiff_t roots_before(const Query& query, double time) {
   const auto roots = sturm::roots_in_unit_interval(sturm::Primitives(query).F());
   return std::count_if(roots.begin(), roots.end(),
-                       [&](const sturm::SturmRoot& root) { return root.sign(sturm::after(time)) < 0; });
+                       [&](const sturm::SturmRoot& root) { return root.is_below(sturm::to_dyadic(time)); });
 }
 
 // --- close-roots ----------------------------------------------------------------------------------------

@@ -100,7 +100,8 @@ std::vector<Family> hunted_families() {
     hunted.push_back(family);
     hunted.push_back(with_separation(family, drawn_separation));
     for (const char* const h : {"0.25", "0.5", "1"})
-      if (family.name == "small-integer") hunted.push_back(with_separation(family, h));
+      if (family.name == "small-integer" || family.name == "unit-integer")
+        hunted.push_back(with_separation(family, h));
   }
   hunted.insert(hunted.end(), separation_families().begin(), separation_families().end());
   return hunted;
