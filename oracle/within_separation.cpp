@@ -3,6 +3,7 @@
 #include "ccd/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/conversion.hpp"
+#include "oracle/distance/quick_search.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/filter/planes.hpp"
 
@@ -19,6 +20,14 @@ KnownApproach known_approach(const Query& query, double width) {
     return {FilterStage::planes};
   const VertexDifferences differences(query);
   const Conversion to_distance(1, differences.exponent());
+  QuickSearch search(differences, to_distance.below_multiple(h), to_distance.at_least(above(h)));
+  const FirstTime quick = search.decide();
+  if (quick.never) return {FilterStage::apart};
+  if (quick.comes) {
+    if (width >= 1) return {FilterStage::within, quick.time};
+    const FirstTime narrow = search.narrow(quick, width);
+    if (narrow.time.hi - narrow.time.lo <= width) return {FilterStage::within, narrow.time};
+  }
   const FirstTime first =
       first_time_below(differences, to_distance.below_multiple(h), to_distance.at_least(above(h)), width);
   if (first.never) return {FilterStage::apart};
