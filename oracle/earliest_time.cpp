@@ -77,9 +77,9 @@ struct EarliestTime::Exact {
   }
 };
 
-EarliestTime::EarliestTime(const Query& query) : query_(query) {
+EarliestTime::EarliestTime(const Query& query, const std::optional<KnownApproach>& known) : query_(query) {
   if (query.separation > 0) {
-    const KnownApproach approach = known_approach(query, rough_time);
+    const KnownApproach approach = narrowed(query, known ? *known : known_approach(query), rough_time);
     is_certified_ = approach.stage == FilterStage::within;
     rough_ = {approach.time, is_certified_ && approach.time.hi > 0};
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();

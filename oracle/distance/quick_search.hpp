@@ -1,4 +1,4 @@
-// The search for the first time at which the distance is below a bound, in double, for the many queries that are easy.
+// The search for the first time at which the distance is below a bound, for the many queries that need only a few times in double.
 #pragma once
 
 #include <array>
@@ -6,49 +6,57 @@
 
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/closest.hpp"
-#include "oracle/distance/separation.hpp"
 
 namespace nearmiss::certified {
 
-/// Looks at a few times of the step in double. It keeps the parts of the step that no certified bound covers, and looks into the
-/// first of them until nothing is left or the distance is below `low` at some time. It gives up early, because DistanceSearch
-/// decides what remains.
+/// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that no certified bound
+/// covers, and looks into the first gap until none is left or the distance is below `low` at some time. It gives up early,
+/// because DistanceSearch decides what remains.
 class QuickSearch {
  public:
-  /// As for first_time_below().
+  /// The bounds are those of first_time_below().
   QuickSearch(const VertexDifferences& differences, double low, double required)
       : differences_(differences), low_(low), required_(required) {}
 
-  /// Whether the distance falls below `low`. If it does, the time contains the first such time. Neither `never` nor `comes` is
-  /// set if the search gives up.
+  /// Whether the distance falls below `low`. If so, the enclosure contains the first such time, and the distance is at least
+  /// `required` before it. If the search gives up, neither `never` nor `comes` is set.
   FirstTime decide();
 
-  /// Encloses the first time in at most `width`, from what decide() found; gives it back if the search gives up.
+  /// Narrows an enclosure that decide() or first_time_below() found to at most `width`. If the search gives up, the enclosure
+  /// remains as it is.
   FirstTime narrow(const FirstTime& known, double width);
 
  private:
-  /// An open part of the step that no certified bound covers, and the time to look at next.
+  /// The open interval (lo, hi), in which the search looks at `guess` next.
   struct Gap {
     double lo, hi, guess;
   };
   static constexpr std::size_t most_gaps = 8;
-  static constexpr int most_times = 16;
+  static constexpr int most_times = 24;
 
-  /// Looks at a time in the first gap, which is replaced by what the bounds around this time leave of it. False if the search must
-  /// give up.
+  /// Starts with one gap.
+  void start(const Gap& gap);
+  /// Adds a gap before all others; `covered` is the length that the bound which ends at the gap covers, and `nearest` a time at
+  /// which the distance may be least. False if there are too many gaps.
+  bool add(double lo, double hi, double nearest, double guess);
+  [[nodiscard]] const Gap& first_gap() const { return gaps_[count_ - 1]; }
+
+  /// Looks at a time in the first gap. If the distance is below `low` there, the gap ends there, and the others are dropped. Else
+  /// the gap is replaced by what the bounds around this time leave of it. False if that is all of it, or too many gaps.
   bool look_into_first_gap();
-  /// Estimates when the distance falls below `low_` in a gap at whose end it is below.
-  [[nodiscard]] double crossing_in(const Gap& gap) const;
-  [[nodiscard]] bool is_low(double t) const;
-
-  bool push(double lo, double hi, double guess);
+  /// Before a time at which the distance is low, shortens the first gap to the time at which the distance falls below `low`, or
+  /// chooses the time to look at.
+  void look_for_crossing(double width);
+  /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0 if it may be low from
+  /// the beginning.
+  [[nodiscard]] double crossing() const;
 
   const VertexDifferences& differences_;
   double low_, required_;
-  std::array<Gap, most_gaps> gaps_{};  ///< the first one is the last in this list
-  std::size_t gap_count_ = 0;
+  std::array<Gap, most_gaps> gaps_{};  ///< from the last to the first
+  std::size_t count_ = 0;
   bool comes_ = false;
-  double low_time_ = 1;  ///< if it comes, a time at which the distance certainly is below `low_`
+  double low_time_ = 1;  ///< if it comes, a time at which the distance certainly is below `low`
 };
 
 }  // namespace nearmiss::certified
