@@ -59,7 +59,7 @@ KnownApproach known_approach(const Query& query) {
     return {FilterStage::planes};
   const FirstTime first = ApproachSearch(query).decide();
   if (first.never) return {FilterStage::apart};
-  return {first.comes ? FilterStage::within : FilterStage::undecided, first.time};
+  return {first.comes ? FilterStage::within : FilterStage::undecided, first.time, first.estimate};
 }
 
 KnownApproach narrowed(const Query& query, const KnownApproach& known, double width) {
@@ -67,7 +67,7 @@ KnownApproach narrowed(const Query& query, const KnownApproach& known, double wi
   const bool is_open = known.stage == FilterStage::within || known.stage == FilterStage::undecided;
   if (!is_open || known.time.hi - known.time.lo <= width || !is_finite(query)) return known;
   const bool comes = known.stage == FilterStage::within;
-  return {known.stage, ApproachSearch(query).narrow({.comes = comes, .time = known.time}, width).time};
+  return {known.stage, ApproachSearch(query).narrow({.comes = comes, .time = known.time, .estimate = known.estimate}, width).time};
 }
 
 }  // namespace nearmiss

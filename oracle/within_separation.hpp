@@ -15,6 +15,7 @@ struct KnownApproach {
   /// Unless it is always above h: contains the earliest time at which it is at most h, and that at which it falls below h,
   /// if there are such times.
   Enclosure time{0, 1};
+  double estimate = 1;  ///< of this time, not certain
 };
 
 /// Boxes, planes, and the search for a time at which the distance is below h. The enclosure of the time is as wide as that search

@@ -78,7 +78,8 @@ bool QuickSearch::look_into_first_gap() {
   if (upper_bound(closest, differences_) < low_) {
     comes_ = true;
     low_time_ = t;
-    start({lo, t, lo});
+    const double estimate = t + time_to_enter(closest.difference, approach_velocity(x, closest), low_);
+    start({lo, t, lo < estimate && estimate < t ? estimate : t});
     return true;
   }
   --count_;
@@ -90,7 +91,9 @@ bool QuickSearch::look_into_first_gap() {
   // Times are at most 1, so each of the two roundings in t + ahead - rounding is at most 2^-54.
   constexpr double rounding = 0x1p-53;
   constexpr double up = 1 + 0x1p-48;
-  if (t < hi) {
+  if (comes_ && hi == low_time_ && hi - t <= width_) {
+    gaps_[count_++] = {t, hi, t};  // narrow enough
+  } else if (t < hi) {
     const double most = (hi - t) * up;
     const double ahead = certified_reach(separation, required_, 1, most);
     const double covered = t + ahead - rounding;
@@ -112,7 +115,7 @@ double QuickSearch::crossing() const {
   constexpr double short_step = 0x1p-18;  // its square is far below the width of a rough enclosure
   double before = first_gap().lo;
   double behind = first_gap().hi;
-  double t = behind;
+  double t = std::clamp(first_gap().guess, before, behind);
   for (int i = 0; i < most_steps; ++i) {
     const VerticesAt<double> x(differences_, t);
     const ClosestPoints<double> closest = closest_points(x);
@@ -127,10 +130,10 @@ double QuickSearch::crossing() const {
   return t;
 }
 
-void QuickSearch::look_for_crossing(double width) {
+void QuickSearch::look_for_crossing() {
   Gap& gap = gaps_[count_ - 1];
   const double t = crossing();
-  const double half = 0.45 * width;
+  const double half = 0.45 * width_;
   const double after = t + half;
   if (t > 0 && after < gap.hi &&
       upper_bound(closest_points(VerticesAt<double>(differences_, after)), differences_) < low_)
@@ -142,7 +145,7 @@ FirstTime QuickSearch::decide() {
   start({0, 1, time_of_nearest_centres(differences_)});
   for (int i = 0; i < most_times; ++i) {
     if (!look_into_first_gap()) return {};
-    if (comes_) return {.comes = true, .time = {first_gap().lo, low_time_}};
+    if (comes_) return {.comes = true, .time = {first_gap().lo, low_time_}, .estimate = first_gap().guess};
     if (count_ == 0) return {.never = true, .time = {1, 1}};
   }
   return {};
@@ -151,11 +154,12 @@ FirstTime QuickSearch::decide() {
 FirstTime QuickSearch::narrow(const FirstTime& known, double width) {
   comes_ = true;
   low_time_ = known.time.hi;
-  start({known.time.lo, low_time_, known.time.lo});
+  width_ = width;
+  start({known.time.lo, low_time_, known.estimate});
   for (int i = 0; i < most_times && count_ > 0; ++i) {
     if (first_gap().hi == low_time_) {
-      if (low_time_ - first_gap().lo <= width) return {.comes = true, .time = {first_gap().lo, low_time_}};
-      look_for_crossing(width);
+      if (low_time_ - first_gap().lo <= width_) return {.comes = true, .time = {first_gap().lo, low_time_}};
+      look_for_crossing();
     }
     if (!look_into_first_gap()) break;
   }

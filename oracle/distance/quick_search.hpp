@@ -46,7 +46,7 @@ class QuickSearch {
   bool look_into_first_gap();
   /// Before a time at which the distance is low, shortens the first gap to the time at which the distance falls below `low`, or
   /// chooses the time to look at.
-  void look_for_crossing(double width);
+  void look_for_crossing();
   /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0 if it may be low from
   /// the beginning.
   [[nodiscard]] double crossing() const;
@@ -56,6 +56,7 @@ class QuickSearch {
   std::array<Gap, most_gaps> gaps_{};  ///< from the last to the first
   std::size_t count_ = 0;
   bool comes_ = false;
+  double width_ = 0;     ///< for narrow()
   double low_time_ = 1;  ///< if it comes, a time at which the distance certainly is below `low`
 };
 

@@ -16,8 +16,9 @@ VertexDifferences::VertexDifferences(const Query& query)
   double largest = 0;
   // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their magnitudes, are finite.
   const auto subtract = [&](double factor) {
-    largest = 0;
-    std::array<double, 3> sums{};  // by component, so that the additions do not wait for each other
+    // By component, so that the operations do not wait for each other.
+    Vec<double> most{};
+    Vec<double> sums{};
     for (std::size_t pair = 0; pair < pairs.size(); ++pair)
       for (std::size_t time = 0; time < 2; ++time)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -25,8 +26,9 @@ VertexDifferences::VertexDifferences(const Query& query)
           const DoubleWord value = two_sum(coordinate(pairs[pair][0]), -coordinate(pairs[pair][1]));
           pairs_[pair].at[time][k] = value;
           sums[k] += std::abs(value.hi) + std::abs(value.lo);
-          largest = std::max(largest, std::abs(value.hi));
+          most[k] = std::max(most[k], std::abs(value.hi));
         }
+    largest = std::max({most[0], most[1], most[2]});
     return std::isfinite(sums[0] + sums[1] + sums[2]);
   };
   if (!subtract(1)) {
