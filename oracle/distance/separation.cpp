@@ -31,7 +31,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
 /// About the first root above 0 of a cubic that is positive at 0; nothing if a step shows that there is none.
 std::optional<double> first_root(const Powers<double>& p) {
   const auto& [c0, c1, c2, c3] = p.c;
-  if (c3 != 0) return root_near_zero(p);
+  constexpr double accuracy = 1e-4;
+  if (c3 != 0) return root_near_zero(p, accuracy);
   const double discriminant = c1 * c1 - 4 * c0 * c2;
   if (!(discriminant >= 0)) return std::nullopt;
   return 2 * c0 / (std::sqrt(discriminant) - c1);
