@@ -67,7 +67,9 @@ KnownApproach narrowed(const Query& query, const KnownApproach& known, double wi
   const bool is_open = known.stage == FilterStage::within || known.stage == FilterStage::undecided;
   if (!is_open || known.time.hi - known.time.lo <= width || !is_finite(query)) return known;
   const bool comes = known.stage == FilterStage::within;
-  return {known.stage, ApproachSearch(query).narrow({.comes = comes, .time = known.time, .estimate = known.estimate}, width).time};
+  return {known.stage, ApproachSearch(query)
+                           .narrow({.comes = comes, .time = known.time, .estimate = known.estimate}, width)
+                           .time};
 }
 
 }  // namespace nearmiss

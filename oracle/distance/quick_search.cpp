@@ -98,45 +98,50 @@ bool QuickSearch::look_into_first_gap() {
     const double ahead = certified_reach(separation, required_, 1, most);
     const double covered = t + ahead - rounding;
     if (!(covered > t)) return false;
-    if (ahead < most && covered < hi && !add(covered, hi, nearest, covered + offset_into(hi - covered, ahead))) return false;
+    if (ahead < most && covered < hi &&
+        !add(covered, hi, nearest, covered + offset_into(hi - covered, ahead)))
+      return false;
   }
   if (lo < t) {
     const double most = (t - lo) * up;
     const double behind = certified_reach(separation, required_, -1, most);
     const double covered = t - behind + rounding;
     if (!(covered < t)) return false;
-    if (behind < most && lo < covered && !add(lo, covered, nearest, covered - offset_into(covered - lo, behind))) return false;
+    if (behind < most && lo < covered &&
+        !add(lo, covered, nearest, covered - offset_into(covered - lo, behind)))
+      return false;
   }
   return true;
 }
 
-double QuickSearch::crossing() const {
+QuickSearch::Crossing QuickSearch::crossing() const {
   constexpr int most_steps = 8;
   constexpr double short_step = 0x1p-18;  // its square is far below the width of a rough enclosure
   double before = first_gap().lo;
   double behind = first_gap().hi;
   double t = std::clamp(first_gap().guess, before, behind);
+  ClosestPoints<double> closest;
   for (int i = 0; i < most_steps; ++i) {
     const VerticesAt<double> x(differences_, t);
-    const ClosestPoints<double> closest = closest_points(x);
+    closest = closest_points(x);
     (closest.squared_distance < low_ * low_ ? behind : before) = t;
     const double step = time_to_enter(closest.difference, approach_velocity(x, closest), low_);
     const double next = t + step;
-    if (next <= 0 && before == 0) return 0;
+    if (next <= 0 && before == 0) return {0, closest.features};
     const bool is_inside = before < next && next < behind;
     t = is_inside ? next : before + 0.5 * (behind - before);
     if (is_inside && std::abs(step) < short_step) break;
   }
-  return t;
+  return {t, closest.features};
 }
 
 void QuickSearch::look_for_crossing() {
   Gap& gap = gaps_[count_ - 1];
-  const double t = crossing();
+  const auto [t, features] = crossing();
   const double half = 0.45 * width_;
   const double after = t + half;
   if (t > 0 && after < gap.hi &&
-      upper_bound(closest_points(VerticesAt<double>(differences_, after)), differences_) < low_)
+      upper_bound(closest_points_of(VerticesAt<double>(differences_, after), features), differences_) < low_)
     low_time_ = gap.hi = after;
   gap.guess = std::max(t - half, gap.lo);
 }

@@ -31,6 +31,10 @@ class QuickSearch {
   struct Gap {
     double lo, hi, guess;
   };
+  struct Crossing {
+    double time;
+    ClosestFeatures features;  ///< of the closest points about then
+  };
   static constexpr std::size_t most_gaps = 8;
   static constexpr int most_times = 24;
 
@@ -49,7 +53,7 @@ class QuickSearch {
   void look_for_crossing();
   /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0 if it may be low from
   /// the beginning.
-  [[nodiscard]] double crossing() const;
+  [[nodiscard]] Crossing crossing() const;
 
   const VertexDifferences& differences_;
   double low_, required_;
