@@ -88,15 +88,13 @@ bool QuickSearch::look_into_first_gap() {
   const double nearest = squared_speed > 0 ? t - dot(closest.difference, v) / squared_speed : t;
   const Separation separation =
       separate_by_features(x, closest.features, detail::direction_of(to_double(closest.difference)));
-  // Times are at most 1, so each of the two roundings in t + ahead - rounding is at most 2^-54.
-  constexpr double rounding = 0x1p-53;
   constexpr double up = 1 + 0x1p-48;
   if (comes_ && hi == low_time_ && hi - t <= width_) {
     gaps_[count_++] = {t, hi, t};  // narrow enough
   } else if (t < hi) {
     const double most = (hi - t) * up;
     const double ahead = certified_reach(separation, required_, 1, most);
-    const double covered = t + ahead - rounding;
+    const double covered = t + ahead - time_rounding;
     if (!(covered > t)) return false;
     if (ahead < most && covered < hi &&
         !add(covered, hi, nearest, covered + offset_into(hi - covered, ahead)))
@@ -105,7 +103,7 @@ bool QuickSearch::look_into_first_gap() {
   if (lo < t) {
     const double most = (t - lo) * up;
     const double behind = certified_reach(separation, required_, -1, most);
-    const double covered = t - behind + rounding;
+    const double covered = t - behind + time_rounding;
     if (!(covered < t)) return false;
     if (behind < most && lo < covered &&
         !add(lo, covered, nearest, covered - offset_into(covered - lo, behind)))

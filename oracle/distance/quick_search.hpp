@@ -9,6 +9,11 @@
 
 namespace nearmiss::certified {
 
+/// What the end t + a or t - a of a covered range is moved inward, because it is rounded. Ends are in [0, 1], where the two
+/// roundings, of the sum and of this correction, are at most 2^-54 each. A sum above 1 covers the step up to its end, and a
+/// difference below 0 covers it from its beginning.
+inline constexpr double time_rounding = 0x1p-53;
+
 /// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that no certified bound
 /// covers, and looks into the first gap until none is left or the distance is below `low` at some time. It gives up early,
 /// because DistanceSearch decides what remains.
