@@ -22,7 +22,8 @@ double time_of_nearest_centres(const VertexDifferences& differences) {
       }
   const Vec<double> moved = end - start;
   const double squared = dot(moved, moved);
-  return squared > 0 ? std::clamp(-dot(start, moved) / squared, 0.0, 1.0) : 0;
+  // The order of the arguments of max turns -0 into 0.
+  return squared > 0 ? std::min(std::max(0.0, -dot(start, moved) / squared), 1.0) : 0;
 }
 
 /// The velocity of the closest points relative to each other, without its component along an edge. For interiors, only the
