@@ -100,7 +100,8 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "'pipe:COMMAND' "
       "(fuzz/subjects/PROGRAMS.md).");
   command->callback([options] {
-    for (const std::string& name : options->plugins) options->targets ? print_targets(name) : describe(name);
+    const auto print_about = options->targets ? print_targets : describe;
+    for (const std::string& name : options->plugins) print_about(name);
     if (options->peers)
       for (const Peer& peer : peers())
         if (is_built(peer)) fmt::print("{}\n", peer.name);
