@@ -70,6 +70,16 @@ TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
   EXPECT_EQ(read_json("b.json")["results"][0]["queries"], 1);
 }
 
+TEST_F(SeparationOption, ZeroAsksForContact) {
+  const auto campaign = [&](const std::string& option) {
+    const std::string json = "c" + std::to_string(option.size()) + ".json";
+    EXPECT_EQ(run("fuzz --subject wang --family uniform --cases 100 --json " + json + option).code, 0);
+    return read_json(json)["subjects"]["wang"]["vt"]["collisions"];
+  };
+  EXPECT_EQ(campaign(" --separation 0"), campaign(""));
+  EXPECT_EQ(campaign(" --separation 0x0p+0"), campaign(""));
+}
+
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {
   write("one.vt", hit);
   EXPECT_EQ(run("shrink one.vt" + promises).code, 2);  // contact at t = 1/2 is not before
