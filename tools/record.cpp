@@ -87,7 +87,8 @@ Record::~Record() {
   if (saved_) return;
   store_.reset();
   std::error_code ignored;
-  std::filesystem::remove(options_.db, ignored);
+  for (const char* part : {"", "-wal", "-shm"})  // the log stays behind if the disk is full
+    std::filesystem::remove(options_.db.string() + part, ignored);
 }
 
 /// Makes the store. Throws Error if it exists.

@@ -7,6 +7,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 class SeparationOption : public testing::CommandLine {
  protected:
@@ -50,11 +51,28 @@ TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
     for (const char* other : {"-1", "nan", "inf", "x"})
       expect_refused(command + " --separation=" + other, {"--separation", other});
   for (const std::string command : {"verdict --kind vt q.vt", "bench q.vt --json new.json", "shrink one.vt",
-                                    "fuzz --cases 10 --db new.db"})
+                                    "fuzz --cases 10 --db new.db", "replay q.vt --db new.db"})
     expect_refused(command + " --subject wang --separation 0.5", {"wang: answers for contact only"});
   write("own.vt", hit + with(hit, "0.5"));
   expect_refused("bench own.vt --subject exact,wang", {"wang: answers for contact only"});
   expect_refused("verdict --kind vt --subject wang own.vt", {"wang: answers for contact only"});
+}
+
+TEST_F(SeparationOption, IsNeverZeroInACampaign) {
+  const std::string campaign = "fuzz --cases 10 --subject exact --separation=";
+  for (const char* text : {"0", "-0", "1e-400", "nan", "0.5,1"})
+    expect_refused(campaign + text, {"--separation: found"});
+  EXPECT_THAT(run("fuzz --help").out, Not(HasSubstr("0 asks for contact")));
+  EXPECT_THAT(run("replay --help").out, HasSubstr("0 asks for contact"));
+}
+
+TEST_F(SeparationOption, ReplaySaysWhoIsNotAsked) {
+  write("own.vt", hit + with(hit, "0.5"));
+  EXPECT_THAT(
+      run("replay own.vt --subject exact,wang").out,
+      HasSubstr("wang: not asked about 1 case with a separation, because it answers for contact only\n"));
+  EXPECT_THAT(run("replay own.vt --subject exact").out, Not(HasSubstr("not asked")));
+  EXPECT_THAT(run("replay own.vt --separation 0 --subject wang").out, Not(HasSubstr("not asked")));
 }
 
 TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
