@@ -56,7 +56,6 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
 /// The families chosen with --family, --sweep, --mesh and --search.
 std::vector<Family> chosen_families(const CampaignOptions& options, const Subjects& subjects,
                                     const Stop& stop) {
-  if (options.separation.is_given()) (void)parse_family_separation(options.separation.text, "--separation");
   std::vector<Family> known(families().begin(), families().end());
   if (!options.mesh.empty())
     known.push_back(mesh_family(moving_mesh(scene_of_files(options.mesh.front(), options.mesh.back()), 0)));
