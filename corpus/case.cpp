@@ -69,7 +69,7 @@ Case parse_case(std::istream& in, const std::string& file) {
       result.why += trimmed(text.substr(text.find('#') + 1));
       continue;
     }
-    const auto expect_first = [&](bool is_first) {
+    const auto expect_first = [&, label = label](bool is_first) {
       if (!is_first) throw Error(fmt::format("{}: found a second {}, expected one", where, label));
     };
     if (label == "kind") {
