@@ -155,9 +155,7 @@ const KnownTime& EarliestTime::narrow() {
 }
 
 const EarliestTime::Exact& EarliestTime::exact() {
-  if (!exact_) {
-    exact_ = std::make_unique<Exact>(query_);
-  }
+  if (!exact_) exact_ = std::make_unique<Exact>(query_);
   return *exact_;
 }
 

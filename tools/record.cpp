@@ -86,9 +86,7 @@ Record::~Record() {
   }
   if (saved_) return;
   store_.reset();
-  std::error_code ignored;
-  for (const char* part : {"", "-wal", "-shm"})  // the log stays behind if the disk is full
-    std::filesystem::remove(options_.db.string() + part, ignored);
+  Store::remove(options_.db);
 }
 
 /// Makes the store. Throws Error if it exists.

@@ -55,7 +55,7 @@ class Hostile : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Arithmetic, Hostile,
                          ::testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
 
-/// What is said about subnormal times, of contact and of a separation.
+/// What the oracle says about subnormal times, with and without a separation.
 std::vector<double> answers_about_times() {
   std::vector<double> all;
   for (const double z : {0.0, 0x1p-1030, 0x1p-1074, 0x1.8p-60})
