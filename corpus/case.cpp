@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <istream>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
@@ -54,8 +56,7 @@ Case parse_case(std::istream& in, const std::string& file) {
   Case result;
   result.name = file;
   bool why_seen = false;
-  bool kind_seen = false;
-  std::array<bool, 8> seen{};
+  std::set<std::string, std::less<>> seen;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string where = fmt::format("{}:{}", file, ++number);
@@ -68,9 +69,10 @@ Case parse_case(std::istream& in, const std::string& file) {
       result.why += trimmed(text.substr(text.find('#') + 1));
       continue;
     }
+    if (label != "provenance" && !seen.emplace(label).second)
+      throw Error(fmt::format("{}: found a second {}, expected one", where, label));
     if (label == "kind") {
       result.query.kind = parse_kind(value, where);
-      kind_seen = true;
     } else if (label == "truth") {
       if (value != "0" && value != "1")
         throw Error(fmt::format("{}: found truth '{}', expected 0 or 1", where, excerpt(value)));
@@ -86,16 +88,14 @@ Case parse_case(std::istream& in, const std::string& file) {
         throw Error(
             fmt::format("{}: found '{}', expected kind, truth, separation, provenance, or x0 .. x3, y0 .. y3",
                         where, excerpt(label)));
-      if (seen[i]) throw Error(fmt::format("{}: found a second {}, expected one", where, label));
-      seen[i] = true;
       parse_numbers(value, std::span(result.query.x).subspan(3 * i, 3), where);
     }
   }
-  if (!kind_seen)
+  if (!seen.contains("kind"))
     throw Error(fmt::format("{}:{}: found no kind, expected 'kind vt' or 'kind ee'", file, number));
-  for (std::size_t i = 0; i < 8; ++i)
-    if (!seen[i])
-      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, number, point_labels[i]));
+  for (const auto& label : point_labels)
+    if (!seen.contains(label))
+      throw Error(fmt::format("{}:{}: found no {}, expected eight points", file, number, label));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/sturm/times.hpp"
 
 namespace nearmiss {
@@ -91,6 +92,7 @@ Answers ask_others(const Query& query, const Answer& first, std::span<const Meth
 }
 
 std::string time_disagreement(const Query& query) {
+  const PlainArithmetic guard;
   EarliestTime time(query);
   SturmTimes by_sturm(query);
   const auto [lo, hi] = time.enclosure();

@@ -45,7 +45,6 @@ Enclosure enclose(Root t, double width) {
 // Comparisons narrow what is known about a root. They do so in copies of it, so that the answers to later questions do not
 // depend on earlier ones.
 bool is_below(Root t, double time) {
-  const PlainArithmetic guard;
   Root at{Number(time)};
   return t.is_below(at);
 }
@@ -86,6 +85,7 @@ KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_c
 }  // namespace
 
 EarliestTime::EarliestTime(const Query& query, const std::optional<KnownApproach>& known) : query_(query) {
+  const PlainArithmetic guard;
   if (query.separation > 0) {
     const KnownApproach approach = narrowed(query, known ? *known : known_approach(query), rough_time);
     is_certified_ = approach.stage == FilterStage::within;
@@ -114,6 +114,7 @@ int comparison(const Enclosure& known, double time) {
 }  // namespace
 
 bool EarliestTime::is_before(double time) {
+  const PlainArithmetic guard;
   int before = comparison(rough_.time, time);
   if (before < 0) before = comparison(narrow().time, time);
   if (before >= 0) return before == 1;
@@ -121,6 +122,7 @@ bool EarliestTime::is_before(double time) {
 }
 
 bool EarliestTime::makes_late(double time) {
+  const PlainArithmetic guard;
   if (query_.separation == 0) return is_before(time);
   // The enclosures contain both t* and the time at which the distance falls below h, if they are certified.
   if (!(time > rough_.time.lo)) return false;
@@ -133,13 +135,13 @@ bool EarliestTime::makes_late(double time) {
 }
 
 Enclosure EarliestTime::enclosure(double width) {
+  const PlainArithmetic guard;
   const auto is_narrow = [&](const KnownTime& known) {
     const auto [lo, hi] = known.time;
     return hi - lo <= width || (known.is_between && std::nextafter(lo, 2.0) == hi);
   };
   if (is_narrow(rough_)) return rough_.time;
   if (is_narrow(narrow())) return narrow().time;
-  const PlainArithmetic guard;
   return enclose(exact().time, width);
 }
 
@@ -161,10 +163,7 @@ const KnownTime& EarliestTime::narrow() {
 }
 
 const EarliestTime::Exact& EarliestTime::exact() {
-  if (!exact_) {
-    const PlainArithmetic guard;
-    exact_ = std::make_unique<Exact>(query_);
-  }
+  if (!exact_) exact_ = std::make_unique<Exact>(query_);
   return *exact_;
 }
 

@@ -15,6 +15,7 @@
 #include "ccd/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
+#include "fuzz/families/families.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "tools/values.hpp"
 
@@ -63,6 +64,11 @@ CLI::Option* SeparationOption::add_to(CLI::App& command, bool can_be_drawn) {
                       "the coordinates{}; 0 asks for contact",
                       can_be_drawn ? "; drawn: each query draws its own" : ""))
       ->type_name(can_be_drawn ? "H|drawn" : "H");
+}
+
+std::string SeparationOption::of_families() const {
+  const bool is_number = is_given() && text != drawn_separation;
+  return is_number && parse_separation(text, "--separation") == 0 ? "" : text;
 }
 
 Query SeparationOption::apply(const Query& query) const {

@@ -36,6 +36,8 @@ struct SeparationOption {
   /// `drawn`: whether the option may be "drawn".
   CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
+  /// The separation of families that have none of their own: "drawn" or a positive number; "" for contact. Throws Error.
+  [[nodiscard]] std::string of_families() const;
   /// The query with the separation, if one is given. Throws Error.
   [[nodiscard]] Query apply(const Query& query) const;
 };

@@ -62,19 +62,19 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const std::size_t contact = known.size();
   known.insert(known.end(), separation_families().begin(), separation_families().end());
   // "all" means the families that fit the question.
-  const bool is_drawn = options.separation.text == drawn_separation;
+  const std::string separation = options.separation.of_families();
+  const bool is_drawn = separation == drawn_separation;
   const auto all = std::span(known).first(is_drawn ? known.size() : contact);
   auto chosen = options.sweeps.empty() ? find_families(options.families, known, all)
                                        : find_sweeps(options.sweeps, options.steps, known);
-  if (options.separation.is_given())
+  if (!separation.empty())
     for (Family& family : chosen)
-      if (!family.has_separation) family = with_separation(family, options.separation.text);
+      if (!family.has_separation) family = with_separation(family, separation);
   const auto has_separation = [](const Family& family) { return family.has_separation; };
   if (std::any_of(chosen.begin(), chosen.end(), has_separation)) expect_separations(subjects);
   if (!options.search) return chosen;
   for (const auto& subject : subjects)
-    for (Family& family : searches(*subject, stop, options.separation.text))
-      chosen.push_back(std::move(family));
+    for (Family& family : searches(*subject, stop, separation)) chosen.push_back(std::move(family));
   return chosen;
 }
 
@@ -94,9 +94,9 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
     info["families"] = fmt::format("{} in {} steps", families, options.steps);
     again += fmt::format(" --sweep {} --steps {}", families, options.steps);
   }
-  if (options.separation.is_given()) {
-    info["separation"] = options.separation.text;
-    again += fmt::format(" --separation {}", options.separation.text);
+  if (const std::string separation = options.separation.of_families(); !separation.empty()) {
+    info["separation"] = separation;
+    again += fmt::format(" --separation {}", separation);
   }
   if (options.search) {
     info["families"] += ", search";

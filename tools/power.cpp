@@ -1,6 +1,7 @@
 // nearmiss power: measures how soon each way to hunt finds each of the known defects.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <regex>
 
 #include "ccd/error.hpp"
+#include "fuzz/libfuzzer/targets.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/studies/power.hpp"
 #include "fuzz/subjects/contracted.hpp"
@@ -38,7 +40,7 @@ struct Options {
 constexpr std::string_view uniform = "uniform";
 constexpr std::string_view all_families = "families";
 constexpr std::string_view search = "search";
-constexpr std::string_view libfuzzer = "libfuzzer";
+constexpr std::string_view coverage_guided = "libfuzzer";
 
 Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
   Stop stop(interrupted());
@@ -68,10 +70,12 @@ Hunt hunt(const Options& options, const std::string& subject, const std::string&
   return result;
 }
 
-/// Runs the command, and reads its last line: "found after S s, N executions: PATH" or "nothing in ...".
-Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+/// Hunts with one target. Runs the command, and reads its last line: "found after S s, N executions: PATH" or "nothing in
+/// ...".
+Hunt hunt_with_target(const Options& options, const std::string& subject,
+                      const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command =
-      fmt::format("{} --first false_negative {} '{}'", options.libfuzzer, options.time, subject);
+      fmt::format("{} --first {} {}s '{}'", options.libfuzzer, target.name, seconds, subject);
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw Error(fmt::format("'{}': cannot be run", command));
   std::string text;
@@ -79,10 +83,10 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
     text.append(buffer.data(), n);
   pclose(pipe);
-  Hunt result{.subject = subject, .way = std::string(libfuzzer)};
+  Hunt result{.subject = subject, .way = std::string(coverage_guided)};
   static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
   if (std::smatch match; std::regex_search(text, match, found)) {
-    result.failure = name(Finding::What::false_negative);
+    result.failure = name(target.finds);
     result.seconds = std::stod(match[1]);
     result.cases = std::stoull(match[2]);
     result.provenance = match[3].str();
@@ -91,6 +95,20 @@ Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
         fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
   }
   return result;
+}
+
+/// Gives each target of the subject an equal share of the time, and returns the failure that its target found soonest.
+Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+  const auto targets = libfuzzer::targets_for(*make_any_subject(subject));
+  const double share = parse_duration(options.time, "--time").count() / static_cast<double>(targets.size());
+  const int seconds = std::max(1, static_cast<int>(share));
+  Hunt soonest{.subject = subject, .way = std::string(coverage_guided)};
+  for (const libfuzzer::PromiseTarget& target : targets) {
+    if (interrupted()) break;
+    Hunt hunt = hunt_with_target(options, subject, target, seconds);
+    if (hunt.failure && (!soonest.failure || hunt.seconds < soonest.seconds)) soonest = std::move(hunt);
+  }
+  return soonest;
 }
 
 /// "0.12 s  12,345", with a mark for a failure that is no miss; "-" if nothing was found.
@@ -124,7 +142,8 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
   for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
   return text +
          "\n\nTime and cases up to the first miss; *: up to the first refuted bound; +: up to the first late "
-         "time. Of a directed search, evaluations: at most this many.\n";
+         "time. Of a directed search, evaluations: at most this many. Of libFuzzer, those of "
+         "the target that was soonest.\n";
 }
 
 int run(const Options& options) {
@@ -139,7 +158,7 @@ int run(const Options& options) {
   std::vector<std::string> ways = options.ways;
   if (ways.empty()) {
     ways = {std::string(uniform), std::string(all_families), std::string(search)};
-    if (!options.libfuzzer.empty()) ways.emplace_back(libfuzzer);
+    if (!options.libfuzzer.empty()) ways.emplace_back(coverage_guided);
   }
   const auto is_done = [&](const std::string& subject, const std::string& way) {
     return std::any_of(results.begin(), results.end(),
@@ -150,7 +169,8 @@ int run(const Options& options) {
     for (const std::string& way : ways) {
       if (interrupted() || is_done(subject, way)) continue;
       progress.show(fmt::format("{}: {}", subject, way));
-      auto result = way == libfuzzer ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
+      auto result =
+          way == coverage_guided ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
       if (interrupted()) continue;
       results.push_back(std::move(result));
       if (!stored.empty()) options.json.write(hunts_json(results));
@@ -171,12 +191,14 @@ void add_power(CLI::App& app, int& exit_code) {
       ->type_name("defect:A,...");
   command->add_option("--way", options->ways, "Ways to hunt, separated by commas; all by default")
       ->delimiter(',')
-      ->check(CLI::IsMember(
-          {std::string(uniform), std::string(all_families), std::string(search), std::string(libfuzzer)}));
+      ->check(CLI::IsMember({std::string(uniform), std::string(all_families), std::string(search),
+                             std::string(coverage_guided)}));
   command->add_option("--time", options->time, "Time limit for each defect and way: 10s, 2m")
       ->capture_default_str()
       ->type_name("T");
-  command->add_option("--libfuzzer", options->libfuzzer, "Also hunt with this command: tools/libfuzzer")
+  command
+      ->add_option("--libfuzzer", options->libfuzzer,
+                   "Also hunt with this command, tools/libfuzzer, whose targets share the time")
       ->type_name("COMMAND");
   options->json.add_to(*command, "Store the measurements in this file, and skip those that it already has");
   command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")

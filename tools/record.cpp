@@ -86,8 +86,7 @@ Record::~Record() {
   }
   if (saved_) return;
   store_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(options_.db, ignored);
+  Store::remove(options_.db);
 }
 
 /// Makes the store. Throws Error if it exists.

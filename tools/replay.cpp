@@ -36,6 +36,7 @@ std::string family_of(const std::string& name) {
 int run(const Options& options) {
   const Stop stop(interrupted());
   const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
+  if (options.separation.apply({}).separation > 0) expect_separations(subjects);
   for (const fs::path& path : options.paths)  // checks all files before anything is written
     read_cases(path, [&](const Case&) { stop.check(); });
   std::string command = "replay";
@@ -50,6 +51,7 @@ int run(const Options& options) {
     info["again"] += " --separation " + options.separation.text;
   }
   Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
+  std::uint64_t with_separation = 0;
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
@@ -62,6 +64,7 @@ int run(const Options& options) {
       stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
                  [name = each.name] { return name; });
       ++count;
+      with_separation += query.separation > 0 ? 1 : 0;
       if (progress.due())
         progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
                                   with_separators(record.statistics().false_negatives())));
@@ -72,6 +75,11 @@ int run(const Options& options) {
     }
     stream.finish();
   }
+  for (const auto& subject : subjects)
+    if (with_separation > 0 && !subject->takes_separation())
+      fmt::print(options.record.json.text(), "{}: not asked about {}, because it answers for contact only\n",
+                 subject->name(),
+                 counted(with_separation, "case with a separation", "cases with a separation"));
   return record.finish(stop.is_requested(), !stop.is_requested());
 }
 

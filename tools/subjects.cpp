@@ -9,6 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
+#include "fuzz/libfuzzer/targets.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
@@ -46,6 +47,11 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
 }
 
+void print_targets(const std::string& name) {
+  for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*make_any_subject(name)))
+    fmt::print("{} {}\n", target.name, name);
+}
+
 /// What a published CCD is, or why it cannot be put on trial.
 std::string about(const Peer& peer) {
   if (!is_built(peer)) return fmt::format("not built: {}", how_to_build(peer));
@@ -77,13 +83,16 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "List the subjects that have names, or describe the detectors of plug-ins and published CCDs");
   struct Options {
     std::vector<std::string> plugins;
-    bool peers = false;
+    bool peers = false, targets = false;
   };
   auto options = std::make_shared<Options>();
   command->add_option("PLUGIN", options->plugins,
                       "Plug-ins and published CCDs whose detectors to describe instead, such as ./plugin.so");
   command->add_flag("--peers", options->peers,
                     "Print only the names of the published CCDs that are built, one a line");
+  command->add_flag(
+      "--targets", options->targets,
+      "Print instead the libFuzzer targets that hunt these subjects, one a line: TARGET SUBJECT");
   command->footer(
       "\nA plug-in is a shared object, named by its path, which must contain a slash: ./plugin.so, or one of "
       "its "
@@ -91,7 +100,8 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "'pipe:COMMAND' "
       "(fuzz/subjects/PROGRAMS.md).");
   command->callback([options] {
-    for (const std::string& name : options->plugins) describe(name);
+    const auto print_about = options->targets ? print_targets : describe;
+    for (const std::string& name : options->plugins) print_about(name);
     if (options->peers)
       for (const Peer& peer : peers())
         if (is_built(peer)) fmt::print("{}\n", peer.name);

@@ -74,7 +74,7 @@ Query search_miss(const Searched& subject, Random& random, Kind kind) {
   const double smallest = exactly ? usually_smallest : smallest_for(*subject, random, kind);
   const auto draw = [&] {
     SearchPoint m = draw_search_point(random, smallest);
-    if (h > 0) m.gap = random.vector(h);
+    if (h > 0) m.gap = draw_gap(random, h);
     return m;
   };
   return query_of(kind, placed(Maximiser(random, h == 0, smallest, objective).run(draw)), h);

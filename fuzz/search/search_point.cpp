@@ -63,9 +63,15 @@ SearchPoint on_grid(SearchPoint point) {
   return point;
 }
 
+Vector draw_gap(Random& random, double h) { return h * random.vector(1); }  // 2 h may overflow
+
 SearchPoint with_gap_within(SearchPoint point, double h) {
-  const double length = point.gap.norm();
-  if (length > h) point.gap *= h / length;
+  if (h == 0) {
+    point.gap.setZero();
+    return point;
+  }
+  const double length = (point.gap / h).norm();  // in units of h, nothing overflows
+  if (length > 1) point.gap /= length;
   return point;
 }
 

@@ -35,6 +35,9 @@ SearchPoint draw_search_point(Random& random, double smallest);
 /// Rounds to a grid on which contact is exact.
 SearchPoint on_grid(SearchPoint point);
 
+/// A gap whose components are uniform in [-h, h), for every finite h.
+Vector3<double> draw_gap(Random& random, double h);
+
 /// The same with a gap of at most h.
 SearchPoint with_gap_within(SearchPoint point, double h);
 

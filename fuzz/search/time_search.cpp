@@ -71,7 +71,7 @@ Query search_time(const Searched& subject, Random& random, Kind kind) {
   };
   const auto draw = [&] {
     SearchPoint m = draw_search_point(random, usually_smallest);
-    if (h > 0) m.gap = random.vector(h);
+    if (h > 0) m.gap = draw_gap(random, h);
     return m;
   };
   return query_of(kind, placed(Maximiser(random, h == 0, usually_smallest, objective).run(draw)), h);

@@ -197,7 +197,7 @@ struct SturmSequence {
   IntegerPolynomial f;
   std::vector<IntegerPolynomial> sturm;
 
-  /// Of the polynomial with the same roots, each of them simple.
+  /// The sequence of the polynomial that has the same roots, each of them simple.
   explicit SturmSequence(IntegerPolynomial polynomial)
       : f(std::move(polynomial)), sturm(remainder_sequence(f, f.derivative())) {
     const IntegerPolynomial& common = sturm.back();  // of f and its derivative

@@ -47,15 +47,14 @@ class FeaturePair {
 
   bool is_at_most_before(const Dyadic& time) {
     const auto holds = [&](Candidate& each) { return each.t.is_below(time) && is_at_most_at(each); };
-    return any_of(start_, holds) || any_of(excess_.is_zero() ? inside_roots() : excess_roots(), holds);
+    return holds(start_) || any_of(excess_.is_zero() ? inside_roots() : excess_roots(), holds);
   }
 
   bool is_below_before(const Dyadic& time) {
     const auto counts = [&](const Candidate& each) { return each.t.is_below(time); };
-    if (start_.front().sign(excess_) > 0 && !any_of(excess_roots(), counts))
-      return false;  // always farther apart
+    if (start_.sign(excess_) > 0 && !any_of(excess_roots(), counts)) return false;  // always farther apart
     const auto holds = [&](Candidate& each) { return counts(each) && is_below_behind(each); };
-    return any_of(start_, holds) || any_of(excess_roots(), holds) || any_of(inside_roots(), holds);
+    return holds(start_) || any_of(excess_roots(), holds) || any_of(inside_roots(), holds);
   }
 
  private:
@@ -103,7 +102,7 @@ class FeaturePair {
   IntegerPolynomial excess_;
   std::vector<IntegerPolynomial> inside_;
   IntegerPolynomial extent_;
-  Candidates start_{{SturmRoot(Dyadic{0, 0}), nullptr, {}, {}}};
+  Candidate start_{SturmRoot(Dyadic{0, 0}), nullptr, {}, {}};
   std::optional<Candidates> excess_roots_, inside_roots_;  // with pointers to the polynomials above
 };
 

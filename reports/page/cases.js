@@ -58,7 +58,11 @@ function drawExtremeTimes() {
   const rows = report.extreme_times;
   if (rows.length === 0) return;
   show("extreme-times-section");
-  const isLate = ({ subject, kind, side }) => side === "after" && report.subjects[subject][kind].late > 0;
+  // If the distance only touches h, a time after t* is not late. Where both occur, nobody says which this one is.
+  const isLate = ({ subject, kind, side }) => {
+    const { late, after_histogram: after } = report.subjects[subject][kind];
+    return side === "after" && late === after.reduce((a, b) => a + b, 0);
+  };
   const what = (r) => (isLate(r) ? "late" : r.side === "early" ? "early" : "after t*");
   fillTable(element("extreme-times"), [
     picture("query", "t = 0, toi and t*, t = 1"),

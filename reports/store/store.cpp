@@ -136,6 +136,11 @@ Store::~Store() = default;
 
 bool Store::exists(const fs::path& file) { return fs::exists(file) && !is_empty_database(file); }
 
+void Store::remove(const fs::path& file) {
+  std::error_code ignored;
+  for (const char* part : {"", "-wal", "-shm"}) fs::remove(file.string() + part, ignored);
+}
+
 Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
     : database_(std::make_unique<Database>(file)) {
   if (exists(file)) refuse_existing(file);

@@ -17,6 +17,8 @@ class Store {
   /// Whether there is a store to resume. A kill during the creation of a store may leave a database without
   /// tables, which is not a store yet.
   static bool exists(const std::filesystem::path& file);
+  /// Removes a store that is not open, and the log, which SQLite leaves behind if the disk is full.
+  static void remove(const std::filesystem::path& file);
   /// Makes a new file. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
   /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no

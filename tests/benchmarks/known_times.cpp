@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "ccd/nearmiss_subject.h"
-#include "fuzz/families/families.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/subjects/peers.hpp"
 #include "tests/benchmarks/known_time.h"
+#include "tests/benchmarks/measured.hpp"
 
 namespace nearmiss {
 namespace {
@@ -37,13 +37,8 @@ class KnownTime final : public Subject {
   std::string name_ = "known";
 };
 
-/// So many that branch predictors do not learn them by heart, as in a campaign.
 const std::vector<Query>& queries() {
-  static const auto all = [] {
-    std::vector<Query> some;
-    for (std::uint64_t i = 0; i < 65536; i += 2) some.push_back(make_query(find_family("uniform"), 1, i));
-    return some;
-  }();
+  static const auto all = uniform_queries(Kind::vertex_triangle, 32768);
   return all;
 }
 
@@ -113,16 +108,6 @@ void time_isolation(benchmark::State& state, const Subject& plugin, std::size_t 
   }
 }
 
-void add(const std::string& name, const std::function<void(benchmark::State&)>& measure) {
-  constexpr int batches = 2;
-  constexpr int repetitions = 15;
-  benchmark::RegisterBenchmark(name.c_str(), measure)
-      ->UseManualTime()
-      ->Iterations(batches)
-      ->Repetitions(repetitions)
-      ->ReportAggregatesOnly();
-}
-
 }  // namespace
 }  // namespace nearmiss
 
@@ -132,22 +117,22 @@ int main(int argc, char** argv) {
   for (const int steps : {NEARMISS_KNOWN_STEPS}) {
     const std::string number = std::to_string(steps);
     const std::string plugin = NEARMISS_PLUGINS "/known_" + number + ".so";
-    add("loop/" + number, [=](benchmark::State& state) { time_plain_loop(state, steps); });
+    add_measured("loop/" + number, [=](benchmark::State& state) { time_plain_loop(state, steps); });
     for (const bool is_plugin : {false, true}) {
       subjects.push_back(is_plugin ? make_isolated_plugin(plugin) : std::make_unique<KnownTime>(steps));
-      add((is_plugin ? "plugin/" : "builtin/") + number,
-          [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
+      add_measured((is_plugin ? "plugin/" : "builtin/") + number,
+                   [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
     }
   }
   const auto idle = make_isolated_plugin(NEARMISS_PLUGINS "/known_0.so");
   for (const std::size_t batch : {1, 50, 800, 2000})
-    add("isolation/" + std::to_string(batch),
-        [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
+    add_measured("isolation/" + std::to_string(batch),
+                 [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
   for (const Peer& peer : peers()) {
     const std::string name(peer.name);
     const std::string object = NEARMISS_PEERS "/" + std::string(peer.object) + ".so";
     if (!std::filesystem::exists(object)) continue;
-    add("loop/" + name, [=](benchmark::State& state) {
+    add_measured("loop/" + name, [=](benchmark::State& state) {
       try {
         time_plain_loop(state, load(object, name));
       } catch (const std::exception& exception) {  // of the published CCD
@@ -155,8 +140,8 @@ int main(int argc, char** argv) {
       }
     });
     subjects.push_back(make_isolated_plugin(object + ":" + name));
-    add("plugin/" + name,
-        [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
+    add_measured("plugin/" + name,
+                 [&subject = *subjects.back()](benchmark::State& state) { time_subject(state, subject); });
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "corpus/readers.hpp"
-#include "fuzz/families/families.hpp"
 #include "fuzz/trial/truth.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/benchmarks/measured.hpp"
 
 namespace nearmiss {
 namespace {
@@ -32,8 +32,7 @@ namespace {
 /// The queries of one kind with a separation whose swept boxes meet.
 struct Input {
   std::vector<Query> queries;
-  std::vector<Enclosure>
-      times;  ///< of each, encloses t* as narrowly as doubles allow; made when they are needed
+  std::vector<Enclosure> times;  ///< enclose each t* as narrowly as doubles allow; made when they are needed
 
   Input(const std::vector<Query>& of_kind, double h) {
     for (const Query& contact : of_kind)
@@ -82,13 +81,7 @@ void add(const std::string& name, const std::shared_ptr<Input>& input, GiveTime 
       state.SetIterationTime(1e-9 * spent / static_cast<double>(input->queries.size()));
     }
   };
-  constexpr int passes = 2;
-  constexpr int repetitions = 15;
-  benchmark::RegisterBenchmark(name.c_str(), measure)
-      ->UseManualTime()
-      ->Iterations(passes)
-      ->Repetitions(repetitions)
-      ->ReportAggregatesOnly();
+  add_measured(name, measure);
 }
 
 void add_all(const std::string& name, const std::map<Kind, std::vector<Query>>& queries) {
@@ -101,16 +94,6 @@ void add_all(const std::string& name, const std::map<Kind, std::vector<Query>>& 
       add(row + "exact", input, [](const Enclosure& t) { return t.lo; });
       add(row + "late", input, [](const Enclosure& t) { return std::min(t.lo + 1e-6, 1.0); });
     }
-}
-
-/// So many that branch predictors do not learn them by heart, as in a campaign.
-std::map<Kind, std::vector<Query>> uniform() {
-  std::map<Kind, std::vector<Query>> queries;
-  for (std::uint64_t i = 0; i < 40000; ++i) {
-    const Query query = make_query(find_family("uniform"), 1, i);
-    queries[query.kind].push_back(query);
-  }
-  return queries;
 }
 
 std::map<Kind, std::vector<Query>> cases(const std::filesystem::path& path) {
@@ -130,7 +113,9 @@ int main(int argc, char** argv) {
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   try {
-    add_all("uniform", uniform());
+    std::map<Kind, std::vector<Query>> uniform;
+    for (const Kind kind : kinds) uniform[kind] = uniform_queries(kind, 20000);
+    add_all("uniform", uniform);
     for (int i = 1; i < count; ++i) {
       const std::filesystem::path path(arguments[static_cast<std::size_t>(i)]);
       add_all(path.filename().string(), cases(path));

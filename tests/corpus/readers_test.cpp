@@ -157,6 +157,8 @@ TEST_F(Files, NamesTheLineOfABadCase) {
   expect_error(write("d.case", "kind vt\n" + points + "y3 0 0\n"), "d.case:9: found 2 numbers, expected 3");
   expect_error(write("e.case", "kind xx\n"), "e.case:1: found kind 'xx', expected vt or ee");
   expect_error(write("f.case", "kind vt\nx0 0 0 0\nx0 0 0 0\n"), "f.case:3: found a second x0");
+  for (const char* line : {"kind vt\n", "truth 1\n", "separation 0\n"})
+    expect_error(write("twice.case", std::string(line) + line), "twice.case:2: found a second");
   expect_error(write("g.case", "colour red\n"), "g.case:1: found 'colour'");
   expect_error(write("h.case", "truth 2\n"), "h.case:1: found truth '2'");
 }

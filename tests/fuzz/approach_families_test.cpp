@@ -22,13 +22,14 @@ using testing::first_queries;
 using testing::longest_edge;
 using Closest = ApproachFeatures::Closest;
 
-constexpr double after_the_step = 2;
-
 /// Whether the distance first reaches h at `time`, and falls below it at once.
 void expect_above_before_and_below_after(const Query& query, double time) {
   SturmTimes by_sturm(query);
+  const double after = std::nextafter(time, 2);
   EXPECT_FALSE(by_sturm.is_before(time));
-  EXPECT_TRUE(by_sturm.makes_late(std::nextafter(time, 2)));
+  EXPECT_FALSE(by_sturm.makes_late(time));
+  EXPECT_TRUE(by_sturm.is_before(after));
+  EXPECT_TRUE(by_sturm.makes_late(after));
 }
 
 std::string at(const char* family, int x) { return std::string(family) + "@" + std::to_string(x); }
@@ -56,8 +57,8 @@ TEST_P(SeparationFamily, FiltersAndBothExactMethodsAgree) {
     EXPECT_EQ(decision.collision, exact.collision);
     EXPECT_EQ(decision.is_tie, exact.is_tie);
     SturmTimes by_sturm(query);
-    EXPECT_EQ(by_sturm.is_before(after_the_step), exact.collision || exact.is_tie);
-    EXPECT_EQ(by_sturm.makes_late(after_the_step), exact.collision);
+    EXPECT_EQ(by_sturm.is_before(SturmApproach::step_is_over), exact.collision || exact.is_tie);
+    EXPECT_EQ(by_sturm.makes_late(SturmApproach::step_is_over), exact.collision);
   }
 }
 
@@ -109,8 +110,8 @@ TEST(TiedSeparation, HalfAreTiesAndTheOthersAreTiesBeforeTheSeparationIsMoved) {
       if (is_tie(query, h)) {
         ++ties;
         SturmTimes by_sturm(query);
-        EXPECT_TRUE(by_sturm.is_before(after_the_step));
-        EXPECT_FALSE(by_sturm.makes_late(after_the_step));
+        EXPECT_TRUE(by_sturm.is_before(SturmApproach::step_is_over));
+        EXPECT_FALSE(by_sturm.makes_late(SturmApproach::step_is_over));
       } else {
         EXPECT_NE(is_tie(query, moved_by_ulps(h, x)), is_tie(query, moved_by_ulps(h, -x)));
       }

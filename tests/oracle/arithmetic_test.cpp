@@ -55,13 +55,36 @@ class Hostile : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Arithmetic, Hostile,
                          ::testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
 
+/// What the oracle says about subnormal times, with and without a separation.
+std::vector<double> answers_about_times() {
+  std::vector<double> all;
+  for (const double z : {0.0, 0x1p-1030, 0x1p-1074, 0x1.8p-60})
+    for (const double h : {0.0, 0x1p-1040, 0x1p-60}) {
+      const Query query = with_separation(falling_vertex(0.25, 0.25, z, -1), h);
+      auto time = earliest_time(query);
+      all.push_back(time ? 1 : 0);
+      if (!time) continue;
+      for (const double each : {0.0, 0x1p-1074, 0x1p-1040, 0x1.fp-1031, 0x1p-1029, 1.0})
+        all.insert(all.end(), {time->is_before(each) ? 1.0 : 0.0, time->makes_late(each) ? 1.0 : 0.0});
+      all.insert(all.end(), {time->enclosure().lo, time->enclosure().hi});
+      all.push_back(time_disagreement(query).empty() ? 1 : 0);
+    }
+  return all;
+}
+
 TEST_P(Hostile, ArithmeticChangesNoAnswerAndStaysAsItWas) {
   const auto queries = close_calls();
-  const auto expected = answers(queries);
+  const auto all_answers = [&] {
+    auto all = answers(queries);
+    const auto about_times = answers_about_times();
+    all.insert(all.end(), about_times.begin(), about_times.end());
+    return all;
+  };
+  const auto expected = all_answers();
   for (const bool flushes : {false, true}) {
     const HostileArithmetic hostile(GetParam(), flushes);
     const std::string before = odd_arithmetic();
-    const auto found = answers(queries);
+    const auto found = all_answers();
     EXPECT_EQ(odd_arithmetic(), before);
     make_arithmetic_plain();  // also for the comparison
     EXPECT_EQ(found, expected) << before;

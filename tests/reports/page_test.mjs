@@ -7,7 +7,7 @@ import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
 import { removeFolder } from "./page/session.mjs";
 import { drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
-import { showsSeparations, showsTimesOfImpact } from "./page/times.mjs";
+import { showsSeparations, showsTimesOfImpact, showsWhichTimesAreLate } from "./page/times.mjs";
 
 const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
@@ -21,6 +21,7 @@ try {
   await showsWhatIsNewSinceTheBaseline(browser);
   await showsTimesOfImpact(browser);
   await showsSeparations(browser);
+  await showsWhichTimesAreLate(browser);
   await showsSweeps(browser);
   await showsSweepsOfWhatIsNeverWrong(browser);
   await showsAClaimOfNoDistanceThatIsRefuted(browser);

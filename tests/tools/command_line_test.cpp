@@ -203,20 +203,6 @@ TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
   EXPECT_GT(misses, 0);
 }
 
-TEST_F(CommandLine, PowerResumesWhereItStopped) {
-  const std::string command = "power --time 1s --way families,search --json new.json --subject ";
-  const Output output = run(command + "defect:vertex-edge");
-  EXPECT_EQ(output.code, 0) << output.error;
-  EXPECT_THAT(output.out, HasSubstr("found, of 1"));
-  EXPECT_EQ(run(command + "defect:vertex-edge,defect:mu*1").code, 0);
-  const json results = read_json("new.json");
-  ASSERT_EQ(results.size(), 4);
-  EXPECT_EQ(results[0]["failure"], "false-negative");
-  EXPECT_GT(results[0]["cases"], 0);
-  EXPECT_EQ(results[2]["subject"], "defect:mu*1");
-  EXPECT_TRUE(results[2]["failure"].is_null());
-}
-
 TEST_F(CommandLine, TightnessGoesIntoTheReport) {
   expect_refused("tightness --tolerance nu", {"'nu'"});
   const Output output = run("tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");

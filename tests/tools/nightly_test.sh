@@ -71,6 +71,18 @@ expect "expected that only nights are removed" test -d "$folder/the" -a -d "$fol
 expect "expected the latest night" test -s "$folder/the nights/last/all.db"
 night 2 --subject none
 expect_said 'there is nothing to report'
+# libFuzzer hunts for each broken promise for the same time.
+printf '#!/bin/sh\necho "$*" >>%s/hunts\n' "$folder" >tools/libfuzzer
+night 0 --subject wang,wang-time --time 100s
+expect "expected six hunts of 6 s, found $(<"$folder/hunts")" cmp "$folder/hunts" - <<END_OF_HUNTS
+false_negative 6s wang
+refuted_bound 6s wang
+false_negative 6s wang-time
+late 6s wang-time
+refuted_bound 6s wang-time
+oracle_disagreement 6s
+END_OF_HUNTS
+nothing tools/libfuzzer
 rm -r "$folder/the nights"
 
 # Each signal is passed on to the part that runs; a report is made, and nothing is left running.

@@ -102,6 +102,14 @@ class ResultTable(unittest.TestCase):
             ],
         )
 
+    def test_the_shortest_query_has_its_separation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = {"what": "false-negative", "subject": "a", "kind": "vt", "shrunk": [0] * 24 + [0.5]}
+            report = {"subjects": {}, "findings": [found]}
+            (pathlib.Path(folder) / "report.json").write_text(json.dumps(report))
+            said = run(TABLE, folder)
+        self.assertIn("| `a` | vt | `" + "0 0 0  " * 3 + "0 0 0   " + "0 0 0  " * 3 + "0 0 0   0.5` |", said.stdout)
+
     def test_a_folder_without_a_report_is_refused(self):
         said = run(TABLE, self.folder.name)
         self.assertEqual(said.returncode, 2)

@@ -7,6 +7,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 class SeparationOption : public testing::CommandLine {
  protected:
@@ -46,15 +47,24 @@ TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
   write("one.vt", hit);
   for (const std::string command :
        {"oracle --kind vt q.vt", "verdict --kind vt --subject exact q.vt", "bench q.vt --subject exact",
-        "replay q.vt", "shrink one.vt --subject exact"})
-    for (const char* other : {"-1", "nan", "inf", "x"})
+        "replay q.vt", "shrink one.vt --subject exact", "fuzz --cases 10 --subject exact"})
+    for (const char* other : {"-1", "nan", "inf", "x", "0.5,1"})
       expect_refused(command + " --separation=" + other, {"--separation", other});
   for (const std::string command : {"verdict --kind vt q.vt", "bench q.vt --json new.json", "shrink one.vt",
-                                    "fuzz --cases 10 --db new.db"})
+                                    "fuzz --cases 10 --db new.db", "replay q.vt --db new.db"})
     expect_refused(command + " --subject wang --separation 0.5", {"wang: answers for contact only"});
   write("own.vt", hit + with(hit, "0.5"));
   expect_refused("bench own.vt --subject exact,wang", {"wang: answers for contact only"});
   expect_refused("verdict --kind vt --subject wang own.vt", {"wang: answers for contact only"});
+}
+
+TEST_F(SeparationOption, ReplaySaysWhoIsNotAsked) {
+  write("own.vt", hit + with(hit, "0.5"));
+  EXPECT_THAT(
+      run("replay own.vt --subject exact,wang").out,
+      HasSubstr("wang: not asked about 1 case with a separation, because it answers for contact only\n"));
+  EXPECT_THAT(run("replay own.vt --subject exact").out, Not(HasSubstr("not asked")));
+  EXPECT_THAT(run("replay own.vt --separation 0 --subject wang").out, Not(HasSubstr("not asked")));
 }
 
 TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
@@ -68,6 +78,16 @@ TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
   EXPECT_EQ(run(options).code, 0);
   EXPECT_EQ(read_json("b.json")["results"][0]["input"], "q.vt");
   EXPECT_EQ(read_json("b.json")["results"][0]["queries"], 1);
+}
+
+TEST_F(SeparationOption, ZeroAsksForContact) {
+  const auto campaign = [&](const std::string& option) {
+    const std::string file = "c" + std::to_string(option.size()) + ".json";
+    EXPECT_EQ(run("fuzz --subject wang --family uniform --cases 100 --json " + file + option).code, 0);
+    return read_json(file)["subjects"]["wang"]["vt"]["collisions"];
+  };
+  EXPECT_EQ(campaign(" --separation 0"), campaign(""));
+  EXPECT_EQ(campaign(" --separation 0x0p+0"), campaign(""));
 }
 
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {

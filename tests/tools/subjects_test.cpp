@@ -20,6 +20,19 @@ TEST_F(CommandLine, OnlyPluginsAndPublishedCcdsAreDescribed) {
   EXPECT_THAT(run("subjects fcl-newton").out, HasSubstr("vt and ee; 53 bits; an estimate of the time"));
 }
 
+TEST_F(CommandLine, SubjectsHaveALibFuzzerTargetForEachPromise) {
+  EXPECT_EQ(run("subjects --targets basic wang defect:middle " + plugin("sampling")).out,
+            "false_negative basic\n"
+            "false_negative wang\n"
+            "refuted_bound wang\n"
+            "false_negative defect:middle\n"
+            "late defect:middle\n"
+            "refuted_bound defect:middle\n"
+            "false_negative " +
+                plugin("sampling") + "\n");
+  expect_refused("subjects --targets none", {"'none'"});
+}
+
 TEST_F(CommandLine, PublishedCcdsAreListedWithWhatTheyAre) {
   const Output output = run("subjects");
   EXPECT_THAT(

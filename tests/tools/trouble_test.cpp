@@ -226,6 +226,19 @@ TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
 }
 
+TEST_F(CommandLine, AFullDiskLeavesNoPartOfAStoreWithoutResults) {
+  if (std::system("unshare -rm true 2>/dev/null") != 0) GTEST_SKIP() << "found no permission to mount a disk";
+  // Room for the store's tables, but not for results. The disk lasts as long as the shell.
+  const std::string with_disk =
+      "unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size=400k none disk && \"$@\"; code=$?; ls disk > "
+      "left.txt; "
+      "exit $code' sh";
+  const Output output = run("fuzz --quiet --cases 4000 --subject basic,wang,exact --db disk/a.db", with_disk);
+  EXPECT_EQ(output.code, 2);
+  EXPECT_EQ(output.error, "nearmiss: disk/a.db: database or disk is full\n");
+  EXPECT_EQ(read("left.txt"), "");
+}
+
 TEST_F(CommandLine, AFullDiskLeavesNoPartOfAnExport) {
   const Output output = run("scene spikes@400 --subject wang --export pairs", "ulimit -f 8;");
   EXPECT_EQ(output.code, 2);

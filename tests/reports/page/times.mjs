@@ -1,7 +1,8 @@
 // Tests times of impact: their error against run time, their table, histograms and pictures; and separations.
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { count, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+import { count, folder, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
 const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
 const texts = (page, selector) => page.locator(selector).allTextContents();
@@ -115,4 +116,20 @@ export async function showsSeparations(browser) {
   assert.deepEqual((await page.evaluate(() => navigator.clipboard.readText())).split(" ").map(Number), jsonOf("apart").extreme_times[0].query);
   assert.equal(jsonOf("apart").extreme_times[0].query[24], 0.25);
   await page.close();
+}
+
+/** A lower bound after t* is not called late where the distance only touches h: first such a query, then one whose time is late. */
+export async function showsWhichTimesAreLate(browser) {
+  const [end, triangle] = ["0.25 0.25", "0 0 0  1 0 0  0 1 0"];
+  const query = (from, to) => `${end} ${from}  ${triangle}   ${end} ${to}  ${triangle}  0.5\n`;
+  for (const [name, queries, text] of [["touching", query(0.5, 2) + query(1.3, -0.7), "after t* by 0.5 of the step"],
+    ["passing", query(1.3, -0.7), "late by 0.1 of the step"]]) {
+    writeFileSync(join(folder, `${name}.vt`), queries);
+    run("replay", `${name}.vt`, "--subject", plugin("promises"), "--db", `${name}.db`);
+    run("report", `${name}.db`, "-o", name);
+    const page = await open(browser, pageOf(name));
+    assert.equal(jsonOf(name).subjects.always.vt.late, 1);
+    assert.ok((await page.textContent("#extreme-times tbody tr")).includes(text), text);
+    await page.close();
+  }
 }

@@ -1,0 +1,26 @@
+// The targets that hunt for broken promises of a subject.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "ccd/subject.hpp"
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss::libfuzzer {
+
+/// A target, and what it finds.
+struct PromiseTarget {
+  std::string_view name;
+  Finding::What finds;
+};
+
+/// One target for each promise of the subject: no misses, times that are lower bounds, a distance bound.
+inline std::vector<PromiseTarget> targets_for(const Subject& subject) {
+  std::vector<PromiseTarget> targets{{"false_negative", Finding::What::false_negative}};
+  if (subject.time_sort() == TimeSort::lower_bound) targets.push_back({"late", Finding::What::late});
+  if (subject.claims_bound()) targets.push_back({"refuted_bound", Finding::What::refuted_bound});
+  return targets;
+}
+
+}  // namespace nearmiss::libfuzzer

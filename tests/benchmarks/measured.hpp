@@ -1,0 +1,35 @@
+// What the benchmarks share.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fuzz/families/families.hpp"
+
+namespace nearmiss {
+
+/// Queries of one kind of the uniform family. Some ten thousand are too many for branch predictors to memorise, as in a campaign.
+inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
+  const Family uniform = find_family("uniform");
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; queries.size() < count; ++i)
+    if (kind_of(i) == kind) queries.push_back(make_query(uniform, 1, i));
+  return queries;
+}
+
+/// Registers a benchmark that says itself how long each pass took.
+inline void add_measured(const std::string& name, const std::function<void(benchmark::State&)>& measure) {
+  constexpr int passes = 2;
+  constexpr int repetitions = 15;
+  benchmark::RegisterBenchmark(name.c_str(), measure)
+      ->UseManualTime()
+      ->Iterations(passes)
+      ->Repetitions(repetitions)
+      ->ReportAggregatesOnly();
+}
+
+}  // namespace nearmiss
