@@ -28,14 +28,15 @@ class ApproachSearch {
     return quick.never || quick.comes ? quick : thorough(1);
   }
 
-  /// The enclosure narrowed.
+  /// The enclosure narrowed. If the distance comes below the separation, it still does so at its end.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
     constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {
       const FirstTime quick = QuickSearch(differences_, low_, required_).narrow(known, width);
       if (quick.time.hi - quick.time.lo <= width) return quick;
     }
-    return thorough(width);
+    const FirstTime narrow = thorough(width);
+    return narrow.comes == known.comes ? narrow : known;
   }
 
  private:

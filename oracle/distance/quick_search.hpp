@@ -45,8 +45,8 @@ class QuickSearch {
 
   /// Starts with one gap.
   void start(const Gap& gap);
-  /// Adds a gap before all others; `covered` is the length that the bound which ends at the gap covers, and `nearest` a time at
-  /// which the distance may be least. False if there are too many gaps.
+  /// Adds a gap before all others. The search looks at `nearest` if that time is inside, else at `guess`. False if there are too
+  /// many gaps.
   bool add(double lo, double hi, double nearest, double guess);
   [[nodiscard]] const Gap& first_gap() const { return gaps_[count_ - 1]; }
 

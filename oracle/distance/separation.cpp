@@ -60,15 +60,16 @@ double not_negative_until(const Powers<double>& p, double most) {
 }  // namespace
 
 double certified_reach(const Separation& separation, double distance, int direction, double most) {
-  double end = separation.count > 0 ? most : 0;
-  for (std::size_t n = 0; n < separation.count && end > 0; ++n) {
+  double end = separation.products.empty() ? 0 : most;
+  for (const Product& product : separation.products) {
+    if (!(end > 0)) break;
     // product - errors - distance |n| as a polynomial in |s|, rounded down.
     Powers<double> excess;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double c = separation.products[n].coefficients[i];
-      const double product = i % 2 == 1 && direction < 0 ? -c : c;
-      const double needed = separation.products[n].errors[i] + (i < 3 ? distance * separation.length[i] : 0);
-      excess.c[i] = product - needed - 0x1p-50 * (std::abs(product) + needed);
+      const double c = product.coefficients[i];
+      const double signed_c = i % 2 == 1 && direction < 0 ? -c : c;
+      const double needed = product.errors[i] + (i < 3 ? distance * separation.length[i] : 0);
+      excess.c[i] = signed_c - needed - 0x1p-50 * (std::abs(signed_c) + needed);
     }
     end = not_negative_until(excess, end);
   }

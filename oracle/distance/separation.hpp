@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -48,21 +49,20 @@ inline constexpr double least_distance = 0x1p-500;
 
 /// A polynomial in s of degree 3, and bounds of its coefficients' errors.
 struct Product {
-  std::array<double, 4> coefficients, errors;
+  std::array<double, 4> coefficients{};
+  std::array<double, 4> errors{};
 };
 
 /// One direction n(s) with its products. At every s the distance is at least the smallest product divided by
 /// |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
-  std::array<Product, 4> products;  ///< the first `count`; the others are not initialised, to save time
-  std::size_t count = 0;
+  boost::container::static_vector<Product, 4> products;
   std::array<double, 3> length{};
 
   void add(const std::array<double, 4>& coefficients, const std::array<double, 4>& errors) {
-    Product& product = products[count++];
-    product.coefficients = coefficients;
+    Product& product = products.emplace_back(Product{coefficients, errors});
     for (std::size_t i = 0; i < 4; ++i)
-      product.errors[i] = errors[i] + (0x1p-52 * std::abs(coefficients[i]) + least_distance);
+      product.errors[i] += 0x1p-52 * std::abs(coefficients[i]) + least_distance;
   }
 };
 
