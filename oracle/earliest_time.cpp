@@ -76,12 +76,20 @@ struct EarliestTime::Exact {
   }
 };
 
-EarliestTime::EarliestTime(const Query& query) : query_(query) {
+namespace {
+
+/// Certified bounds show that the distance is above h right at the beginning of the enclosure, unless that is 0, and below h at
+/// its end.
+KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
+
+}  // namespace
+
+EarliestTime::EarliestTime(const Query& query, const std::optional<KnownApproach>& known) : query_(query) {
   const PlainArithmetic guard;
   if (query.separation > 0) {
-    const KnownApproach approach = known_approach(query, rough_time);
+    const KnownApproach approach = narrowed(query, known ? *known : known_approach(query), rough_time);
     is_certified_ = approach.stage == FilterStage::within;
-    rough_ = {approach.time, is_certified_ && approach.time.hi > 0};
+    rough_ = between(approach.time, is_certified_);
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
     if (!is_certified_) exact();  // refuses if the distance is always above h
   } else {
@@ -149,7 +157,7 @@ const KnownTime& EarliestTime::narrow() {
     if (query_.separation == 0)
       narrow_ = *time_of_contact(query_, 0);
     else if (is_certified_)
-      narrow_->time = known_approach(query_, 0).time;
+      narrow_ = between(known_approach(query_, 0).time, is_certified_);
   }
   return *narrow_;
 }

@@ -7,6 +7,7 @@
 
 #include "ccd/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
+#include "oracle/within_separation.hpp"
 
 namespace nearmiss {
 
@@ -16,7 +17,9 @@ namespace nearmiss {
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
-  explicit EarliestTime(const Query& query);
+  explicit EarliestTime(const Query& query) : EarliestTime(query, std::nullopt) {}
+  /// The same for h > 0, starting from what known_approach(query) has found. All answers are the same.
+  EarliestTime(const Query& query, const std::optional<KnownApproach>& known);
   ~EarliestTime();
   EarliestTime(EarliestTime&&) noexcept;
   EarliestTime& operator=(EarliestTime&&) noexcept;

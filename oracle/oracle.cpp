@@ -28,7 +28,12 @@ Decision settle(const Query& query, FilterStage stage) {
 }
 
 Decision decide(const Query& query) {
-  if (query.separation > 0) return settle(query, filter_with_separation(query));
+  if (query.separation > 0) {
+    const KnownApproach known = known_approach(query);
+    Decision decision = settle(query, known.stage);
+    decision.known = known;
+    return decision;
+  }
   if (!boxes_meet(query)) return {false, FilterStage::boxes};
   return settle(query, filter(query));
 }
@@ -50,7 +55,7 @@ bool collides(const Query& query) { return decide(query).collision; }
 std::optional<EarliestTime> earliest_time(const Query& query) {
   const Decision decision = decide(query);
   if (!decision.collision && !decision.is_tie) return std::nullopt;
-  return EarliestTime(query);
+  return EarliestTime(query, decision.known);
 }
 
 }  // namespace nearmiss

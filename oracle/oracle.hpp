@@ -7,6 +7,7 @@
 #include "ccd/query.hpp"
 #include "oracle/earliest_time.hpp"
 #include "oracle/filter/filter.hpp"
+#include "oracle/within_separation.hpp"
 
 namespace nearmiss {
 
@@ -17,6 +18,8 @@ struct Decision {
   FilterStage stage{};  ///< `undecided`: by exact arithmetic
   /// The smallest distance is exactly h > 0, so that both answers are right.
   bool is_tie = false;
+  /// For h > 0: what certified bounds show, from which EarliestTime goes on.
+  std::optional<KnownApproach> known = std::nullopt;
 
   /// The answer of the boxes or the filter; nothing if exact arithmetic decided.
   [[nodiscard]] std::optional<bool> by_filter() const {

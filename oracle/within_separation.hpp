@@ -15,13 +15,23 @@ struct KnownApproach {
   /// Unless it is always above h: contains the earliest time at which it is at most h, and that at which it falls below h,
   /// if there are such times.
   Enclosure time{0, 1};
+  double estimate = 1;  ///< of this time, not certain
 };
 
-/// Boxes, planes, and the search for the first time at which the distance is below h. The time is at most `width` wide, or as
-/// narrow as doubles allow, if the search succeeds.
-KnownApproach known_approach(const Query& query, double width);
+/// Boxes, planes, and the search for a time at which the distance is below h. The enclosure of the time is as wide as that search
+/// leaves it.
+KnownApproach known_approach(const Query& query);
 
-/// The stage alone, which is the same for every width.
-inline FilterStage filter_with_separation(const Query& query) { return known_approach(query, 1).stage; }
+/// The same with a time that is at most `width` wide, or as narrow as doubles allow, if a further search succeeds. It starts from
+/// `known`, which must be the answer of known_approach(query).
+KnownApproach narrowed(const Query& query, const KnownApproach& known, double width);
+
+/// Both.
+inline KnownApproach known_approach(const Query& query, double width) {
+  return narrowed(query, known_approach(query), width);
+}
+
+/// The stage alone.
+inline FilterStage filter_with_separation(const Query& query) { return known_approach(query).stage; }
 
 }  // namespace nearmiss

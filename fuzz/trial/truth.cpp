@@ -31,7 +31,7 @@ const std::string& Truth::contact() {
 }
 
 EarliestTime& Truth::time() {
-  if (!time_) time_.emplace(query_);
+  if (!time_) time_.emplace(query_, decision_.known);
   return *time_;
 }
 

@@ -22,13 +22,14 @@ struct Powers {
 };
 
 /// A root near 0 of a cubic that is not zero at 0, by Laguerre's method, which also converges fast to
-/// multiple roots; nothing if a step shows that there is no root.
-inline std::optional<double> root_near_zero(const Powers<double>& F) {
+/// multiple roots; nothing if a step shows that there is no root. The value at the root
+/// is at most `accuracy` of that at 0.
+inline std::optional<double> root_near_zero(const Powers<double>& F, double accuracy = 1e-9) {
   double t = 0;
   constexpr int most_steps = 10;
   for (int i = 0; i < most_steps; ++i) {
     const double value = F.at(t);
-    if (std::abs(value) <= 1e-9 * std::abs(F.c[0])) break;
+    if (std::abs(value) <= accuracy * std::abs(F.c[0])) break;
     const double G = F.slope(t) / value;
     const double H = G * G - F.curvature(t) / value;
     const double discriminant = 2 * (3 * H - G * G);

@@ -28,6 +28,7 @@ struct FirstTime {
   bool comes = false;  ///< it certainly does
   Enclosure
       time;  ///< contains the first such time, if there is one; before it, the distance is at least the required one
+  double estimate = 1;  ///< of the first such time, not certain
 };
 
 /// Looks for the first time at which the distance is below `low`, in the same way, in double and in double words; at most `width`

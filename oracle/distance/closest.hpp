@@ -145,4 +145,16 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
+/// The same if only the parts in `features` are considered, which takes less time; all, if the interiors have no closest points.
+template <class Real>
+ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
+  detail::Candidate<Real> best;
+  if (features.combination == ClosestFeatures::Combination::interiors)
+    detail::consider_interiors(x, best);
+  else
+    detail::consider_edge(x, features.vertex, features.from, features.to, best);
+  const bool found = best.squared_distance < std::numeric_limits<double>::infinity();
+  return found ? detail::points_of(x, best) : closest_points(x);
+}
+
 }  // namespace nearmiss::certified

@@ -116,6 +116,7 @@ class DistanceSearch {
   /// Whether a moment's errors are small compared with its distance and with the required bound.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
+    if (separation.products.empty()) return false;
     const double error = separation.products[0].errors[0];
     const double least = std::max(required_, 0.3 * moment.upper);
     constexpr double small = 0.03;

@@ -73,32 +73,52 @@ double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();
 }
 
+/// An upper bound of the distance, from the distance of two points.
+template <class Real>
+double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& differences) {
+  return std::sqrt(closest.squared_distance) * (1 + 0x1p-48) + points_error<Real>(differences) +
+         least_distance;
+}
+
+/// The separation that fits the features of the closest points best; `direction` is the one between these points.
+template <class Real>
+Separation separate_by_features(const VerticesAt<Real>& x, const ClosestFeatures& features,
+                                const Vec<double>& direction) {
+  switch (features.combination) {
+    case ClosestFeatures::Combination::vertices:
+      return separate_by_constant(x, direction);
+    case ClosestFeatures::Combination::vertex_and_edge:
+      return separate_by_edge(x, features.from, features.to, direction);
+    case ClosestFeatures::Combination::interiors:
+      break;
+  }
+  return separate_by_normal(x);
+}
+
 template <class Real>
 Moment look(const VerticesAt<Real>& x) {
   const ClosestPoints<Real> closest = closest_points(x);
   const ClosestFeatures& features = closest.features;
   Moment moment;
   moment.features = features;
-  const double distance = std::sqrt(closest.squared_distance);
-  moment.upper = distance * (1 + 0x1p-48) + points_error<Real>(x.differences()) + least_distance;
+  moment.upper = upper_bound(closest, x.differences());
   const Vec<double> difference = to_double(closest.difference);
   const Vec<double> velocity = to_double(closest.velocity);
   moment.direction = detail::direction_of(difference);
   moment.rate = dot(moment.direction, velocity);
+  moment.separations.push_back(separate_by_features(x, features, moment.direction));
   switch (features.combination) {
     case ClosestFeatures::Combination::vertices:
       detail::predict(moment, difference, velocity);
-      moment.separations.push_back(separate_by_constant(x, moment.direction));
       break;
     case ClosestFeatures::Combination::vertex_and_edge: {
       const Vec<double> edge = to_double(x.position(features.to, features.from));
       detail::predict(moment, difference, velocity - (dot(velocity, edge) / dot(edge, edge)) * edge);
-      moment.separations.push_back(separate_by_edge(x, features.from, features.to, moment.direction));
       break;
     }
     case ClosestFeatures::Combination::interiors:
-      moment.separations.push_back(separate_by_normal(x));
-      detail::predict(moment, distance, {moment.separations[0].products[0].coefficients});
+      detail::predict(moment, std::sqrt(closest.squared_distance),
+                      {moment.separations[0].products[0].coefficients});
       break;
   }
   return moment;

@@ -31,7 +31,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
 /// About the first root above 0 of a cubic that is positive at 0; nothing if a step shows that there is none.
 std::optional<double> first_root(const Powers<double>& p) {
   const auto& [c0, c1, c2, c3] = p.c;
-  if (c3 != 0) return root_near_zero(p);
+  constexpr double accuracy = 1e-4;
+  if (c3 != 0) return root_near_zero(p, accuracy);
   const double discriminant = c1 * c1 - 4 * c0 * c2;
   if (!(discriminant >= 0)) return std::nullopt;
   return 2 * c0 / (std::sqrt(discriminant) - c1);
@@ -59,15 +60,16 @@ double not_negative_until(const Powers<double>& p, double most) {
 }  // namespace
 
 double certified_reach(const Separation& separation, double distance, int direction, double most) {
-  double end = separation.count > 0 ? most : 0;
-  for (std::size_t n = 0; n < separation.count && end > 0; ++n) {
+  double end = separation.products.empty() ? 0 : most;
+  for (const Product& product : separation.products) {
+    if (!(end > 0)) break;
     // product - errors - distance |n| as a polynomial in |s|, rounded down.
     Powers<double> excess;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double c = separation.products[n].coefficients[i];
-      const double product = i % 2 == 1 && direction < 0 ? -c : c;
-      const double needed = separation.products[n].errors[i] + (i < 3 ? distance * separation.length[i] : 0);
-      excess.c[i] = product - needed - 0x1p-50 * (std::abs(product) + needed);
+      const double c = product.coefficients[i];
+      const double signed_c = i % 2 == 1 && direction < 0 ? -c : c;
+      const double needed = product.errors[i] + (i < 3 ? distance * separation.length[i] : 0);
+      excess.c[i] = signed_c - needed - 0x1p-50 * (std::abs(signed_c) + needed);
     }
     end = not_negative_until(excess, end);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -55,15 +56,13 @@ struct Product {
 /// One direction n(s) with its products. At every s the distance is at least the smallest product divided by
 /// |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
-  std::array<Product, 4> products{};
-  std::size_t count = 0;
+  boost::container::static_vector<Product, 4> products;
   std::array<double, 3> length{};
 
   void add(const std::array<double, 4>& coefficients, const std::array<double, 4>& errors) {
-    Product product{coefficients, errors};
+    Product& product = products.emplace_back(Product{coefficients, errors});
     for (std::size_t i = 0; i < 4; ++i)
       product.errors[i] += 0x1p-52 * std::abs(coefficients[i]) + least_distance;
-    products[count++] = product;
   }
 };
 

@@ -16,18 +16,20 @@ VertexDifferences::VertexDifferences(const Query& query)
   double largest = 0;
   // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their magnitudes, are finite.
   const auto subtract = [&](double factor) {
-    largest = 0;
-    double sum = 0;
+    // By component, so that the operations do not wait for each other.
+    Vec<double> most{};
+    Vec<double> sums{};
     for (std::size_t pair = 0; pair < pairs.size(); ++pair)
       for (std::size_t time = 0; time < 2; ++time)
         for (std::size_t k = 0; k < 3; ++k) {
           const auto coordinate = [&](std::size_t i) { return factor * query.x[12 * time + 3 * i + k]; };
           const DoubleWord value = two_sum(coordinate(pairs[pair][0]), -coordinate(pairs[pair][1]));
           pairs_[pair].at[time][k] = value;
-          sum += std::abs(value.hi) + std::abs(value.lo);
-          largest = std::max(largest, std::abs(value.hi));
+          sums[k] += std::abs(value.hi) + std::abs(value.lo);
+          most[k] = std::max(most[k], std::abs(value.hi));
         }
-    return std::isfinite(sum);
+    largest = std::max({most[0], most[1], most[2]});
+    return std::isfinite(sums[0] + sums[1] + sums[2]);
   };
   if (!subtract(1)) {
     subtract(0x1p-6);

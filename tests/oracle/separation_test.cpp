@@ -182,7 +182,7 @@ TYPED_TEST(SeparationErrors, EdgesProductsAreWithinTheirErrors) {
       const VertexDifferences differences(query);
       const VerticesAt<TypeParam> rounded(differences, TypeParam(t));
       const Separation separation = separate_by_edge(rounded, 2, 3, direction);
-      if (separation.count == 0) continue;
+      if (separation.products.empty()) continue;
       const ExactVertices x(query, differences, Rational(t));
       const Vec<double> edge = to_double(rounded.position(3, 2));
       const ExactVector k = exactly((1 / certified::dot(edge, edge)) * certified::cross(direction, edge));
@@ -194,12 +194,12 @@ TYPED_TEST(SeparationErrors, EdgesProductsAreWithinTheirErrors) {
         for (std::size_t j = second_primitive(query.kind); j < 4; ++j) {
           if (j == 3) continue;
           const ExactVector p = x.position(i, j), w = x.velocity(i, j);
-          ASSERT_LT(count, separation.count);
+          ASSERT_LT(count, separation.products.size());
           expect_within(
               separation.products[count++],
               {Rational(dot(n0, p)), Rational(dot(n0, w) + dot(n1, p)), Rational(dot(n1, w)), Rational(0)});
         }
-      EXPECT_EQ(count, separation.count);
+      EXPECT_EQ(count, separation.products.size());
     }
 }
 
@@ -216,7 +216,7 @@ TYPED_TEST(SeparationErrors, ConstantsProductsAreWithinTheirErrors) {
         expect_within(separation.products[count++],
                       {Rational(dot(exactly(direction), x.position(i, j))),
                        Rational(dot(exactly(direction), x.velocity(i, j))), Rational(0), Rational(0)});
-    EXPECT_EQ(count, separation.count);
+    EXPECT_EQ(count, separation.products.size());
   }
 }
 
