@@ -41,6 +41,8 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.timed = block.family->timed;
   batch.compare_all = block.family->compare_all;
   const std::uint64_t first = first_of(block, kind);
+  batch.first_number = first;
+  batch.step = kinds.size();
   for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
     stop.check();
     batch.queries.push_back(make_query(*block.family, plan.seed, index));

@@ -29,7 +29,7 @@ class Pace {
     const auto longest = static_cast<double>(growth * cases);
     const double fitting = time.count() > 0 ? static_cast<double>(cases) * (wanted / time) : longest;
     const std::lock_guard lock(mutex_);
-    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, longest));
+    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, std::min(longest, 512.0)));
   }
 
  private:
