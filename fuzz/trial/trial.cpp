@@ -92,7 +92,7 @@ class Judging {
   using Verdicts = std::vector<std::vector<Verdict>>;
 
   Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Verdicts& answers,
-          const std::vector<SubjectTimes>& times)
+          const std::vector<SubjectTimes>& times, const LeastKept& known)
       : subjects_(subjects),
         batch_(batch),
         comparison_(comparison),
@@ -100,9 +100,12 @@ class Judging {
         decisions_(batch.queries.size()) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       counts_.push_back(nullptr);
+      least_kept_.push_back(0);
       if (!batch.can_ask(*subjects[s])) continue;
-      counts_.back() = &result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}];
+      const CountsKey key{subjects[s]->name(), batch.kind, batch.family};
+      counts_.back() = &result_.statistics.counts[key];
       counts_.back()->times = times[s];
+      least_kept_.back() = known.of(key);
     }
   }
 
@@ -165,7 +168,8 @@ class Judging {
 
   /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
-    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, *counts_[s]);
+    const double least_kept = std::max(least_kept_[s], Counts::least_kept(counts_[s]->farthest));
+    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, least_kept);
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
     if (batch_.factors && outcome.collision && outcome.verdict.fault == Fault::none)
       count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
@@ -194,6 +198,7 @@ class Judging {
   const Verdicts& answers_;  // by subject and query
   TrialResult result_;
   std::vector<Counts*> counts_;      // by subject, in the result; null if it does not decide this kind
+  std::vector<double> least_kept_;   // by subject, as known from other cases
   std::vector<Judge> judges_;        // by subject
   std::vector<Rounded> rounded_;     // by subject
   std::vector<Decision> decisions_;  // by query
@@ -222,7 +227,9 @@ void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
                                                                 : not_asked);
 }
 
-TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }
+TrialResult Trial::judge(const LeastKept& known) const {
+  return Judging(subjects_, batch_, comparison_, answers_, times_, known).run();
+}
 
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
   Trial trial(subjects, batch, comparison);

@@ -10,6 +10,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
+#include "fuzz/trial/least_kept.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
@@ -87,7 +88,8 @@ class Trial {
   [[nodiscard]] std::vector<Verdict>& answers(std::size_t subject) { return answers_[subject]; }
   /// Judges all answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is also the
   /// query that is kept. Can be called again after the answers have changed.
-  TrialResult judge();
+  /// `known` may know farther false positives than those of this trial.
+  [[nodiscard]] TrialResult judge(const LeastKept& known = {}) const;
 
  private:
   const Subjects& subjects_;
