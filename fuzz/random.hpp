@@ -3,7 +3,9 @@
 
 #include <Random123/philox.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "ccd/query.hpp"
@@ -19,15 +21,27 @@ class Random {
 
   std::uint64_t bits() {
     if (used_ == 4) {
-      block_ = r123::Philox4x64()(counter_, key_);
-      ++counter_[1];
+      block_ = next_block();
       used_ = 0;
     }
     return block_[used_++];
   }
 
   /// A uniform multiple of 2^-53 in [0, 1).
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform() { return fraction(bits()); }
+  /// As many of them, which takes less time than to draw one after the other.
+  template <std::size_t n>
+  std::array<double, n> uniforms() {
+    std::array<double, n> all;
+    std::size_t i = 0;
+    while (i < n && used_ < 4) all[i++] = uniform();
+    for (; i + 4 <= n; i += 4) {
+      const auto block = next_block();
+      for (std::size_t k = 0; k < 4; ++k) all[i + k] = fraction(block[k]);
+    }
+    while (i < n) all[i++] = uniform();
+    return all;
+  }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
   /// A log-uniform number in [lo, hi), for positive lo and hi. The last bit depends on the C library's exp
   /// and log, which differ on processors without fused multiply-add.
@@ -56,6 +70,14 @@ class Random {
   }
 
  private:
+  static double fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+
+  r123::Philox4x64::ctr_type next_block() {
+    const auto block = r123::Philox4x64()(counter_, key_);
+    ++counter_[1];
+    return block;
+  }
+
   r123::Philox4x64::key_type key_;
   r123::Philox4x64::ctr_type counter_;
   r123::Philox4x64::ctr_type block_{};

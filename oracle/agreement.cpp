@@ -1,7 +1,6 @@
 #include "oracle/agreement.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -102,19 +101,6 @@ std::string time_disagreement(const Query& query) {
   return by_sturm.makes_late(after) == time.makes_late(after)
              ? ""
              : "time at which the distance falls below h (sturm: another)";
-}
-
-bool is_sampled(const Query& query, std::uint64_t one_in) {
-  std::uint64_t hash = static_cast<std::uint64_t>(query.kind);
-  for (const double c : query.x) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15;
-    hash ^= hash >> 32;
-  }
-  if (query.separation > 0) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(query.separation)) * 0x9e3779b97f4a7c15;
-    hash ^= hash >> 32;
-  }
-  return hash % one_in == 0;
 }
 
 }  // namespace nearmiss

@@ -1,7 +1,6 @@
 // Compares the answers of several exact methods.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,8 +45,5 @@ Answers ask_others(const Query& query, const Answer& first, std::span<const Meth
 /// How the second method contradicts the earliest time of a query with a collision or a tie, such as "time (sturm: earlier)";
 /// "" if it agrees. It is asked at the ends of the narrowest enclosure.
 std::string time_disagreement(const Query& query);
-
-/// Whether a query belongs to the sample of one query in `one_in`, chosen by a hash of its numbers.
-bool is_sampled(const Query& query, std::uint64_t one_in);
 
 }  // namespace nearmiss

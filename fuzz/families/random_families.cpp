@@ -13,8 +13,11 @@ using Vector = Vector3<double>;
 
 Query cube(Random& random, Kind kind, double speed) {
   Query query{.kind = kind};
-  for (std::size_t i = 0; i < 12; ++i) query.x[i] = random.uniform();
-  for (std::size_t i = 0; i < 12; ++i) query.x[12 + i] = query.x[i] + random.uniform(-speed, speed);
+  const auto drawn = random.uniforms<24>();
+  for (std::size_t i = 0; i < 12; ++i) {
+    query.x[i] = drawn[i];
+    query.x[12 + i] = drawn[i] + (-speed + (speed - -speed) * drawn[12 + i]);
+  }
   return query;
 }
 
@@ -23,7 +26,8 @@ Query uniform_slow(Random& random, Kind kind) { return cube(random, kind, 0.01);
 
 Query uniform_end(Random& random, Kind kind) {
   Query query{.kind = kind};
-  for (double& c : query.x) c = random.uniform();
+  const auto drawn = random.uniforms<24>();
+  std::copy(drawn.begin(), drawn.end(), query.x.begin());
   return query;
 }
 

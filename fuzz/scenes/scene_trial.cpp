@@ -18,7 +18,7 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_o
   for (std::size_t first = 0; first < plan.parts() && !trials_.stop().is_due();) {
     std::vector<PartResult> parts(std::min(trials_.at_once(), plan.parts() - first));
     sink_(trials_.hold(parts.size(),
-                       [&](std::size_t i) { return hold_part(name, plan, first + i, parts[i]); }));
+                       [&](std::size_t i) { return hold_part(step, plan, first + i, parts[i]); }));
     for (const PartResult& part : parts) {
       for (const auto& [kind, funnel] : part.funnels) sum.funnels[kind].merge(funnel);
       sum.marks.merge(part.marks);
@@ -43,14 +43,16 @@ std::optional<ScenePicture> SceneTrial::picture() const {
   return marks_.picture(step_name(scene_, most_marked_), moving_mesh(scene_, most_marked_), names);
 }
 
-TrialResult SceneTrial::hold_part(const std::string& name, const Plan& plan, std::size_t number,
+TrialResult SceneTrial::hold_part(std::size_t step, const Plan& plan, std::size_t number,
                                   PartResult& part) const {
+  const std::string name = step_name(scene_, step);
   TrialResult result;
   const auto ask = [&](const AskedPairs& pairs) {
     const Batch batch{
         .kind = pairs.kind,
         .family = name,
         .queries = pairs.queries,
+        .first_number = (std::uint64_t{step} << 48) + (std::uint64_t{number} << 24),
         .provenance =
             [&](std::size_t i) {
               return fmt::format("{}:{}:{}", name, short_name(pairs.kind),

@@ -37,8 +37,7 @@ class SceneTrial {
   };
 
   /// Runs the trials of one part of a plan, and counts and marks its pairs in `part`.
-  TrialResult hold_part(const std::string& name, const Plan& plan, std::size_t number,
-                        PartResult& part) const;
+  TrialResult hold_part(std::size_t step, const Plan& plan, std::size_t number, PartResult& part) const;
 
   const Scene& scene_;
   SiftedTrials& trials_;

@@ -9,6 +9,7 @@
 
 #include "fuzz/parallel.hpp"
 #include "fuzz/trial/case_order.hpp"
+#include "fuzz/trial/least_kept.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/patience.hpp"
 #include "fuzz/trial/sieve.hpp"
@@ -41,6 +42,8 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   batch.timed = block.family->timed;
   batch.compare_all = block.family->compare_all;
   const std::uint64_t first = first_of(block, kind);
+  batch.first_number = first;
+  batch.step = kinds.size();
   for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
     stop.check();
     batch.queries.push_back(make_query(*block.family, plan.seed, index));
@@ -73,6 +76,7 @@ class CampaignRun {
     progress_.cases = progress_.cases_before = passed_on_ = plan.before.oracle_total().queries;
     progress_.of = cases_of_shard(plan);
     patience_.know(plan.before);
+    least_kept_.take(plan.before.counts);
     sieve_.know(plan.findings_before);
     all_are_shrunk_ = are_shrunk(plan.findings_before);
   }
@@ -117,7 +121,7 @@ class CampaignRun {
     slice.result = {};
     const CaseBlock& block = slice.block;
     for (Trial& trial : slice.trials) {
-      TrialResult result = trial.judge();
+      TrialResult result = trial.judge(least_kept_);
       for (Finding& finding : result.findings)
         finding.place = cases_up_to(plan_, block.family->name,
                                     first_of(block, finding.query.kind) + kinds.size() * finding.place);
@@ -133,6 +137,7 @@ class CampaignRun {
     bool has_changed = false;
     for (Trial& trial : slice.trials) has_changed |= patience_.settle(trial, slice.number);
     if (has_changed) judge(slice);
+    least_kept_.take(slice.result.statistics.counts);
     sum_.merge(std::move(slice.result));
     progress_.cases += slice.block.cases();
     if (constexpr std::chrono::milliseconds interval{100}; Clock::now() - last_ >= interval) pass_on();
@@ -154,6 +159,7 @@ class CampaignRun {
   const Stop& stop_;
   Pace pace_;
   Patience patience_;
+  LeastKept least_kept_;
   Sieve sieve_;
   CasesOfShard cases_;
   std::uint64_t number_ = 0;  // of the next slice

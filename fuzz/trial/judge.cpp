@@ -73,12 +73,12 @@ std::pair<Outcome, std::optional<double>> Judge::outcome_of(const Verdict& verdi
   return {outcome, counts ? std::optional(unit.bound) : std::nullopt};
 }
 
-Outcome Judge::judge(const Verdict& verdict, Truth& truth, const Counts& counts) const {
+Outcome Judge::judge(const Verdict& verdict, Truth& truth, double least_kept) const {
   auto [outcome, unit] = outcome_of(verdict, truth);
   if (!unit) return outcome;
   const auto [ratio, exceeds] = truth.distance(*unit);
   outcome.bound_refuted = exceeds && subject_.claims_bound();
-  const bool is_kept = outcome.bound_refuted || Counts::keeps(counts.farthest, ratio);
+  const bool is_kept = outcome.bound_refuted || ratio >= least_kept;
   outcome.ratio = is_kept ? truth.precise_ratio(*unit, ratio) : ratio;
   return outcome;
 }

@@ -37,9 +37,10 @@ class Judge {
   /// Compares an answer with the truth about the query as the subject rounds it. If the smallest distance is exactly the
   /// separation h > 0, any answer is right, and a report counts as that of a collision. A subject that claims bounds
   /// must give a number >= 0 for a false positive; anything else is a fault. A subject that cannot tell claims nothing about
-  /// the distance. The ratio of a false positive is that of `Truth::distance`, accurate to 1/1000 if the finding or these
-  /// counters store it. It is 0 if the unit is beyond the largest double, since nothing is farther away than that.
-  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, const Counts& counts) const;
+  /// the distance. The ratio of a false positive is that of `Truth::distance`, accurate to 1/1000 if a finding stores it or if it
+  /// is at least `least_kept` (Counts). It is 0 if the unit is beyond the largest double, since nothing is farther away than
+  /// that.
+  [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0) const;
 
   /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;

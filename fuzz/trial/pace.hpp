@@ -9,8 +9,9 @@
 
 namespace nearmiss {
 
-/// Chooses the size of slices of cases such that one takes about a tenth of a second: work looks at its limits between
-/// slices. No result except run times depends on it. Many threads use it at once.
+/// Chooses the size of slices of cases such that one takes at most about a tenth of a second: work looks at its limits between
+/// slices. A slice has no more cases than fit into a processor's caches, with all that is noted about them. No result except run
+/// times depends on it. Many threads use it at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;
@@ -29,11 +30,12 @@ class Pace {
     const auto longest = static_cast<double>(growth * cases);
     const double fitting = time.count() > 0 ? static_cast<double>(cases) * (wanted / time) : longest;
     const std::lock_guard lock(mutex_);
-    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, longest));
+    cases_[family] = static_cast<std::size_t>(std::clamp(fitting, 1.0, std::min(longest, most)));
   }
 
  private:
   static constexpr std::size_t first = 2;
+  static constexpr double most = 512;
   mutable std::mutex mutex_;
   std::map<std::string, std::size_t> cases_;
 };

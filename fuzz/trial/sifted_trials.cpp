@@ -22,6 +22,8 @@ Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
             .family = batch.family,
             .queries = part(batch.queries),
             .truths = part(batch.truths),
+            .first_number = batch.number(first),
+            .step = batch.step,
             .timed = batch.timed,
             .compare_all = batch.compare_all};
   own.provenance = [&batch, first](std::size_t i) { return batch.provenance(first + i); };

@@ -7,6 +7,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/sample.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -46,8 +47,25 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Decides a batch. If its time counts, the subject is timed over the whole batch and, in one batch of 16,
-/// also over each query that it answered.
+/// Times a sample of the queries that a subject answered one by one.
+void time_sample(const Subject& subject, const Batch& batch, const std::vector<Verdict>& verdicts,
+                 SubjectTimes& times) {
+  constexpr std::uint64_t one_in = 256;
+  std::vector<std::size_t> sample;
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i].fault != Fault::none || !is_sampled(batch.number(i), one_in)) continue;
+    sample.push_back(i);
+    queries.push_back(batch.queries[i]);
+  }
+  if (queries.empty()) return;
+  std::vector<std::optional<std::uint64_t>> each(queries.size());
+  subject.time_each(queries, each);
+  for (std::size_t k = 0; k < each.size(); ++k)
+    if (each[k]) times.add(*each[k], queries[k], [&] { return batch.provenance(sample[k]); });
+}
+
+/// Decides a batch. If its time counts, the subject is timed over the whole batch, and a sample of the queries one by one.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts(batch.queries.size());
   if (!batch.timed || batch.queries.empty()) {
@@ -55,19 +73,7 @@ std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Subj
     return verdicts;
   }
   times.add(batch.kind, batch.family, subject.decide_timed(batch.queries, verdicts));
-  constexpr std::uint64_t one_in = 16;
-  if (!is_sampled(batch.queries.front(), one_in)) return verdicts;
-  std::vector<std::size_t> answered;
-  std::vector<Query> queries;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (verdicts[i].fault != Fault::none) continue;
-    answered.push_back(i);
-    queries.push_back(batch.queries[i]);
-  }
-  std::vector<std::optional<std::uint64_t>> each(queries.size());
-  subject.time_each(queries, each);
-  for (std::size_t k = 0; k < each.size(); ++k)
-    if (each[k]) times.add(*each[k], queries[k], [&] { return batch.provenance(answered[k]); });
+  time_sample(subject, batch, verdicts, times);
   return verdicts;
 }
 
@@ -86,7 +92,7 @@ class Judging {
   using Verdicts = std::vector<std::vector<Verdict>>;
 
   Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Verdicts& answers,
-          const std::vector<SubjectTimes>& times)
+          const std::vector<SubjectTimes>& times, const LeastKept& known)
       : subjects_(subjects),
         batch_(batch),
         comparison_(comparison),
@@ -94,9 +100,12 @@ class Judging {
         decisions_(batch.queries.size()) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       counts_.push_back(nullptr);
+      least_kept_.push_back(0);
       if (!batch.can_ask(*subjects[s])) continue;
-      counts_.back() = &result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}];
+      const CountsKey key{subjects[s]->name(), batch.kind, batch.family};
+      counts_.back() = &result_.statistics.counts[key];
       counts_.back()->times = times[s];
+      least_kept_.back() = known.of(key);
     }
   }
 
@@ -107,9 +116,11 @@ class Judging {
       judges_.emplace_back(*subject);
       rounded_.emplace_back(*subject, batch_.queries);
     }
+    if (batch_.queries.empty()) return std::move(result_);
+    OracleCounts& by_oracle = result_.statistics.oracle[{batch_.kind, batch_.family}];
     for (std::size_t i = 0; i < batch_.queries.size(); ++i) {
       Truth truth(batch_.queries[i], decisions_[i]);
-      try_oracle(i, truth);
+      try_oracle(i, truth, by_oracle);
       for (std::size_t s = 0; s < subjects_.size(); ++s) {
         if (counts_[s] == nullptr) continue;
         std::optional<Truth> own = rounded_[s].truth(i);
@@ -122,8 +133,7 @@ class Judging {
  private:
   /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
   /// methods.
-  void try_oracle(std::size_t i, Truth& truth) {
-    OracleCounts& counts = result_.statistics.oracle[{batch_.kind, batch_.family}];
+  void try_oracle(std::size_t i, Truth& truth, OracleCounts& counts) {
     ++counts.queries;
     counts.collisions += truth.collision() ? 1 : 0;
     counts.ties += truth.is_tie() ? 1 : 0;
@@ -141,7 +151,7 @@ class Judging {
   [[nodiscard]] bool asks_all_methods(std::size_t i) const {
     const bool undecided = decisions_[i].stage == FilterStage::undecided;
     const std::uint64_t one_in = undecided ? comparison_.one_in_undecided() : comparison_.one_in;
-    return batch_.compare_all || is_near_bounds(i) || is_sampled(batch_.queries[i], one_in);
+    return batch_.compare_all || is_near_bounds(i) || is_sampled(batch_.number(i), one_in);
   }
 
   void compare_methods(std::size_t i, const Truth& truth, OracleCounts& counts) {
@@ -158,7 +168,8 @@ class Judging {
 
   /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
-    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, *counts_[s]);
+    const double least_kept = std::max(least_kept_[s], Counts::least_kept(counts_[s]->farthest));
+    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, least_kept);
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
     if (batch_.factors && outcome.collision && outcome.verdict.fault == Fault::none)
       count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
@@ -187,6 +198,7 @@ class Judging {
   const Verdicts& answers_;  // by subject and query
   TrialResult result_;
   std::vector<Counts*> counts_;      // by subject, in the result; null if it does not decide this kind
+  std::vector<double> least_kept_;   // by subject, as known from other cases
   std::vector<Judge> judges_;        // by subject
   std::vector<Rounded> rounded_;     // by subject
   std::vector<Decision> decisions_;  // by query
@@ -215,7 +227,9 @@ void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
                                                                 : not_asked);
 }
 
-TrialResult Trial::judge() { return Judging(subjects_, batch_, comparison_, answers_, times_).run(); }
+TrialResult Trial::judge(const LeastKept& known) const {
+  return Judging(subjects_, batch_, comparison_, answers_, times_, known).run();
+}
 
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
   Trial trial(subjects, batch, comparison);

@@ -10,6 +10,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
+#include "fuzz/trial/least_kept.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
@@ -23,7 +24,9 @@ struct Batch {
   std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty if there are none
-  bool timed = true;                             ///< whether run times count
+  /// The numbers of the queries in their family or stream: first, first + step, and so on. They choose samples.
+  std::uint64_t first_number = 0, step = 1;
+  bool timed = true;         ///< whether run times count
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
   /// Returns the origin of query i of the batch; called only for queries that are kept.
   std::function<std::string(std::size_t)> provenance = {};
@@ -32,6 +35,8 @@ struct Batch {
   /// If set, receives every outcome: that of query i for the subject with this index.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 
+  /// The number of query i of the batch.
+  [[nodiscard]] std::uint64_t number(std::size_t i) const { return first_number + step * i; }
   /// Whether a subject can answer these queries.
   [[nodiscard]] bool can_ask(const Subject& subject) const {
     const bool has_separation = !queries.empty() && queries.front().separation > 0;
@@ -58,7 +63,7 @@ struct Comparison {
   /// this factor.
   static constexpr double caution = 16;
 
-  std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by hash; at least 1
+  std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
   bool near_bounds = false;     ///< also compares all queries that the filter decides near its bounds
 
   [[nodiscard]] std::uint64_t one_in_undecided() const {
@@ -83,7 +88,8 @@ class Trial {
   [[nodiscard]] std::vector<Verdict>& answers(std::size_t subject) { return answers_[subject]; }
   /// Judges all answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is also the
   /// query that is kept. Can be called again after the answers have changed.
-  TrialResult judge();
+  /// `known` may know farther false positives than those of this trial.
+  [[nodiscard]] TrialResult judge(const LeastKept& known = {}) const;
 
  private:
   const Subjects& subjects_;

@@ -1,6 +1,7 @@
 // Trials over queries that come one at a time, such as a corpus or the pairs of a scene.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -38,6 +39,7 @@ class TrialStream {
   TrialSink sink_;
   std::map<std::tuple<std::string, Kind, bool>, Pending> pending_;  // by family, kind and whether h > 0
   std::vector<Pending> full_;
+  std::uint64_t batches_ = 0;  ///< begun so far
 };
 
 }  // namespace nearmiss

@@ -46,7 +46,7 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
     distances.add(outcome.ratio);
     refuted_bounds += outcome.bound_refuted ? 1 : 0;
     measured_by_wang += outcome.measured_by_wang ? 1 : 0;
-    if (keeps(farthest, outcome.ratio)) add_up(farthest, {{outcome.ratio, query, provenance()}});
+    if (outcome.ratio >= least_kept(farthest)) add_up(farthest, {{outcome.ratio, query, provenance()}});
   }
 }
 
@@ -57,7 +57,7 @@ void Counts::add_time(const TimeError& time, const Query& query,
   late += time.late ? 1 : 0;
   stuck += time.stuck ? 1 : 0;
   const auto keep = [&](std::vector<FarCase>& kept, double error) {
-    if (error > 0 && keeps(kept, error)) add_up(kept, {{error, query, provenance()}});
+    if (error > 0 && error >= least_kept(kept)) add_up(kept, {{error, query, provenance()}});
   };
   if (time.after > 0) {
     after.add(time.after);

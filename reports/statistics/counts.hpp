@@ -146,9 +146,9 @@ struct Counts {
   /// The error of the earliest time, and of the latest one; 0 if there is none.
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// Whether a case with this ratio would be kept among some that are kept.
-  [[nodiscard]] static bool keeps(const std::vector<FarCase>& kept, double ratio) {
-    return kept.size() < far_cases || ratio >= kept.back().ratio;
+  /// The least ratio of a case that would be kept among some that are kept.
+  [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
+    return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
   /// Reports that are neither right nor wrong: the subject could not tell.
   [[nodiscard]] std::uint64_t unknown() const {

@@ -73,7 +73,7 @@ TEST(Judge, ASubjectThatCannotTellClaimsNoBound) {
   const Undecided subject;
   EXPECT_EQ(Judge(subject).failure(stops_above), std::nullopt);
   Truth truth(stops_above);
-  const Outcome outcome = Judge(subject).judge(subject.decide(stops_above), truth, Counts());
+  const Outcome outcome = Judge(subject).judge(subject.decide(stops_above), truth);
   EXPECT_FALSE(outcome.collision);
   EXPECT_FALSE(outcome.bound_refuted);
   EXPECT_EQ(outcome.ratio, 0);
@@ -111,9 +111,9 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   EXPECT_EQ(Judge(*plugin).unit(stops_above), make_subject("wang")->distance_bound(stops_above));
   EXPECT_EQ(Judge(*plugin).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
   Truth truth(stops_above);
-  EXPECT_TRUE(Judge(*plugin).judge(plugin->decide(stops_above), truth, {}).measured_by_wang);
+  EXPECT_TRUE(Judge(*plugin).judge(plugin->decide(stops_above), truth).measured_by_wang);
   const Alarmist claims(0.5);
-  EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth, {}).measured_by_wang);
+  EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth).measured_by_wang);
 }
 
 /// The error of a subject's time for a vertex that touches its triangle at t = 1/2.
@@ -134,7 +134,7 @@ std::optional<TimeError> error_of_time(TimeSort sort, double time) {
   };
   const Timed subject(sort, time);
   Truth truth(hit);
-  return Judge(subject).judge(subject.decide(hit), truth, {}).time;
+  return Judge(subject).judge(subject.decide(hit), truth).time;
 }
 
 TEST(Judge, ATimeIsPromisedByASubjectThatGivesLowerBounds) {
