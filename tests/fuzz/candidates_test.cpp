@@ -102,9 +102,9 @@ std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink
 
 TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const MovingMesh mesh = random_mesh(seed, 300, 600);
+    const MovingMesh mesh = random_mesh(seed, 600, 900);
     for (const Kind kind : kinds) {
-      ASSERT_GT(CandidateFinder(mesh, kind).parts(), 3);
+      ASSERT_GT(CandidateFinder(mesh, kind, 1, never_over).parts(), 3);
       EXPECT_TRUE(candidates(mesh, kind, boxes) == candidates(mesh, kind, find_candidates_by_sweep))
           << "seed " << seed << ' ' << short_name(kind);
     }
