@@ -72,12 +72,17 @@ class Block {
 class CandidateFinder::Search {
  public:
   Search(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
-      : mesh_(&mesh), kind_(kind), vertices_(swept_cells(mesh)), tree_(partners(), jobs, is_over) {}
+      : mesh_(&mesh),
+        kind_(kind),
+        vertices_(swept_cells(mesh, jobs)),
+        tree_(partners(), jobs, is_over),
+        block_size_(block_groups * tree_.typical_group()) {}
 
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
     mesh_ = &mesh;
-    vertices_ = swept_cells(mesh);
+    vertices_ = swept_cells(mesh, jobs);
     tree_.move(partners(), jobs, is_over);
+    block_size_ = block_groups * tree_.typical_group();
   }
 
   [[nodiscard]] std::size_t parts() const {
@@ -91,13 +96,11 @@ class CandidateFinder::Search {
     // Primitives with a common vertex need no exact test: their boxes meet.
     CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
     const bool edges = kind_ == Kind::edge_edge;
-    // With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
-    const std::int64_t most = block_groups * tree_.typical_group();
     const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
     Block block;
     try {
       for (std::size_t row = part * rows_of_part(); row < end && !is_over();) {
-        const std::size_t next = block.start(rows(), row, end, most);
+        const std::size_t next = block.start(rows(), row, end, block_size_);
         block.collect(tree_, partners(), edges ? static_cast<std::int32_t>(row) + 1 : 0);
         block.compare(edges, [&](std::size_t i, std::size_t j) { passer.pass(i, j); });
         row = next;
@@ -108,6 +111,7 @@ class CandidateFinder::Search {
   }
 
  private:
+  // With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
   static constexpr std::int64_t block_groups = 2;
 
   /// Small enough for all threads of a small mesh to have work.
@@ -125,6 +129,7 @@ class CandidateFinder::Search {
   Kind kind_;
   std::vector<CellBox> vertices_;
   CellTree tree_;
+  std::int64_t block_size_;
 };
 
 CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)

@@ -48,8 +48,8 @@ struct CellBox {
 ///
 /// This needs no bound on rounding errors. All operations that make a cell from a coordinate are monotone, even when
 /// they are rounded, so that x <= y for coordinates implies x <= y for their cells. Throws Error for a coordinate
-/// that is not finite.
-std::vector<CellBox> swept_cells(const MovingMesh& mesh);
+/// that is not finite. Works on `jobs` threads.
+std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.
 class PrimitiveBoxes {
