@@ -59,18 +59,16 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // At least half of the separation, with room for the rounding of the difference in boxes_meet.
+  // Two of these are more than any distance that boxes_meet rounds to the separation.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
-  const auto lower = [half](double x) { return half > 0 ? -above(half - x) : x; };
-  const auto higher = [half](double x) { return half > 0 ? above(x + half) : x; };
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;
   in_parallel(jobs, (boxes.size() + chunk - 1) / chunk, [&](std::size_t part) {
     for (std::size_t v = part * chunk; v < std::min(boxes.size(), (part + 1) * chunk); ++v)
       for (int k = 0; k < 3; ++k) {
         const auto [lo, hi] = std::minmax({mesh.start[v][k], mesh.end[v][k]});
-        boxes[v].lo[static_cast<std::size_t>(k)] = grid.cell(lower(lo), k);
-        boxes[v].hi[static_cast<std::size_t>(k)] = grid.cell(higher(hi), k);
+        boxes[v].lo[static_cast<std::size_t>(k)] = grid.cell(lo - half, k);
+        boxes[v].hi[static_cast<std::size_t>(k)] = grid.cell(hi + half, k);
       }
   });
   return boxes;

@@ -96,6 +96,27 @@ TEST(CandidateFinder, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
   }
 }
 
+// The distance of a vertex and a triangle is rounded to the separation, and the middle between them is on the border of
+// two cells: the grid goes from -2 to 2 times the middle.
+TEST(CandidateFinder, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
+  std::size_t found = 0;
+  Random random(1, 0, 0);
+  for (int i = 0; i < 3000; ++i) {
+    const double vertex = random.uniform(0.5, 2);
+    const double triangle = random.uniform(-0.1, 0.3);
+    const double separation = vertex - triangle;
+    const double middle = vertex - separation / 2;
+    const Points points{{vertex, 0, 0},      {triangle, 0, 0},   {triangle, 1e-9, 0},
+                        {triangle, 0, 1e-9}, {2 * middle, 0, 0}, {-2 * middle, 0, 0}};
+    MovingMesh mesh = make_moving_mesh({points, {{1, 2, 3}}, {}}, points);
+    mesh.separation = separation;
+    const auto expected = candidates_by_brute_force(mesh);
+    ASSERT_EQ(found_candidates(mesh), expected) << i;
+    found += expected.size();
+  }
+  EXPECT_GT(found, 3000);
+}
+
 TEST(CandidateFinder, AFarPointHidesNothing) {
   for (const double far : {1e9, 1e20, 1e300}) {
     MovingMesh mesh = any_mesh(1, 40, [](Random& random) { return random.integer_vector(6); });
