@@ -168,19 +168,19 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
   SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
-  SceneTrial trial(scene, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
-  for (std::size_t step = 0; step < scene.steps() && !stop.is_due(); ++step) {
-    const MovingMesh mesh = moving_mesh(scene, step);
+  SceneTrial trial(scene, leave_out, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
+  const auto is_over = [&] { return stop.is_due(); };
+  for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
     exported.add_all(mesh, leave_out, stop);
     const auto start = std::chrono::steady_clock::now();
-    trial.hold(step, mesh, leave_out, [&](double part) { progress.asking(step, part); });
+    trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
     verified.asking += std::chrono::steady_clock::now() - start;
     if (options.verify_plan && !stop.is_due())
       verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
         progress.verifying(step, part);
         return !stop.is_due();
       }));
-  }
+  });
   if (!stop.is_due()) exported.finish();
   if (const auto picture = trial.picture()) record.add(*picture);
   return verified;

@@ -20,12 +20,11 @@ namespace {
 /// The largest bound B (§5) of all pairs whose boxes meet, over all steps, rounded up to four digits.
 double scene_bound(const Scene& scene) {
   double largest = 0;
-  for (std::size_t step = 0; step < scene.steps(); ++step) {
-    const MovingMesh mesh = moving_mesh(scene, step);
+  for_each_step(scene, never_over, [&](std::size_t, const MovingMesh& mesh) {
     find_candidates(mesh, [&](const Candidate& candidate) {
       largest = std::max(largest, pair_bound(make_query(mesh, candidate)));
     });
-  }
+  });
   const double unit = std::pow(10, std::floor(std::log10(largest)) - 3);
   const double rounded = std::ceil(largest / unit) * unit;
   return rounded >= largest && std::isfinite(rounded) ? rounded : largest;

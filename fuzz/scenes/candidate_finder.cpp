@@ -1,170 +1,162 @@
-// Finds candidates by CGAL's box intersection.
-#include <CGAL/Bbox_3.h>
-#include <CGAL/box_intersection_d.h>
-
+// Finds candidates by a hierarchy of boxes.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "fuzz/scenes/candidate_passer.hpp"
+#include "fuzz/scenes/cell_tree.hpp"
 #include "oracle/filter/box.hpp"
 
 namespace nearmiss {
 
 namespace {
 
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
-
-/// The bounds, moved outward by at least half of a separation on each side.
-CGAL::Bbox_3 grown(const CGAL::Bbox_3& bounds, double separation) {
-  if (separation == 0) return bounds;
-  const auto above = [](double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); };
-  const double half = above(separation / 2);
-  const auto low = [&](int k) { return -above(half - bounds.min(k)); };
-  const auto high = [&](int k) { return above(bounds.max(k) + half); };
-  return {low(0), low(1), low(2), high(0), high(1), high(2)};
-}
-
-/// The swept boxes of primitives; `info` of a box is the number of its primitive. They are so large that the boxes of two
-/// primitives overlap if these are not farther apart than the separation along any axis.
-template <class VerticesOf>
-std::vector<Box> swept_boxes(const MovingMesh& mesh, std::size_t count, const VerticesOf& vertices_of) {
-  std::vector<Box> boxes;
-  boxes.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    CGAL::Bbox_3 bounds;
-    for (const int vertex : vertices_of(i)) {
-      const auto v = static_cast<std::size_t>(vertex);
-      for (const auto& p : {mesh.start[v], mesh.end[v]})
-        bounds += CGAL::Bbox_3(p.x(), p.y(), p.z(), p.x(), p.y(), p.z());
-    }
-    boxes.emplace_back(grown(bounds, mesh.separation), i);
-  }
-  return boxes;
-}
-
-/// Orders boxes so that the boxes of a part are near each other. Part i goes from borders[i] to borders[i +
-/// 1].
-class BoxPartition {
+/// A few rows that follow each other and are near each other, and the partners near them.
+class Block {
  public:
-  explicit BoxPartition(std::vector<Box>& boxes)
-      : boxes_(boxes), most_(std::clamp(boxes.size() / 64, smallest, largest)) {
-    split(0, boxes.size());
-    borders_.push_back(boxes.size());
+  /// Begins with a row and ends before `end`, or when the box around the rows would become larger than `most`.
+  /// Returns the first row after the block.
+  std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
+    first_ = first;
+    bounds_ = boxes[first];
+    rows_.assign(1, bounds_);
+    for (std::size_t row = first + 1; row < std::min(end, first + most_rows); ++row) {
+      const CellBox box = boxes[row];
+      CellBox extended = bounds_;
+      extended.add(box);
+      if (extended.size() > most) break;
+      bounds_ = extended;
+      rows_.push_back(box);
+    }
+    return first_ + rows_.size();
   }
-  std::vector<std::size_t> borders() && { return std::move(borders_); }
+
+  /// Collects the partners near the block, in the order of their numbers.
+  void collect(const CellTree& tree, const PrimitiveBoxes& partners, std::int32_t least) {
+    numbers_.clear();
+    tree.find(bounds_, least, [&](std::int32_t number) { numbers_.push_back(number); });
+    std::sort(numbers_.begin(), numbers_.end());
+    near_.assign((numbers_.size() + CellBoxGroup::size - 1) / CellBoxGroup::size, {});
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      near_[i / CellBoxGroup::size].set(i % CellBoxGroup::size,
+                                        partners[static_cast<std::size_t>(numbers_[i])], numbers_[i]);
+  }
+
+  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners. `after`
+  /// says that only partners with a larger number than the row's count.
+  template <class Pass>
+  void compare(bool after, const Pass& pass) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const std::size_t row = first_ + i;
+      const std::int32_t least = after ? static_cast<std::int32_t>(row) + 1 : 0;
+      for (const CellBoxGroup& group : near_)
+        group.for_meeting(rows_[i], least, [&](std::size_t place) {
+          pass(row, static_cast<std::size_t>(group.number(place)));
+        });
+    }
+  }
 
  private:
-  // Searching a part goes through all boxes once, so a large mesh must not have many parts.
-  static constexpr std::size_t smallest = 256;
-  static constexpr std::size_t largest = 16384;
+  static constexpr std::size_t most_rows = 16;
 
-  [[nodiscard]] auto begin(std::size_t i) const { return boxes_.begin() + static_cast<std::ptrdiff_t>(i); }
-
-  /// Halves a range of boxes along the longest axis of their extent, until it is small enough for a part.
-  void split(std::size_t first, std::size_t end) {
-    const auto in_order = [](int d) {
-      return [d](const Box& a, const Box& b) {
-        return a.min_coord(d) != b.min_coord(d) ? a.min_coord(d) < b.min_coord(d) : a.info() < b.info();
-      };
-    };
-    if (end - first <= most_) {
-      borders_.push_back(first);
-      std::sort(begin(first), begin(end), [](const Box& a, const Box& b) { return a.info() < b.info(); });
-      return;
-    }
-    CGAL::Bbox_3 all;
-    std::for_each(begin(first), begin(end), [&](const Box& box) { all += box.bbox(); });
-    int longest = 0;
-    for (const int d : {1, 2})
-      if (all.max(d) - all.min(d) > all.max(longest) - all.min(longest)) longest = d;
-    const std::size_t middle = first + (end - first) / 2;
-    std::nth_element(begin(first), begin(middle), begin(end), in_order(longest));
-    split(first, middle);
-    split(middle, end);
-  }
-
-  std::vector<Box>& boxes_;
-  std::size_t most_;
-  std::vector<std::size_t> borders_;
+  std::size_t first_ = 0;
+  CellBox bounds_{};
+  std::vector<CellBox> rows_;
+  std::vector<std::int32_t> numbers_;
+  std::vector<CellBoxGroup> near_;
 };
 
 }  // namespace
 
-/// The boxes of triangles or edges, divided into parts, and the boxes of the vertices.
-class CandidateFinder::Boxes {
+/// The boxes of all primitives. A row has the pairs of one vertex with all triangles, or of one edge with the edges
+/// after it; these are the partners of the row.
+class CandidateFinder::Search {
  public:
-  Boxes(const MovingMesh& mesh, Kind kind) : mesh_(mesh), kind_(kind) {
-    if (kind == Kind::edge_edge) {
-      divided_ = swept_boxes(mesh, mesh.edges.size(), [&](std::size_t i) { return mesh.edges[i]; });
-    } else {
-      divided_ = swept_boxes(mesh, mesh.triangles.size(), [&](std::size_t i) { return mesh.triangles[i]; });
-      vertices_ =
-          swept_boxes(mesh, mesh.start.size(), [](std::size_t i) { return std::array{static_cast<int>(i)}; });
-    }
-    borders_ = BoxPartition(divided_).borders();
+  Search(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
+      : mesh_(&mesh),
+        kind_(kind),
+        vertices_(swept_cells(mesh, jobs)),
+        tree_(partners(), jobs, is_over),
+        block_size_(block_groups * tree_.typical_group()) {}
+
+  void move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
+    mesh_ = &mesh;
+    vertices_ = swept_cells(mesh, jobs);
+    tree_.move(partners(), jobs, is_over);
+    block_size_ = block_groups * tree_.typical_group();
   }
 
-  [[nodiscard]] std::size_t parts() const { return borders_.size() - 1; }
+  [[nodiscard]] std::size_t parts() const {
+    return (pair_rows(*mesh_, kind_) + rows_of_part() - 1) / rows_of_part();
+  }
 
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const {
-    const auto at = [](const std::vector<Box>& boxes, std::size_t i) {
-      return boxes.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto sink_meeting = [&](const Candidate& candidate) {
+      if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
     };
-    std::vector<Box> part_boxes(at(divided_, borders_[part]), at(divided_, borders_[part + 1]));
-    CGAL::Bbox_3 all;
-    for (const Box& box : part_boxes) all += box.bbox();
-    std::vector<Box> near;
-    const auto is_near = [&](const Box& box) { return CGAL::do_overlap(all, box.bbox()); };
-    if (kind_ == Kind::edge_edge)  // the earlier of two parts finds the pairs between them
-      std::copy_if(at(divided_, borders_[part + 1]), divided_.end(), std::back_inserter(near), is_near);
-    else
-      std::copy_if(vertices_.begin(), vertices_.end(), std::back_inserter(near), is_near);
-
-    // Up to this number of boxes, all pairs are compared. CGAL's default, 10, takes twice as long on meshes
-    // of 64,000 triangles.
-    constexpr std::ptrdiff_t scanned = 200;
-    const CandidateSink sink_near = [&](const Candidate& candidate) {
-      if (boxes_meet(make_query(mesh_, candidate))) sink(candidate);
-    };
-    CandidatePasser passer(mesh_, kind_, mesh_.separation > 0 ? sink_near : sink, is_over);
-    const auto pass = [&](const Box& a, const Box& b) { passer.pass(a.info(), b.info()); };
+    // Primitives with a common vertex need no exact test: their boxes meet.
+    CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
+    const bool edges = kind_ == Kind::edge_edge;
+    const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
+    Block block;
     try {
-      if (kind_ == Kind::edge_edge)
-        CGAL::box_self_intersection_d(part_boxes.begin(), part_boxes.end(), pass, scanned);
-      CGAL::box_intersection_d(near.begin(), near.end(), part_boxes.begin(), part_boxes.end(), pass, scanned);
+      for (std::size_t row = part * rows_of_part(); row < end && !is_over();) {
+        const std::size_t next = block.start(rows(), row, end, block_size_);
+        block.collect(tree_, partners(), edges ? static_cast<std::int32_t>(row) + 1 : 0);
+        block.compare(edges, [&](std::size_t i, std::size_t j) { passer.pass(i, j); });
+        row = next;
+      }
     } catch (const Stopped&) {
     }
     return passer.sharing();
   }
 
  private:
-  const MovingMesh& mesh_;
+  // With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
+  static constexpr std::int64_t block_groups = 2;
+
+  /// Small enough for all threads of a small mesh to have work.
+  [[nodiscard]] std::size_t rows_of_part() const {
+    return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
+  }
+  [[nodiscard]] PrimitiveBoxes rows() const {
+    return kind_ == Kind::edge_edge ? PrimitiveBoxes(vertices_, mesh_->edges) : PrimitiveBoxes(vertices_);
+  }
+  [[nodiscard]] PrimitiveBoxes partners() const {
+    return kind_ == Kind::edge_edge ? rows() : PrimitiveBoxes(vertices_, mesh_->triangles);
+  }
+
+  const MovingMesh* mesh_;
   Kind kind_;
-  std::vector<Box> divided_, vertices_;
-  std::vector<std::size_t> borders_;
+  std::vector<CellBox> vertices_;
+  CellTree tree_;
+  std::int64_t block_size_;
 };
 
-CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind)
-    : boxes_(std::make_unique<const Boxes>(mesh, kind)) {}
+CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
+    : search_(std::make_unique<Search>(mesh, kind, jobs, is_over)) {}
 CandidateFinder::CandidateFinder(CandidateFinder&&) noexcept = default;
 CandidateFinder::~CandidateFinder() = default;
 
-std::size_t CandidateFinder::parts() const { return boxes_->parts(); }
+void CandidateFinder::move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
+  search_->move(mesh, jobs, is_over);
+}
+
+std::size_t CandidateFinder::parts() const { return search_->parts(); }
 
 std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
                                     const IsOver& is_over) const {
-  return boxes_->find(part, sink, is_over);
+  return search_->find(part, sink, is_over);
 }
 
 std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
                               const IsOver& is_over) {
-  const CandidateFinder finder(mesh, kind);
   std::uint64_t sharing = 0;
-  for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
-    sharing += finder.find(part, sink, is_over);
+  try {
+    const CandidateFinder finder(mesh, kind, 1, is_over);
+    for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
+      sharing += finder.find(part, sink, is_over);
+  } catch (const Stopped&) {
+  }
   return sharing;
 }
 

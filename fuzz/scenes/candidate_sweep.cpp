@@ -63,7 +63,7 @@ bool are_near(const SweptBox& a, const SweptBox& b, std::size_t k, double h) {
   return !begins_behind(a, b, k, h) && !begins_behind(b, a, k, h);
 }
 
-void sweep(const std::vector<SweptBox>& all, double h, CandidatePasser& passer) {
+void sweep(const std::vector<SweptBox>& all, double h, CandidatePasser<CandidateSink>& passer) {
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size() && !begins_behind(all[j], all[i], 0, h); ++j) {
       const SweptBox& a = all[i];

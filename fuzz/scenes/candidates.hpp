@@ -31,27 +31,36 @@ using CandidateSink = std::function<void(const Candidate&)>;
 /// Returns whether to end early.
 using IsOver = std::function<bool()>;
 
+/// Work that never ends early.
+inline const IsOver never_over = [] { return false; };
+
 /// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every axis
-/// (oracle/filter/box.hpp; closed boxes: touching counts). The search is divided
-/// into parts, which can be searched in any order and by any thread. The parts only depend on the mesh, which
-/// must outlive this object.
+/// (oracle/filter/box.hpp; closed boxes: touching counts). The pairs come in the order of rows (pair_rows below). A part has
+/// some rows that follow each other; parts can be searched in any order and by any thread, and which rows they have
+/// depends only on the number of rows.
 class CandidateFinder {
  public:
-  CandidateFinder(const MovingMesh& mesh, Kind kind);
-  CandidateFinder(MovingMesh&& mesh, Kind kind) = delete;
+  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` says so, and Error for
+  /// a coordinate that is not finite.
+  CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
+  CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
   CandidateFinder(CandidateFinder&&) noexcept;
   ~CandidateFinder();
+
+  /// Replaces the mesh by another step of the same mesh, in less time than a new object would take. The pairs are those
+  /// that a new object would find. After an exception, the object must not be used any more.
+  void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;
 
   /// Passes on each pair of a part without a common vertex once, and returns the number of pairs with a
-  /// common vertex. Nothing is stored, so a scene of any size can be streamed. `is_over` is called now and then,
+  /// common vertex. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and then,
   /// and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
-  class Boxes;
-  std::unique_ptr<const Boxes> boxes_;
+  class Search;
+  std::unique_ptr<Search> search_;
 };
 
 /// Finds all candidates of a kind, part by part. Returns the number of pairs with a common vertex.

@@ -39,10 +39,9 @@ std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut le
         found[i].claimed = std::max(found[i].claimed, subjects[i]->distance_bound(query));
     }
   };
-  for (std::size_t step = 0; step < scene.steps() && !stop(); ++step) {
-    const MovingMesh mesh = moving_mesh(scene, step);
+  for_each_step(scene, stop, [&](std::size_t, const MovingMesh& mesh) {
     follow_plan(Plan(mesh, leave_out), look, {}, stop);
-  }
+  });
   for (std::size_t i = 0; i < subjects.size() && !stop(); ++i)
     found[i].ns_per_query = quickest_ns(*subjects[i], sample);
   return found;

@@ -90,10 +90,11 @@ std::pair<PairFate, bool> fate(const Query& query) {
   return {motion == RelativeMotion::rest ? PairFate::at_rest : PairFate::in_translation, *meets};
 }
 
-Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out) : mesh_(mesh), leave_out_(leave_out) {
+Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs, const IsOver& is_over)
+    : mesh_(&mesh), leave_out_(leave_out) {
   for (const Kind kind : kinds) {
     const auto start = Clock::now();
-    if (leave_out != LeaveOut::nothing) finders_.emplace(kind, CandidateFinder(mesh, kind));
+    if (leave_out != LeaveOut::nothing) finders_.emplace(kind, CandidateFinder(mesh, kind, jobs, is_over));
     making_ns_[kind] = since(start);
     const std::size_t count =
         leave_out == LeaveOut::nothing ? pair_rows(mesh, kind) : finders_.at(kind).parts();
@@ -101,14 +102,23 @@ Plan::Plan(const MovingMesh& mesh, LeaveOut leave_out) : mesh_(mesh), leave_out_
   }
 }
 
+void Plan::move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
+  mesh_ = &mesh;
+  for (auto& [kind, finder] : finders_) {
+    const auto start = Clock::now();
+    finder.move(mesh, jobs, is_over);
+    making_ns_[kind] = since(start);
+  }
+}
+
 Funnels Plan::follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                      const IsOver& is_over) const {
   const auto [kind, number] = parts_[part];
-  FateTeller teller(mesh_, kind, leave_out_, ask, decided);
+  FateTeller teller(*mesh_, kind, leave_out_, ask, decided);
   const CandidateSink take = [&](const Candidate& candidate) { teller.take(candidate); };
   const auto start = Clock::now();
   const std::uint64_t sharing = leave_out_ == LeaveOut::nothing
-                                    ? for_pairs_of_row(mesh_, kind, number, take, is_over)
+                                    ? for_pairs_of_row(*mesh_, kind, number, take, is_over)
                                     : finders_.at(kind).find(number, take, is_over);
   const std::uint64_t finding_ns = since(start) - teller.nanoseconds();
   Funnel funnel = teller.finish();
@@ -122,7 +132,7 @@ Funnels Plan::rest(const Funnels& parts) const {
   for (const Kind kind : kinds) {
     const auto found = parts.find(kind);
     rest[kind][PairFate::boxes_apart] =
-        all_pairs(mesh_, kind) - (found == parts.end() ? 0 : found->second.all());
+        all_pairs(*mesh_, kind) - (found == parts.end() ? 0 : found->second.all());
     rest[kind].finding_ns = making_ns_.at(kind);
   }
   return rest;

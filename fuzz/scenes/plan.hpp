@@ -42,9 +42,14 @@ using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate,
 /// do not depend on the number of threads.
 class Plan {
  public:
-  /// The mesh must outlive this object.
-  Plan(const MovingMesh& mesh, LeaveOut leave_out);
-  Plan(MovingMesh&& mesh, LeaveOut leave_out) = delete;
+  /// The mesh must outlive this object, unless `move` replaces it. The parts are made by `jobs` threads. Throws Stopped
+  /// when `is_over` says so.
+  Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
+  Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
+
+  /// Replaces the mesh by another step of the same mesh. This gives the same plan as a new object, in less time. After
+  /// an exception, the object must not be used any more.
+  void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
 
@@ -59,10 +64,10 @@ class Plan {
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:
-  const MovingMesh& mesh_;
+  const MovingMesh* mesh_;
   LeaveOut leave_out_;
   std::map<Kind, CandidateFinder> finders_;          ///< empty if nothing is left out
-  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that making the finders took
+  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that making or moving the finders took
   std::vector<std::pair<Kind, std::size_t>> parts_;  ///< a part of a finder, or a row of all pairs
 };
 

@@ -123,6 +123,20 @@ MovingMesh moving_mesh(const Scene& scene, std::size_t step) {
   return moving;
 }
 
+void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
+                   const std::function<void(std::size_t, const MovingMesh&)>& visit) {
+  MovingMesh mesh;
+  for (std::size_t step = 0; step < scene.steps() && !is_over(); ++step) {
+    if (step == 0) {
+      mesh = moving_mesh(scene, 0);
+    } else {
+      mesh.start = std::move(mesh.end);
+      mesh.end = scene.points(step + 1);
+    }
+    if (!is_over()) visit(step, mesh);
+  }
+}
+
 Scene with_separation(Scene scene, double separation) {
   scene.separation = separation;
   scene.name += fmt::format("~{}", separation);

@@ -10,24 +10,35 @@
 
 namespace nearmiss {
 
-void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
-                      const std::function<void(double)>& progress) {
+void SceneTrial::make_plan(const MovingMesh& mesh) {
+  const IsOver is_over = [&] { return trials_.stop().is_due(); };
+  if (plan_)
+    plan_->move(mesh, trials_.jobs(), is_over);
+  else
+    plan_.emplace(mesh, leave_out_, trials_.jobs(), is_over);
+}
+
+void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress) {
+  try {
+    make_plan(mesh);
+  } catch (const Stopped&) {
+    plan_.reset();
+    return;
+  }
   const std::string name = step_name(scene_, step);
-  const Plan plan(mesh, leave_out);
   PartResult sum;
-  for (std::size_t first = 0; first < plan.parts() && !trials_.stop().is_due();) {
-    std::vector<PartResult> parts(std::min(trials_.at_once(), plan.parts() - first));
-    sink_(trials_.hold(parts.size(),
-                       [&](std::size_t i) { return hold_part(step, plan, first + i, parts[i]); }));
+  for (std::size_t first = 0; first < plan_->parts() && !trials_.stop().is_due();) {
+    std::vector<PartResult> parts(std::min(trials_.at_once(), plan_->parts() - first));
+    sink_(trials_.hold(parts.size(), [&](std::size_t i) { return hold_part(step, first + i, parts[i]); }));
     for (const PartResult& part : parts) {
       for (const auto& [kind, funnel] : part.funnels) sum.funnels[kind].merge(funnel);
       sum.marks.merge(part.marks);
     }
     first += parts.size();
-    progress(static_cast<double>(first) / static_cast<double>(plan.parts()));
+    progress(static_cast<double>(first) / static_cast<double>(plan_->parts()));
   }
   TrialResult counted;
-  for (const Funnels& funnels : {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan.rest(sum.funnels)})
+  for (const Funnels& funnels : {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan_->rest(sum.funnels)})
     for (const auto& [kind, funnel] : funnels) counted.statistics.funnels[{name, kind}].merge(funnel);
   sink_(std::move(counted));
   if (sum.marks.size() > marks_.size()) {
@@ -43,8 +54,7 @@ std::optional<ScenePicture> SceneTrial::picture() const {
   return marks_.picture(step_name(scene_, most_marked_), moving_mesh(scene_, most_marked_), names);
 }
 
-TrialResult SceneTrial::hold_part(std::size_t step, const Plan& plan, std::size_t number,
-                                  PartResult& part) const {
+TrialResult SceneTrial::hold_part(std::size_t step, std::size_t number, PartResult& part) const {
   const std::string name = step_name(scene_, step);
   TrialResult result;
   const auto ask = [&](const AskedPairs& pairs) {
@@ -65,7 +75,7 @@ TrialResult SceneTrial::hold_part(std::size_t step, const Plan& plan, std::size_
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {
     if (collides) part.marks.add_collision(candidate);
   };
-  part.funnels = plan.follow(number, ask, decided, [&] { return trials_.stop().is_due(); });
+  part.funnels = plan_->follow(number, ask, decided, [&] { return trials_.stop().is_due(); });
   return result;
 }
 

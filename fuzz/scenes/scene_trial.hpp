@@ -18,13 +18,12 @@ namespace nearmiss {
 /// only a few parts of a step at a time.
 class SceneTrial {
  public:
-  SceneTrial(const Scene& scene, SiftedTrials& trials, TrialSink sink)
-      : scene_(scene), trials_(trials), sink_(std::move(sink)) {}
+  SceneTrial(const Scene& scene, LeaveOut leave_out, SiftedTrials& trials, TrialSink sink)
+      : scene_(scene), leave_out_(leave_out), trials_(trials), sink_(std::move(sink)) {}
 
   /// Asks the subjects about all pairs of a step for which its plan requires that. `mesh` is the mesh of the
   /// step; `progress` receives the completed share, from 0 to 1.
-  void hold(std::size_t step, const MovingMesh& mesh, LeaveOut leave_out,
-            const std::function<void(double)>& progress);
+  void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
   /// The picture of the step with the most marked primitives so far; nothing if no primitive is marked.
   [[nodiscard]] std::optional<ScenePicture> picture() const;
@@ -36,12 +35,17 @@ class SceneTrial {
     Marks marks;
   };
 
-  /// Runs the trials of one part of a plan, and counts and marks its pairs in `part`.
-  TrialResult hold_part(std::size_t step, const Plan& plan, std::size_t number, PartResult& part) const;
+  /// Runs the trials of one part of the plan, and counts and marks its pairs in `part`.
+  TrialResult hold_part(std::size_t step, std::size_t number, PartResult& part) const;
+
+  /// Makes the plan of a step. Throws Stopped.
+  void make_plan(const MovingMesh& mesh);
 
   const Scene& scene_;
+  LeaveOut leave_out_;
   SiftedTrials& trials_;
   TrialSink sink_;
+  std::optional<Plan> plan_;     ///< of the last step
   std::size_t most_marked_ = 0;  ///< the step of `marks_`
   Marks marks_;
 };

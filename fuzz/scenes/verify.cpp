@@ -75,14 +75,17 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
   Verification sum;
   std::atomic<bool> stop = false;
   for (const Kind kind : kinds) {
-    Fingerprint by_boxes;
+    Fingerprint by_tree;
     Fingerprint by_sweep;
-    const auto stopped = [&] { return stop.load(); };
+    const auto stopped = [&] {
+      if (!progress(0)) stop = true;
+      return stop.load();
+    };
     find_candidates(
-        mesh, kind, [&](const Candidate& each) { by_boxes.add(each); }, stopped);
+        mesh, kind, [&](const Candidate& each) { by_tree.add(each); }, stopped);
     find_candidates_by_sweep(
         mesh, kind, [&](const Candidate& each) { by_sweep.add(each); }, stopped);
-    sum.different_searches += by_boxes == by_sweep ? 0 : 1;
+    sum.different_searches += by_tree == by_sweep || stop ? 0 : 1;
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -104,12 +107,11 @@ Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int j
 }
 
 std::string describe(const Verification& verification) {
-  std::string text =
-      fmt::format("{}: {} pairs are left out, the oracle contradicts {} of them; {}\n",
-                  verification.fine() ? "plan verified" : "THE PLAN IS WRONG",
-                  with_separators(verification.left_out), with_separators(verification.wrong),
-                  verification.different_searches == 0 ? "box intersection and sweep find the same pairs"
-                                                       : "BOX INTERSECTION AND SWEEP DIFFER");
+  std::string text = fmt::format(
+      "{}: {} pairs are left out, the oracle contradicts {} of them; {}\n",
+      verification.fine() ? "plan verified" : "THE PLAN IS WRONG", with_separators(verification.left_out),
+      with_separators(verification.wrong),
+      verification.different_searches == 0 ? "tree and sweep find the same pairs" : "TREE AND SWEEP DIFFER");
   for (const auto& [subject, count] : verification.spared)
     text += fmt::format("false positives of {} that the plan avoids: {}\n", subject, with_separators(count));
   return text;

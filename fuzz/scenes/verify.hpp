@@ -14,7 +14,7 @@ namespace nearmiss {
 struct Verification {
   std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all were decided
   std::uint64_t wrong = 0;     ///< pairs for which the oracle contradicts the plan
-  /// The number of kinds, summed over all steps, for which box intersection and sweep find different pairs.
+  /// The number of kinds, summed over all steps, for which tree and sweep find different pairs.
   std::uint64_t different_searches = 0;
   std::map<std::string, std::uint64_t> spared;  ///< false positives of each subject on pairs left out
   double seconds = 0;  ///< time to ask the oracle and the subjects about all left-out pairs

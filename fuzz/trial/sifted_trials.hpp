@@ -25,6 +25,7 @@ class SiftedTrials {
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
+  [[nodiscard]] int jobs() const { return jobs_; }
   /// The number of trials to run at once so that no core waits long.
   [[nodiscard]] std::size_t at_once() const { return 4 * static_cast<std::size_t>(jobs_); }
 

@@ -54,6 +54,21 @@ TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
   EXPECT_EQ(fingerprint(of_size(600)), recorded.at(GetParam().name)) << std::hex << fingerprint(of_size(600));
 }
 
+TEST_P(EveryScene, HasTheSameStepsOneByOneAndAllInARow) {
+  const Scene scene = of_size(600);
+  std::size_t visited = 0;
+  for_each_step(
+      scene, [&] { return visited == 4; },
+      [&](std::size_t step, const MovingMesh& mesh) {
+        EXPECT_EQ(step, visited++);
+        const MovingMesh expected = moving_mesh(scene, step);
+        EXPECT_EQ(mesh.start, expected.start);
+        EXPECT_EQ(mesh.end, expected.end);
+        EXPECT_EQ(mesh.edges, expected.edges);
+      });
+  EXPECT_EQ(visited, 4);
+}
+
 TEST_P(EveryScene, IsAsSmallAsItCouldAlwaysBe) {
   const std::map<std::string, std::size_t> recorded{{"spikes", 65},   {"sheets", 80}, {"points", 164},
                                                     {"knot", 156},    {"mat", 70},    {"hair", 117},

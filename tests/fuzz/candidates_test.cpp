@@ -9,7 +9,7 @@
 #include <set>
 
 #include "fuzz/random.hpp"
-#include "oracle/filter/box.hpp"
+#include "tests/fuzz/candidate_lists.hpp"
 
 namespace nearmiss {
 namespace {
@@ -30,25 +30,6 @@ MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
   return make_moving_mesh({start, faces, {}}, end);
 }
 
-/// Checks all pairs, one by one.
-std::multiset<Candidate> by_brute_force(const MovingMesh& mesh) {
-  std::multiset<Candidate> found;
-  const auto add = [&](const Candidate& candidate) {
-    std::array<int, 4> sorted = candidate.vertices;
-    std::sort(sorted.begin(), sorted.end());
-    const auto middle = candidate.vertices.begin() + split(candidate.kind);
-    const bool shared =
-        std::find_first_of(candidate.vertices.begin(), middle, middle, candidate.vertices.end()) != middle;
-    if (!shared && boxes_meet(make_query(mesh, candidate))) found.insert(candidate);
-  };
-  for (int v = 0; v < static_cast<int>(mesh.start.size()); ++v)
-    for (const auto& t : mesh.triangles) add({Kind::vertex_triangle, {v, t[0], t[1], t[2]}});
-  for (auto e = mesh.edges.begin(); e != mesh.edges.end(); ++e)
-    for (auto f = e + 1; f != mesh.edges.end(); ++f)
-      add({Kind::edge_edge, {(*e)[0], (*e)[1], (*f)[0], (*f)[1]}});
-  return found;
-}
-
 /// A separation for a mesh with integer coordinates: contact, exact distances of boxes, and others.
 double separation_of(std::uint64_t seed) {
   constexpr std::array separations{0.0, 1.0, 0.0, 2.0, 0.3, std::numeric_limits<double>::denorm_min()};
@@ -56,13 +37,12 @@ double separation_of(std::uint64_t seed) {
 }
 
 // With integer coordinates, many boxes only touch, or are exactly the separation apart.
-TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeet) {
+TEST(Candidates, FindsExactlyThePairsWhoseSweptBoxesMeetInTheOrderOfRows) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     MovingMesh mesh = random_mesh(seed, 60, 80);
     mesh.separation = separation_of(seed);
-    std::multiset<Candidate> found;
-    find_candidates(mesh, [&](const Candidate& candidate) { found.insert(candidate); });
-    const auto expected = by_brute_force(mesh);
+    const auto found = found_candidates(mesh);
+    const auto expected = candidates_by_brute_force(mesh);
     EXPECT_GT(expected.size(), 100);
     EXPECT_TRUE(found == expected) << "seed " << seed << ": " << found.size() << " instead of "
                                    << expected.size();
@@ -102,9 +82,9 @@ std::uint64_t boxes(const MovingMesh& mesh, Kind kind, const CandidateSink& sink
 
 TEST(Candidates, PairsAcrossTheBordersOfPartsAreFoundOnce) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const MovingMesh mesh = random_mesh(seed, 300, 600);
+    const MovingMesh mesh = random_mesh(seed, 600, 900);
     for (const Kind kind : kinds) {
-      ASSERT_GT(CandidateFinder(mesh, kind).parts(), 3);
+      ASSERT_GT(CandidateFinder(mesh, kind, 1, never_over).parts(), 3);
       EXPECT_TRUE(candidates(mesh, kind, boxes) == candidates(mesh, kind, find_candidates_by_sweep))
           << "seed " << seed << ' ' << short_name(kind);
     }

@@ -11,12 +11,12 @@
 
 namespace nearmiss {
 
-/// Thirty small tetrahedra with integer coordinates. In turn they rest, move as a whole, or change shape.
-inline MovingMesh tetrahedra(std::uint64_t seed) {
+/// Small tetrahedra with integer coordinates. In turn they rest, move as a whole, or change shape.
+inline MovingMesh tetrahedra(std::uint64_t seed, int count = 30) {
   Random random(seed, 0, 0);
   Mesh mesh;
   std::vector<Vector3<double>> end;
-  for (int body = 0; body < 30; ++body) {
+  for (int body = 0; body < count; ++body) {
     const int first = static_cast<int>(mesh.points.size());
     const Vector3<double> place = random.integer_vector(4);
     const Vector3<double> velocity = body % 3 == 0 ? Vector3<double>(0, 0, 0) : random.integer_vector(3);

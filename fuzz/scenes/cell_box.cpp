@@ -1,0 +1,77 @@
+#include "fuzz/scenes/cell_box.hpp"
+
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "ccd/error.hpp"
+#include "fuzz/parallel.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+double above(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+
+/// The least and the largest coordinates of a mesh along each axis.
+std::pair<Vector, Vector> bounds(const MovingMesh& mesh) {
+  Vector lo = Vector::Constant(std::numeric_limits<double>::infinity());
+  Vector hi = -lo;
+  bool finite = true;
+  for (const auto* points : {&mesh.start, &mesh.end})
+    for (const Vector& p : *points) {
+      finite = finite && p.allFinite();
+      lo = lo.cwiseMin(p);
+      hi = hi.cwiseMax(p);
+    }
+  if (!finite) throw Error("found a coordinate of a mesh that is not finite, expected finite numbers");
+  return {lo, hi};
+}
+
+/// The grid of cells over a mesh: cubes in the whole range of the mesh's coordinates.
+class Grid {
+ public:
+  explicit Grid(const MovingMesh& mesh) {
+    if (mesh.start.empty()) return;
+    std::tie(lo_, hi_) = bounds(mesh);
+    // Computed with halves, since a sum or difference may overflow.
+    centre_ = lo_ / 2 + hi_ / 2;
+    const double half = (hi_ / 2 - lo_ / 2).maxCoeff();
+    constexpr double cells = 1 << 30;
+    // The cells of a mesh smaller than about 1e-299 are as large as possible without overflow.
+    if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
+  }
+
+  /// The cell of a coordinate along axis k; that of the nearest bound if the coordinate is beyond the bounds. The
+  /// conversion truncates, which is monotone, too.
+  [[nodiscard]] Cell cell(double x, int k) const {
+    return static_cast<Cell>((std::clamp(x, lo_[k], hi_[k]) - centre_[k]) * per_unit_);
+  }
+
+ private:
+  Vector lo_, hi_, centre_;
+  double per_unit_ = 0;
+};
+
+}  // namespace
+
+std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
+  const Grid grid(mesh);
+  // Two of these are more than any distance that boxes_meet rounds to the separation.
+  const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
+  std::vector<CellBox> boxes(mesh.start.size());
+  constexpr std::size_t chunk = 1 << 13;
+  in_parallel(jobs, (boxes.size() + chunk - 1) / chunk, [&](std::size_t part) {
+    for (std::size_t v = part * chunk; v < std::min(boxes.size(), (part + 1) * chunk); ++v)
+      for (int k = 0; k < 3; ++k) {
+        const auto [lo, hi] = std::minmax({mesh.start[v][k], mesh.end[v][k]});
+        boxes[v].lo[static_cast<std::size_t>(k)] = grid.cell(lo - half, k);
+        boxes[v].hi[static_cast<std::size_t>(k)] = grid.cell(hi + half, k);
+      }
+  });
+  return boxes;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,83 @@
+// Boxes of integers that stand for the boxes that primitives sweep.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "fuzz/meshes/mesh.hpp"
+
+namespace nearmiss {
+
+/// A coordinate, counted in cells of a grid over a whole mesh.
+using Cell = std::int32_t;
+
+/// A closed box of cells.
+struct CellBox {
+  std::array<Cell, 3> lo, hi;
+
+  /// A box that meets no box of cells.
+  static constexpr CellBox none() {
+    constexpr Cell far = std::numeric_limits<Cell>::max();
+    return {.lo = {far, far, far}, .hi = {-far, -far, -far}};
+  }
+
+  /// Extends this box to enclose another one.
+  void add(const CellBox& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], other.lo[k]);
+      hi[k] = std::max(hi[k], other.hi[k]);
+    }
+  }
+  /// The sum of the lengths along the three axes.
+  [[nodiscard]] std::int64_t size() const {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += std::int64_t{hi[k]} - lo[k];
+    return sum;
+  }
+
+  bool operator==(const CellBox&) const = default;
+};
+
+/// The boxes that the vertices of a mesh sweep, each moved outward by half of the mesh's separation, in cells. If the
+/// swept boxes of two primitives pass the test of boxes_meet (oracle/filter/box.hpp), the boxes around the cells of
+/// their vertices meet. The converse is nearly true, since a cell is 2^-31 of the mesh's largest extent.
+///
+/// This needs no bound on rounding errors: all operations that make a cell of a coordinate are monotone, even when
+/// they are rounded, so x <= y for coordinates implies x <= y for their cells. Works on `jobs` threads. Throws Error
+/// for a coordinate that is not finite.
+std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
+
+/// The boxes of the vertices, edges or triangles of a mesh.
+class PrimitiveBoxes {
+ public:
+  /// The boxes of vertices, which must outlive this object.
+  explicit PrimitiveBoxes(const std::vector<CellBox>& of_vertices)
+      : of_vertices_(of_vertices.data()), count_(of_vertices.size()) {}
+  /// The boxes around primitives with n vertices each. Both lists must outlive this object.
+  template <std::size_t n>
+  PrimitiveBoxes(const std::vector<CellBox>& of_vertices, const std::vector<std::array<int, n>>& primitives)
+      : of_vertices_(of_vertices.data()), count_(primitives.size()), corners_(n) {
+    static_assert(sizeof(std::array<int, n>) == n * sizeof(int));
+    if (count_ > 0) vertices_ = primitives.front().data();
+  }
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] CellBox operator[](std::size_t i) const {
+    if (vertices_ == nullptr) return of_vertices_[i];
+    const int* const vertices = vertices_ + i * corners_;
+    CellBox box = of_vertices_[vertices[0]];
+    for (std::size_t corner = 1; corner < corners_; ++corner) box.add(of_vertices_[vertices[corner]]);
+    return box;
+  }
+
+ private:
+  const CellBox* of_vertices_;
+  const int* vertices_ = nullptr;  ///< those of all primitives, one after the other
+  std::size_t count_, corners_ = 1;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,115 @@
+// A hierarchy of boxes that finds the boxes that meet another box.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include "fuzz/scenes/cell_box.hpp"
+
+namespace nearmiss {
+
+/// Up to four numbered boxes, which are compared with another box at once.
+class CellBoxGroup {
+ public:
+  static constexpr std::size_t size = 4;
+
+  /// A group without boxes.
+  CellBoxGroup() {
+    for (std::size_t place = 0; place < size; ++place) set(place, CellBox::none(), -1);
+  }
+
+  void set(std::size_t place, const CellBox& box, std::int32_t number) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo_[k][place] = box.lo[k];
+      hi_[k][place] = box.hi[k];
+    }
+    numbers_[place] = number;
+  }
+  [[nodiscard]] std::int32_t number(std::size_t place) const { return numbers_[place]; }
+  [[nodiscard]] std::int32_t largest_number() const {
+    return *std::max_element(numbers_.begin(), numbers_.end());
+  }
+  /// The box around all boxes.
+  [[nodiscard]] CellBox bounds() const;
+
+  /// Calls visit(place) for each box that meets the given one and has the number `least` or a larger one, in the order
+  /// of the places.
+  template <class Visit>
+  void for_meeting(const CellBox& box, std::int32_t least, const Visit& visit) const {
+    for (unsigned places = meeting(box, least); places != 0; places &= places - 1)
+      visit(static_cast<std::size_t>(std::countr_zero(places)));
+  }
+
+ private:
+  using Places = std::array<std::int32_t, size>;
+  /// A comparison of two such vectors compares all elements at once; its elements are -1 and 0.
+  using Vector [[gnu::vector_size(sizeof(Places))]] = std::int32_t;
+
+  static Vector vector(const Places& places) {
+    Vector made;
+    std::memcpy(&made, &places, sizeof made);
+    return made;
+  }
+  /// A bit for each place: whether for_meeting visits it.
+  [[nodiscard]] unsigned meeting(const CellBox& box, std::int32_t least) const {
+    Vector apart = vector(numbers_) < least;
+    for (std::size_t k = 0; k < 3; ++k) apart |= (vector(lo_[k]) > box.hi[k]) | (vector(hi_[k]) < box.lo[k]);
+    const Vector bits = ~apart & Vector{1, 2, 4, 8};
+    return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+  }
+
+  std::array<Places, 3> lo_, hi_;
+  Places numbers_;
+};
+
+/// The boxes of primitives in groups that are near each other, the bounds of these groups in groups, and so on. The
+/// groups are chosen at the first step of a mesh. In later steps, the boxes move and the groups stay, unless they get
+/// much looser.
+class CellTree {
+ public:
+  /// Throws Stopped when `is_over` says so.
+  CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
+
+  /// The tree of another step of the same mesh. Throws Stopped when `is_over` says so.
+  void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
+
+  /// The median size of the box around a group of boxes, or that of a sample of groups.
+  [[nodiscard]] std::int64_t typical_group() const;
+
+  /// Calls visit(number) for each box that meets the given one and has the number `least` or a larger one.
+  template <class Visit>
+  void find(const CellBox& box, std::int32_t least, const Visit& visit) const {
+    find_below(levels_.size() - 1, 0, box, least, visit);
+  }
+
+ private:
+  using Level = std::vector<CellBoxGroup>;
+
+  template <class Visit>
+  void find_below(std::size_t level, std::size_t group, const CellBox& box, std::int32_t least,
+                  const Visit& visit) const {
+    const CellBoxGroup& here = levels_[level][group];
+    here.for_meeting(box, least, [&](std::size_t place) {
+      if (level == 0)
+        visit(here.number(place));
+      else
+        find_below(level - 1, group * CellBoxGroup::size + place, box, least, visit);
+    });
+  }
+
+  void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
+  /// Computes the boxes of all levels. Returns the sum of the sizes of each level's boxes, relative to the lowest level.
+  std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
+
+  std::size_t count_;
+  std::vector<double> looseness_;  ///< what `update` returned when the groups were chosen
+  std::vector<Level> levels_;      ///< the level of the boxes themselves comes first
+};
+
+}  // namespace nearmiss
