@@ -15,8 +15,12 @@
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/filter/box.hpp"
 #include "tools/arguments.hpp"
+#include "tools/bench_comparison.hpp"
+#include "tools/bench_history.hpp"
 #include "tools/commands.hpp"
 #include "tools/json_output.hpp"
+#include "tools/median.hpp"
+#include "tools/record.hpp"
 #include "tools/terminal.hpp"
 #include "tools/values.hpp"
 
@@ -34,6 +38,8 @@ struct Options {
   std::uint64_t queries = 20000;
   int runs = 31;
   JsonOutput json;
+  std::filesystem::path history;
+  std::vector<std::filesystem::path> compared;  ///< the histories before and after a change, or none
 };
 
 struct Input {
@@ -43,14 +49,6 @@ struct Input {
 
 /// Times of one subject on one input in ns per query, one entry for each run; NaN if it answered no query.
 using RunTimes = std::vector<double>;
-
-/// NaN if no run has a time.
-double median(RunTimes times) {
-  std::erase_if(times, [](double time) { return std::isnan(time); });
-  if (times.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
-}
 
 /// The name of an input, with the separation if one is given.
 std::string named(std::string name, const SeparationOption& separation) {
@@ -163,21 +161,32 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
                in_table(median_ratio(times[s], times.front()), 3));
 }
 
-void add_rows(nlohmann::ordered_json& results, const Subjects& subjects, const Input& input, Kind kind,
+/// What is known of the inputs that were timed.
+struct Results {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  BenchRun run{.about = environment(), .times = {}};
+};
+
+void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
               const std::vector<RunTimes>& times) {
-  for (std::size_t s = 0; s < subjects.size(); ++s)
-    results.push_back({{"subject", subjects[s]->name()},
-                       {"kind", short_name(kind)},
-                       {"input", input.name},
-                       {"ns_per_query", median(times[s])},
-                       {"runs", times[s].size()},
-                       {"queries", input.queries.at(kind).size()},
-                       {"ratio", median_ratio(times[s], times.front())}});
+  for (std::size_t s = 0; s < subjects.size(); ++s) {
+    results.run.times[{.input = input.name,
+                       .kind = std::string(short_name(kind)),
+                       .queries = input.queries.at(kind).size(),
+                       .subject = subjects[s]->name()}] = times[s];
+    results.json.push_back({{"subject", subjects[s]->name()},
+                            {"kind", short_name(kind)},
+                            {"input", input.name},
+                            {"ns_per_query", median(times[s])},
+                            {"runs", times[s].size()},
+                            {"queries", input.queries.at(kind).size()},
+                            {"ratio", median_ratio(times[s], times.front())}});
+  }
 }
 
 /// Times, prints to `out` and records one input: each of its kinds, then both together.
 void time_input(const Subjects& subjects, const Input& input, int runs, const Stop& stop, std::FILE* out,
-                nlohmann::ordered_json& results) {
+                Results& results) {
   std::vector<std::vector<RunTimes>> by_kind;
   std::vector<double> weights;
   std::size_t count = 0;
@@ -191,7 +200,17 @@ void time_input(const Subjects& subjects, const Input& input, int runs, const St
   if (by_kind.size() > 1) print_rows(out, subjects, input, "both", count, together(by_kind, weights));
 }
 
+int compare(const Options& options) {
+  fmt::print("{}", comparison_table(read_history(options.compared[0]), read_history(options.compared[1])));
+  fmt::print(
+      "\nns/query. ratio: median of after / before over the pairs of runs, with its 95 % confidence "
+      "interval.\n");
+  return exit_fine;
+}
+
 int run(const Options& options) {
+  if (!options.compared.empty()) return compare(options);
+  if (!options.history.empty() && std::filesystem::exists(options.history)) read_history(options.history);
   const Stop stop(interrupted());
   isolation::PluginLimits limits = options.limits.limits();
   limits.stop = &stop;
@@ -202,7 +221,7 @@ int run(const Options& options) {
   std::FILE* const out = options.json.text();
   fmt::print(out, "{:<16} {:<5} {:>8}  {:<16} {:>9} {:>10}\n", "input", "kind", "queries", "subject",
              "ns/query", over);
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  Results results;
   try {
     for (const Input& input : inputs) time_input(subjects, input, options.runs, stop, out, results);
   } catch (const Stopped&) {  // what was timed counts
@@ -213,7 +232,11 @@ int run(const Options& options) {
       "subject; "
       "median of {} runs, the subjects in turn in each; {}: median of the ratios within a run.\n",
       options.runs, over);
-  options.json.write({{"results", results}});
+  options.json.write({{"results", results.json}});
+  if (!options.history.empty() && !stop.is_requested()) {
+    results.run.about.merge(run_info("bench"));
+    append_to_history(options.history, results.run);
+  }
   return stop.is_requested() ? exit_interrupted : exit_fine;
 }
 
@@ -231,6 +254,19 @@ void add_bench(CLI::App& app, int& exit_code) {
                    "Number of random queries of each kind");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
   options->json.add_to(*command, "Write the results as JSON");
+  auto* history =
+      command
+          ->add_option("--history", options->history,
+                       "Add all times of this run to a file, as a line of JSON, unless it is interrupted")
+          ->type_name("FILE");
+  command
+      ->add_option(
+          "--compare", options->compared,
+          "Compare the runs in two such files, pair by pair, in place of timing: is what the second one has "
+          "faster, slower, or within noise? Take the runs of both in turn (tools/bench-commits)")
+      ->type_name("BEFORE AFTER")
+      ->expected(2)
+      ->excludes(history);
   command->footer(
       "\nRatios are relative to the first subject, so name the baseline first: --subject basic,wang");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -38,11 +38,6 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// The compiler and processor behind a run's times.
-RunInfo environment() {
-  return {{"compiler", NEARMISS_COMPILER}, {"flags", NEARMISS_FLAGS}, {"cpu", cpu_model()}};
-}
-
 /// Prints what failed, the simplest query that fails in the same way, and what explains it.
 void print(std::FILE* text, const Finding& finding) {
   fmt::print(text, "  {} {} {} ({})\n", name(finding.what), finding.subject, finding.provenance,
@@ -60,6 +55,10 @@ void RecordOptions::add_to(CLI::App& command) {
       .add_option("--db", db, "Save statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", quiet, "Show no progress");
+}
+
+RunInfo environment() {
+  return {{"compiler", NEARMISS_COMPILER}, {"flags", NEARMISS_FLAGS}, {"cpu", cpu_model()}};
 }
 
 RunInfo run_info(const std::string& command) {

@@ -31,6 +31,9 @@ struct RecordOptions {
 /// The part of a run's description that all commands share: this version and commit, and the command.
 RunInfo run_info(const std::string& command);
 
+/// The compiler, its flags and the processor behind a run's times.
+RunInfo environment();
+
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
 class Record {
  public:

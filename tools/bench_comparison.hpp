@@ -1,0 +1,31 @@
+// What two series of runs of nearmiss bench, taken in turn, say about a change.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/bench_history.hpp"
+
+namespace nearmiss::tools {
+
+/// The fewest pairs of runs with which the median of their ratios has a 95 % confidence interval.
+inline constexpr std::size_t fewest_pairs = 6;
+
+/// How a time has changed.
+struct Change {
+  double ratio;   ///< the median of the ratios after / before of all pairs
+  double lo, hi;  ///< its confidence interval, of at least 95 %
+  /// `faster` or `slower` if the interval does not contain 1, else `within noise`.
+  [[nodiscard]] std::string_view verdict() const;
+};
+
+/// The change that the ratios of at least `fewest_pairs` pairs show. The interval is that between two order statistics, which
+/// assumes nothing about the distribution (David and Nagaraja, Order Statistics, 3rd edition, 7.1).
+Change change_of(std::vector<double> ratios);
+
+/// A table of the changes of all rows. Run i of one series is compared with run i of the other, by the medians over their
+/// passes. Throws Error if the series are of different lengths or too short, or if the runs are those of different processors.
+std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,98 @@
+#include "tools/bench_history.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
+#include "corpus/file.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+/// JSON has no NaN; a time that is none is null.
+nlohmann::ordered_json times_to_json(const std::vector<double>& times) {
+  auto json = nlohmann::ordered_json::array();
+  for (const double time : times) json.push_back(time);
+  return json;
+}
+
+std::vector<double> times_of(const nlohmann::json& json) {
+  std::vector<double> times;
+  for (const auto& time : json)
+    times.push_back(time.is_null() ? std::numeric_limits<double>::quiet_NaN() : time.get<double>());
+  return times;
+}
+
+BenchRun run_of(const nlohmann::json& json) {
+  BenchRun run;
+  json.at("about").get_to(run.about);
+  for (const auto& row : json.at("rows")) {
+    TimedRow timed;
+    row.at("input").get_to(timed.input);
+    row.at("kind").get_to(timed.kind);
+    row.at("queries").get_to(timed.queries);
+    row.at("subject").get_to(timed.subject);
+    run.times[timed] = times_of(row.at("ns"));
+  }
+  return run;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  return text;
+}
+
+std::vector<BenchRun> runs_of(const std::string& text, const std::filesystem::path& file) {
+  std::vector<BenchRun> runs;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    try {
+      runs.push_back(run_of(nlohmann::json::parse(line)));
+    } catch (const nlohmann::json::exception&) {
+      throw Error(fmt::format("{}:{}: found '{}', expected a run that nearmiss bench --history stored",
+                              file.string(), number, excerpt(line)));
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const BenchRun& run) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& [row, times] : run.times)
+    rows.push_back({{"input", row.input},
+                    {"kind", row.kind},
+                    {"queries", row.queries},
+                    {"subject", row.subject},
+                    {"ns", times_to_json(times)}});
+  return {{"about", run.about}, {"rows", std::move(rows)}};
+}
+
+std::vector<BenchRun> read_history(const std::filesystem::path& file) {
+  expect_regular_file(file);
+  return runs_of(text_of(file), file);
+}
+
+void append_to_history(const std::filesystem::path& file, const BenchRun& run) {
+  std::string text;
+  if (std::filesystem::exists(file)) {
+    text = text_of(file);
+    runs_of(text, file);  // refuses a file of another kind
+    if (!text.empty() && text.back() != '\n') text += '\n';
+  }
+  replace_file(file, text + to_json(run).dump() + '\n');
+}
+
+}  // namespace nearmiss::tools

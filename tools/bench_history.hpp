@@ -1,0 +1,39 @@
+// Stored runs of nearmiss bench.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss::tools {
+
+/// What is timed: a subject on the queries of one kind of an input.
+struct TimedRow {
+  std::string input, kind;
+  std::size_t queries = 0;
+  std::string subject;
+
+  auto operator<=>(const TimedRow&) const = default;
+};
+
+/// One run of nearmiss bench.
+struct BenchRun {
+  RunInfo about;  ///< what was timed where: the commit, the compiler, its flags and the processor
+  std::map<TimedRow, std::vector<double>> times;  ///< ns per query of each pass; NaN without an answer
+};
+
+/// A run in the form in which it is stored.
+nlohmann::ordered_json to_json(const BenchRun& run);
+
+/// The runs in a file, one a line as JSON, in their order. Throws Error.
+std::vector<BenchRun> read_history(const std::filesystem::path& file);
+
+/// Adds a run at the end of such a file, which may not exist yet. The file stays as it was if that is impossible. Throws Error.
+void append_to_history(const std::filesystem::path& file, const BenchRun& run);
+
+}  // namespace nearmiss::tools
