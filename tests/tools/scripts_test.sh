@@ -57,6 +57,8 @@ for options in "--keep 0" --keep=0; do try 2 tools/nightly $options; expect_said
 for options in "--time 9s" --time=9s; do try 2 tools/nightly $options; expect_said "found the time '9s'"; done
 try 2 tools/nightly --subject; expect_said "found --subject without a value"
 try 2 tools/nightly tonight; expect_said "found 'tonight'"
+try 2 tools/bench-commits; expect_said "found 0 commits, expected one or two"
+try 2 tools/bench-commits --pairs 5 HEAD; expect_said "found --pairs '5'"
 try 2 tools/run soon; expect_said "found the time 'soon'"
 for options in "--only none" --only=none; do try 2 tools/environments $options; expect_said "matches 'none'"; done
 try 0 tools/environments --list --only='^wang g[+][+] -O2 nearest$'
