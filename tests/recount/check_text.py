@@ -208,6 +208,7 @@ def times(report):
             f'{each["times_given"]:,}',
             late_times(each),
             f'{each["stuck"]:,}',
+            '0',  # invalid; there are no faults (check_counts.py)
             f'{each["unknown"]:,}',
             *(general(each[f'{name}_early'][1], 2) for name in ('median', 'q99')),
             *(general(each[f'max_{side}'], 2) for side in ('early', 'after')),
