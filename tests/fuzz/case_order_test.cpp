@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace nearmiss {
 namespace {
@@ -19,15 +20,22 @@ CampaignPlan plan_of(std::uint64_t cases) {
   return plan;
 }
 
-/// The blocks of a plan's shard, in order, each in one slice.
+/// The blocks of a plan's shard, in order, whole again after they were sliced.
 class Blocks {
  public:
   explicit Blocks(const CampaignPlan& plan, std::uint64_t done = 0) : cases_(plan, done) {
     for (const Family& family : plan.families) pace_.took(family.name, 1'000'000, {});
   }
-  std::optional<CaseBlock> next() { return cases_.next(pace_); }
+  std::optional<CaseBlock> next() {
+    auto block = slice_ ? std::exchange(slice_, std::nullopt) : cases_.next(pace_);
+    if (!block) return block;
+    while ((slice_ = cases_.next(pace_)) && slice_->family == block->family && slice_->first == block->last)
+      block->last = slice_->last;
+    return block;
+  }
 
  private:
+  std::optional<CaseBlock> slice_;  // the first one of the next block
   Pace pace_;
   CasesOfShard cases_;
 };
