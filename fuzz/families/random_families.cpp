@@ -1,5 +1,7 @@
 // Random queries, exact collisions, and the cases that the paper names: parallel, small, thin and planar
 // primitives.
+#include <algorithm>
+
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
 
@@ -16,7 +18,7 @@ Query cube(Random& random, Kind kind, double speed) {
   const auto drawn = random.uniforms<24>();
   for (std::size_t i = 0; i < 12; ++i) {
     query.x[i] = drawn[i];
-    query.x[12 + i] = drawn[i] + (-speed + (speed - -speed) * drawn[12 + i]);
+    query.x[12 + i] = drawn[i] + (-speed + 2 * speed * drawn[12 + i]);
   }
   return query;
 }
