@@ -44,6 +44,7 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   const std::uint64_t first = first_of(block, kind);
   batch.first_number = first;
   batch.step = kinds.size();
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds.size() + 1);
   for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
     stop.check();
     batch.queries.push_back(make_query(*block.family, plan.seed, index));
