@@ -35,7 +35,7 @@ function parseDefect(lines, group) {
 export function readDefects(folder = path.join(here, 'defects')) {
   const defects = [];
   let group = '';
-  const text = readdirSync(folder).sort().map((name) => readFileSync(path.join(folder, name), 'utf8')).join('\n');
+  const text = readdirSync(folder).sort().map((name) => readFileSync(path.join(folder, name), 'utf8')).join('\n\n');
   for (const block of text.split(/\n\s*\n/)) {
     const lines = block.split('\n').filter((line) => line.trim() !== '' && !line.startsWith('#'));
     const title = /^== (.+) ==$/.exec(lines[0] ?? '');
