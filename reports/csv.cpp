@@ -91,7 +91,7 @@ void add_times(CsvColumns& columns, std::uint64_t Counts::*counter) {
   if (counter != &Counts::stuck) return;
   add_column(columns, "unknown", &Counts::unknown);
   for (const auto& [name, part] : {std::pair{"median_early", 0.5}, {"q99_early", 0.99}})
-    add_range(columns, name, [part](const Counts& counts) { return counts.early_quantile(part); });
+    add_range(columns, name, [part = part](const Counts& counts) { return counts.early_quantile(part); });
   add_column(columns, "max_early", &Counts::max_early);
   add_column(columns, "max_after", &Counts::max_after);
   add_range(columns, "q99_travelled", [](const Counts& counts) { return counts.travelled.quantile(0.99); });

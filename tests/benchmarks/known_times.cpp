@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
     }
   }
   const auto idle = make_isolated_plugin(NEARMISS_PLUGINS "/known_0.so");
-  for (const std::size_t batch : {1, 50, 800, 2000})
+  for (const std::size_t batch : {1U, 50U, 800U, 2000U})
     add_measured("isolation/" + std::to_string(batch),
                  [&idle, batch](benchmark::State& state) { time_isolation(state, *idle, batch); });
   for (const Peer& peer : peers()) {

@@ -91,7 +91,7 @@ TEST(CloseRoots, ContactIsAtAnyOfTheRoots) {
 TEST(TouchOnce, HalfTouchExactlyAtOneTime) {
   for (const int x : {-40, -12}) {
     const int once = count_of_400(at("touch-once", x), [](const Query& query) {
-      if (!collides_exactly(query) || !earliest_time(query)->enclosure().lo) return false;
+      if (!collides_exactly(query) || earliest_time(query)->enclosure().lo == 0) return false;
       const auto [lo, hi] = earliest_time(query)->enclosure();
       return lo == hi && is_sixteenths(lo) &&
              earliest_time(reversed(query))->enclosure() == Enclosure{1 - lo, 1 - lo};
