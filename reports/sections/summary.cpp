@@ -64,6 +64,16 @@ std::string fault_text(const Counts& counts) {
                      fmt::join(faults, ", "));
 }
 
+/// "12 false positives, 3 of them unknown, the farthest at 0.5 of the bound". The distance of an unknown answer is not measured.
+std::string false_positive_text(const Counts& counts) {
+  if (counts.false_positives == 0) return "no false positive";
+  const std::uint64_t unknown = counts.false_by_stage[static_cast<std::size_t>(Stage::unknown)];
+  std::string text = counted(counts.false_positives, "false positive", "false positives");
+  if (unknown == counts.false_positives) return text + ", all unknown";
+  if (unknown > 0) text += fmt::format(", {} of them unknown", with_separators(unknown));
+  return text + ", the farthest " + times_the_bound(counts.max_ratio(), counts.distance_unit());
+}
+
 SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
   const bool missed = counts.false_negatives > 0;
   const bool faulty = counts.faults_total() > beyond_contract(counts);
@@ -77,12 +87,10 @@ SubjectVerdict verdict_on(const std::string& subject, const Counts& counts) {
                         counted(counts.times_promised, "time", "times"));
   if (faulty) text += ", " + fault_text(counts);
   if (refuted) text += fmt::format(", {} BEYOND ITS BOUND", with_separators(counts.refuted_bounds));
-  if (counts.false_positives == 0)
-    text += ", no false positive";
-  else
-    text += fmt::format(", {}, the farthest {}",
-                        counted(counts.false_positives, "false positive", "false positives"),
-                        times_the_bound(counts.max_ratio(), counts.distance_unit()));
+  if (counts.unknown() > 0)
+    text += fmt::format(", UNKNOWN in {} of {}", with_separators(counts.unknown()),
+                        counted(counts.queries, "query", "queries"));
+  text += ", " + false_positive_text(counts);
   if (beyond_contract(counts) > 0)
     text += fmt::format("; {} not asked, beyond its contract",
                         counted(beyond_contract(counts), "query", "queries"));

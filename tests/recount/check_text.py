@@ -100,8 +100,17 @@ def verdict(found):
         text += f', LATE in {late:,} of {counted(found["times_promised"], "time")}'
     if refuted:
         text += f', {refuted:,} BEYOND ITS BOUND'
+    if found['unknown']:
+        text += f', UNKNOWN in {found["unknown"]:,} of {counted(found["queries"], "query", "queries")}'
+    is_clean = not missed and not late and not refuted
     if found['false_positives'] == 0:
-        return not missed and not late and not refuted, text + ', no false positive'
+        return is_clean, text + ', no false positive'
+    text += ', ' + counted(found['false_positives'], 'false positive')
+    unknown = found['false_positives_by_stage'].get('unknown', 0)
+    if unknown == found['false_positives']:
+        return is_clean, text + ', all unknown'
+    if unknown:
+        text += f', {unknown:,} of them unknown'
     largest = found['max_fp_distance_over_bound']
     claims = found['bound_of_distances'] == 'claimed'
     if largest == LARGEST:
@@ -110,10 +119,7 @@ def verdict(found):
         far = f'at {fraction(largest)} of {"the" if claims else wangs} bound'
     if not claims:
         far += ' (it claims none)'
-    return (
-        not missed and not late and not refuted,
-        f'{text}, {counted(found["false_positives"], "false positive")}, the farthest {far}',
-    )
+    return is_clean, f'{text}, the farthest {far}'
 
 
 def headline(report, verdicts):
