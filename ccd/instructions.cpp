@@ -13,9 +13,9 @@ namespace {
 
 Instructions choose(const char* given) {
   if (given == nullptr || *given == '\0') return widest_instructions();
-  const auto* const wanted = std::find_if(all_instructions.begin(), all_instructions.end(), [given](Instructions each) {
-    return std::to_string(lanes(each)) == given;
-  });
+  const auto* const wanted =
+      std::find_if(all_instructions.begin(), all_instructions.end(),
+                   [given](Instructions each) { return std::to_string(lanes(each)) == given; });
   if (wanted == all_instructions.end())
     throw Error("NEARMISS_LANES: found '" + excerpt(given) + "', expected 2, 4 or 8");
   if (!has(*wanted))

@@ -26,7 +26,8 @@ struct ScalarIn<std::experimental::simd<double, Abi>> {
 
 /// a in lanes in which the mask is true, else b.
 template <class Real>
-[[gnu::always_inline]] inline Real select(const typename Real::mask_type& mask, const Real& a, const Real& b) {
+[[gnu::always_inline]] inline Real select(const typename Real::mask_type& mask, const Real& a,
+                                          const Real& b) {
   Real selected = b;
   where(mask, selected) = a;
   return selected;
@@ -38,16 +39,20 @@ template <class Real, class Number>
   return Real([&](auto lane) { return number(static_cast<std::size_t>(lane)); });
 }
 
+/// The compiler's vector of n doubles.
+template <int n>
+struct Register {
+  using Doubles [[gnu::vector_size(n * sizeof(double))]] = double;
+  Doubles v;
+};
+
 /// The numbers of a row in the first lane, those of the next row in the second lane, ...: n numbers of each of n rows.
 template <int n, class Row>
 [[gnu::always_inline]] inline void load_transposed(const Row& row, Lanes<n>* columns) {
-  struct Vector {
-    using Doubles [[gnu::vector_size(n * sizeof(double))]] = double;
-    Doubles v;
-  };
-  std::array<Vector, n> rows;
-  for (std::size_t i = 0; i < n; ++i) std::memcpy(&rows[i], row(i), sizeof(Vector));
-  const auto swap_blocks = [&]<std::size_t size, std::size_t... j>(std::index_sequence<size>, std::index_sequence<j...>) {
+  std::array<Register<n>, n> rows;
+  for (std::size_t i = 0; i < n; ++i) std::memcpy(&rows[i], row(i), sizeof(rows[i]));
+  const auto swap_blocks = [&]<std::size_t size, std::size_t... j>(std::index_sequence<size>,
+                                                                   std::index_sequence<j...>) {
     // In each block of 2 × 2 blocks of this size, the upper right one and the lower left one change places.
     for (std::size_t i = 0; i < n; ++i) {
       if ((i & size) != 0) continue;
@@ -74,5 +79,13 @@ struct Eigen::NumTraits<std::experimental::simd<double, Abi>>
   using NonInteger = Real;
   using Literal = Real;
   using Nested = Real;
-  enum { IsInteger = 0, IsSigned = 1, IsComplex = 0, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsInteger = 0,
+    IsSigned = 1,
+    IsComplex = 0,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };

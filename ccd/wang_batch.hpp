@@ -11,7 +11,9 @@ namespace nearmiss {
 
 /// The verdict on a query that is left to be decided alone.
 inline constexpr Verdict undecided_verdict{};
-constexpr bool is_decided(const Verdict& verdict) { return verdict.hit || verdict.rejection != Rejection::untold; }
+constexpr bool is_decided(const Verdict& verdict) {
+  return verdict.hit || verdict.rejection != Rejection::untold;
+}
 
 /// Gives those verdicts of `wang` (wang.hpp) on some queries, with the bounds of the pairs, that need no vertex-edge tests, no
 /// other frame and no other order of end points, and leaves the others undecided. A query with a coordinate that is not

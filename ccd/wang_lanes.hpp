@@ -139,7 +139,8 @@ class WangLanes {
       const auto is_clear = each(detail::keeps_clear(pair, F, AllSteps{}));
       detail::form_bound(pair);
       // If the sum of squares is in range, all vectors are finite.
-      const auto is_plain = each(Mask(in_range(detail::sum_of_squares(pair)) & in_range(pair.B) & within_reach(pair)));
+      const auto is_plain =
+          each(Mask(in_range(detail::sum_of_squares(pair)) & in_range(pair.B) & within_reach(pair)));
       const std::array columns{each(F.a), each(F.b), each(F.c), each(F.d), each(pair.W), each(pair.B)};
       for_lanes(i, rows.size(), [&](std::size_t lane) {
         const std::size_t row = rows[i + lane];
@@ -201,8 +202,8 @@ class WangLanes {
     critical.two = has_signs & one.is_inside & other.is_inside;
     const Real lesser = select(one.value > other.value, other.value, one.value);
     const Real greater = select(one.value > other.value, one.value, other.value);
-    critical.first = select(critical.any, select(critical.two, lesser, select(one.is_inside, one.value, other.value)),
-                            Real(1));
+    critical.first = select(
+        critical.any, select(critical.two, lesser, select(one.is_inside, one.value, other.value)), Real(1));
     critical.second = select(critical.two, greater, Real(1));
     return critical;
   }
@@ -291,8 +292,9 @@ class WangLanes {
       const Bracket bracket{load(&brackets_[0][i]), load(&brackets_[1][i]), load(&brackets_[2][i]),
                             load(&brackets_[3][i])};
       const auto roots = each(refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
-                                      gather<Real>([](std::size_t lane) { return static_cast<double>(lane); }) <
-                                          Real(static_cast<double>(bracket_count_ - i))));
+                                      gather<Real>([](std::size_t lane) {
+                                        return static_cast<double>(lane);
+                                      }) < Real(static_cast<double>(bracket_count_ - i))));
       for_lanes(i, bracket_count_,
                 [&](std::size_t lane) { candidate_time_[bracket_candidate_[i + lane]] = roots[lane]; });
     }
@@ -346,7 +348,8 @@ class WangLanes {
       const Mask well_shaped = configuration.well_shaped(tol);
       const Mask passes = well_shaped & configuration.inside();
       const auto accepted = each(passes);
-      const auto excluded = each(Mask(well_shaped & !passes & excludes(pair, known.F, configuration, t, tol)));
+      const auto excluded =
+          each(Mask(well_shaped & !passes & excludes(pair, known.F, configuration, t, tol)));
       for_lanes(i, candidate_count_, [&](std::size_t lane) {
         candidate_passes_[i + lane] = accepted[lane];
         candidate_is_excluded_[i + lane] = excluded[lane];
@@ -355,8 +358,9 @@ class WangLanes {
   }
 
   /// As excludes_collision.
-  static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F, const Configuration<kind, Real>& configuration,
-                       const Real& t, const Tolerances<Real>& tol) {
+  static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F,
+                       const Configuration<kind, Real>& configuration, const Real& t,
+                       const Tolerances<Real>& tol) {
     const auto eps = epsilon<Real>();
     const Real threshold = detail::culling_threshold(tol.mu, eps, pair.B);
     const Real slope = abs(F.slope(t));
@@ -390,7 +394,8 @@ class WangLanes {
       culled = culled && (!candidate_is_root_[i] || candidate_is_excluded_[i]);
     }
     if (!culled) return undecided_verdict;
-    return Verdict::rejected(first == end || !candidate_is_root_[first] ? Rejection::no_root : Rejection::culled);
+    return Verdict::rejected(first == end || !candidate_is_root_[first] ? Rejection::no_root
+                                                                        : Rejection::culled);
   }
 
   static constexpr std::size_t most_brackets = 3 * wang_batch_size;

@@ -39,7 +39,8 @@ constexpr const char* exit_codes =
     "written (one\n"
     "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
     "not answer are counted, and are no reason for 1.\n\n"
-    "Environment: NEARMISS_LANES=2, 4 or 8 sets how many doubles are computed side by side, at most as many as the\n"
+    "Environment: NEARMISS_LANES=2, 4 or 8 sets how many doubles are computed side by side, at most as many "
+    "as the\n"
     "machine can, which is the default. It changes no answer.";
 
 /// The number of letters to change, add or leave out to make one word of another.

@@ -63,8 +63,6 @@ TEST_P(InLanes, VerdictsAreThoseOfOneQueryAtATime) {
         if (is_decided(verdicts[i])) {
           ASSERT_TRUE(equal(verdicts[i], expected[i]))
               << GetParam().name << ":26:" << first + i << " in " << lanes(instructions) << " lanes";
-        } else {
-          ASSERT_NE(expected[i].rejection, Rejection::planes) << GetParam().name << ":26:" << first + i;
         }
       }
     }
@@ -93,7 +91,8 @@ TEST(WangInLanes, TakesAnyNumberOfQueries) {
     const auto expected = in_lanes(queries, instructions);
     for (const std::size_t count : {0U, 1U, 2U, 3U, 7U, 127U, 128U, 129U, 257U, 300U}) {
       const auto verdicts = in_lanes(std::span(queries).first(count), instructions);
-      for (std::size_t i = 0; i < count; ++i) ASSERT_TRUE(equal(verdicts[i], expected[i])) << i << " of " << count;
+      for (std::size_t i = 0; i < count; ++i)
+        ASSERT_TRUE(equal(verdicts[i], expected[i])) << i << " of " << count;
     }
   }
 }
@@ -120,7 +119,8 @@ TEST(WangInLanes, AGivenBoundDecidesAsForOneQuery) {
   const auto subject = make_subject("wang@16");
   std::vector<Verdict> verdicts(queries.size());
   subject->decide(queries, verdicts);
-  for (std::size_t i = 0; i < queries.size(); ++i) ASSERT_TRUE(equal(verdicts[i], subject->decide(queries[i])));
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    ASSERT_TRUE(equal(verdicts[i], subject->decide(queries[i])));
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ TEST_F(CommandLine, AWrongNumberOfLanes) {
     EXPECT_EQ(output.error,
               "nearmiss: NEARMISS_LANES: found '" + std::string(wrong) + "', expected 2, 4 or 8\n");
   }
-  for (const char* right : {"", "2"}) EXPECT_EQ(run("subjects", std::string("NEARMISS_LANES=") + right).code, 0);
+  for (const char* right : {"", "2"})
+    EXPECT_EQ(run("subjects", std::string("NEARMISS_LANES=") + right).code, 0);
 }
 
 TEST_F(CommandLine, ArgumentsWithoutAValue) {
