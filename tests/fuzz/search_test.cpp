@@ -47,8 +47,7 @@ TEST(Searches, MakeFiniteQueriesForTheLargestSeparations) {
   const auto advance = make_subject("advance");
   for (const std::string separation : {"1e308", "1.7976931348623157e308"})
     for (const Family& family : searches(*advance, Stop::never(), separation))
-      for (std::uint64_t i = 0; i < 2; ++i)
-        EXPECT_TRUE(is_finite(search(family, i))) << family.name << ':' << i;
+      EXPECT_TRUE(is_finite(search(family, 0))) << family.name << ' ' << separation;
 }
 
 TEST(MissSearch, IsAPureFunction) {
