@@ -13,8 +13,11 @@ from enclosed import BORDERS, LARGEST
 def check_text(comparison, section, report, json_report):
     """Checks text in the report, and the output of nearmiss fuzz and nearmiss report."""
     verdicts = {
-        subject: verdict(json_report['error_against_time']['subjects'][subject])
-        for subject in json_report['subjects']
+        subject: verdict(
+            json_report['error_against_time']['subjects'][subject],
+            sum(by_kind[kind]['false_positives_by_stage'].get('unknown', 0) for kind in KINDS),
+        )
+        for subject, by_kind in json_report['subjects'].items()
     }
     _check_headline(comparison, section, json_report, verdicts)
     _check_verdicts(comparison, section, json_report, verdicts)
@@ -89,8 +92,10 @@ def common_factors(found):
     )
 
 
-def verdict(found):
-    """Whether a subject is clean, with the text of its verdict."""
+def verdict(found, unknown):
+    """Whether a subject is clean, with the text of its verdict.
+
+    The number of false positives that are unknown is given."""
     wangs = "wang's"
     missed, refuted = found['false_negatives'], found['refuted_bounds']
     text = f'MISSED {missed:,} of ' if missed else 'no miss in '
@@ -101,12 +106,13 @@ def verdict(found):
     if refuted:
         text += f', {refuted:,} BEYOND ITS BOUND'
     if found['unknown']:
-        text += f', UNKNOWN in {found["unknown"]:,} of {counted(found["queries"], "query", "queries")}'
+        text += (
+            f', UNKNOWN in {found["unknown"]:,} of {counted(found["queries"], "query", "queries")}'
+        )
     is_clean = not missed and not late and not refuted
     if found['false_positives'] == 0:
         return is_clean, text + ', no false positive'
     text += ', ' + counted(found['false_positives'], 'false positive')
-    unknown = found['false_positives_by_stage'].get('unknown', 0)
     if unknown == found['false_positives']:
         return is_clean, text + ', all unknown'
     if unknown:

@@ -128,10 +128,12 @@ TEST(Summary, AnswersThatCouldNotTellAreNamed) {
   counts.add({.verdict = {true, Stage::unknown, 0}}, query, provenance);
   EXPECT_THAT(
       summary_table(statistics),
-      HasSubstr(" ok  unsure: no miss in 1 collision, UNKNOWN in 2 of 2 queries, 1 false positive, all unknown\n"));
+      HasSubstr(
+          " ok  unsure: no miss in 1 collision, UNKNOWN in 2 of 2 queries, 1 false positive, all unknown\n"));
   counts.add({.verdict = {true, Stage::vv, 0}, .ratio = 0.5}, query, provenance);
-  EXPECT_THAT(summary_table(statistics), HasSubstr(", UNKNOWN in 2 of 3 queries, 2 false positives, 1 of them "
-                                                   "unknown, the farthest at 0.5 of the bound\n"));
+  EXPECT_THAT(summary_table(statistics),
+              HasSubstr(", UNKNOWN in 2 of 3 queries, 2 false positives, 1 of them "
+                        "unknown, the farthest at 0.5 of the bound\n"));
 }
 
 /// A campaign of a subject that has one false positive at 2.5 times its unit, and may or may not claim a bound.
