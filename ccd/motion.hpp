@@ -29,7 +29,7 @@ auto dot(const A& a, const B& b) {
 }
 /// ‖a‖₁
 template <class Vector>
-auto sum_of_components(const Vector& a) {
+auto norm_1(const Vector& a) {
   using std::abs;
   return (abs(a[0]) + abs(a[1])) + abs(a[2]);
 }

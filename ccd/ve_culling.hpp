@@ -69,8 +69,8 @@ inline constexpr int culling_doublings = 4;
 // The most by which a weight may move within h.
 template <Kind kind, class T>
 T weight_spread(const Configuration<kind, T>& configuration, T W, T h) {
-  const T edges = sum_of_components(configuration.q) + sum_of_components(configuration.r);
-  return sum_of_components(configuration.N) * edges * T(1.7320508075688775) * W * h;
+  const T edges = norm_1(configuration.q) + norm_1(configuration.r);
+  return norm_1(configuration.N) * edges * T(1.7320508075688775) * W * h;
 }
 
 // Whether a weight is outside [0, N·N] by more than its spread and its rounding error.
