@@ -5,6 +5,9 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
+#include <exception>
+
 namespace nearmiss {
 
 namespace {
@@ -16,6 +19,29 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
+/// Keeps the first exception of some threads, and does nothing more after it. A pipeline that an exception leaves would not
+/// free the items that are on their way.
+class FirstFailure {
+ public:
+  template <class Action>
+  void watch(const Action& action) {
+    if (has_failed_) return;
+    try {
+      action();
+    } catch (...) {
+      if (!has_failed_.exchange(true)) failure_ = std::current_exception();
+    }
+  }
+  /// Throws what was kept, when all threads have ended.
+  void pass_on() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr failure_;
+};
+
 }  // namespace
 
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -26,13 +52,15 @@ void detail::in_order(int jobs, const std::function<Untyped()>& next, const std:
                       const std::function<void(void*)>& take) {
   constexpr std::size_t on_their_way =
       16;  // for each thread, so that one slow item does not hold up the others
+  FirstFailure failure;
   const auto make = [&](tbb::flow_control& control) {
-    Untyped item = next();
+    Untyped item;
+    failure.watch([&] { item = next(); });
     if (!item) control.stop();
     return item;
   };
   const auto pass = [&](Untyped item) {
-    work(item.get());
+    failure.watch([&] { work(item.get()); });
     return item;
   };
   on_threads(jobs, [&] {
@@ -40,9 +68,11 @@ void detail::in_order(int jobs, const std::function<Untyped()>& next, const std:
         on_their_way * static_cast<std::size_t>(jobs),
         tbb::make_filter<void, Untyped>(tbb::filter_mode::serial_in_order, make) &
             tbb::make_filter<Untyped, Untyped>(tbb::filter_mode::parallel, pass) &
-            tbb::make_filter<Untyped, void>(tbb::filter_mode::serial_in_order,
-                                            [&](const Untyped& item) { take(item.get()); }));
+            tbb::make_filter<Untyped, void>(tbb::filter_mode::serial_in_order, [&](const Untyped& item) {
+              failure.watch([&] { take(item.get()); });
+            }));
   });
+  failure.pass_on();
 }
 
 }  // namespace nearmiss

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -57,6 +60,20 @@ TEST(InOrder, PassesOnAnException) {
                    },
                    [](Item& item) { EXPECT_LT(item.number, 50); }),
                std::runtime_error);
+}
+
+TEST(InOrder, FreesTheItemsBehindAnException) {
+  const auto counted = std::make_shared<int>(0);
+  std::atomic<int> worked{0};
+  EXPECT_THROW(in_order<std::shared_ptr<int>>(
+                   4, [&] { return std::optional(counted); },
+                   [&](std::shared_ptr<int>& /*item*/) {
+                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                     if (++worked >= 20) throw std::runtime_error("twenty");
+                   },
+                   [](std::shared_ptr<int>& /*item*/) {}),
+               std::runtime_error);
+  EXPECT_EQ(counted.use_count(), 1);
 }
 
 }  // namespace
