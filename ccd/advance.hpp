@@ -65,7 +65,7 @@ struct NearestPoint {
   Vector3<T> direction;  ///< of any length: the polygon is on the far side of a plane at right angles to it
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
-    const T squared = point.squaredNorm();
+    const T squared = dot(point, point);
     if (!(squared < squared_distance)) return;
     squared_distance = squared;
     direction = towards;
@@ -82,24 +82,24 @@ NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c, const Steps
   NearestPoint<T> nearest;
   for (std::size_t k = 0; k < size; ++k) {
     const Vector3<T> e = c[(k + 1) % size] - c[k];
-    const T ee = e.squaredNorm();
-    const T along = -c[k].dot(e);
+    const T ee = dot(e, e);
+    const T along = -dot(c[k], e);
     if (!(along > 0)) nearest.consider(c[k], c[k]);
     if (!(along > 0 && along < ee)) continue;
     const Vector3<T> point = c[k] + (along / ee) * e;
-    nearest.consider(point, point - (point.dot(e) / ee) * e);
+    nearest.consider(point, point - (dot(point, e) / ee) * e);
   }
   const Vector3<T> f = c[1] - c[0];
   const Vector3<T> g = c[size - 1] - c[0];
   const Vector3<T> N = f.cross(g);
-  const T NN = N.squaredNorm();
-  const T alpha = N.dot(g.cross(c[0]));
-  const T beta = N.dot(c[0].cross(f));
+  const T NN = dot(N, N);
+  const T alpha = dot(N, g.cross(c[0]));
+  const T beta = dot(N, c[0].cross(f));
   const T most = kind == Kind::vertex_triangle ? T(alpha + beta) : std::max(alpha, beta);
   const bool inside = (alpha >= 0 && beta >= 0 && most <= NN) || !steps.does(Step::inside);
   if (NN > 0 && inside) {
     const Vector3<T> point = c[0] + (alpha / NN) * f + (beta / NN) * g;
-    nearest.consider(point, c[0].dot(N) < 0 ? Vector3<T>(-N) : N);
+    nearest.consider(point, dot(c[0], N) < 0 ? Vector3<T>(-N) : N);
   }
   return nearest;
 }
@@ -165,7 +165,7 @@ T time_beyond(const DifferencePolygon<kind, T>& polygon, const Corners& at_t, T 
   const T scale = steps.does(Step::whole_step) ? T(1) : 1 - t;
   T time = 2;
   for (std::size_t k = 0; k < (steps.does(Step::last_vertex) ? polygon.size : polygon.size - 1); ++k)
-    time = closing_time(T(n.dot(at_t[k]) - distance), T(-n.dot(polygon.corner[k].v()) * scale), time);
+    time = closing_time(T(dot(n, at_t[k]) - distance), T(-dot(n, polygon.corner[k].v()) * scale), time);
   return time;
 }
 

@@ -31,7 +31,7 @@ Cubic<T> coplanarity(const Pair<kind, T>& pair) {
   const Vector3<T> n0 = q.x().cross(r.x());
   const Vector3<T> n1 = q.x().cross(r.v()) + q.v().cross(r.x());
   const Vector3<T> n2 = q.v().cross(r.v());
-  return {p.v().dot(n2), p.x().dot(n2) + p.v().dot(n1), p.x().dot(n1) + p.v().dot(n0), p.x().dot(n0)};
+  return {dot(p.v(), n2), dot(p.x(), n2) + dot(p.v(), n1), dot(p.x(), n1) + dot(p.v(), n0), dot(p.x(), n0)};
 }
 
 namespace detail {

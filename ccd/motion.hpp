@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ccd/query.hpp"
+#include "ccd/scalar.hpp"
 #include "ccd/steps.hpp"
 
 namespace nearmiss {
@@ -19,6 +20,18 @@ auto max_component(const Vector& a) {
   using T = typename Vector::Scalar;
   static_assert(Vector::SizeAtCompileTime == 3);
   return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
+}
+
+/// Eigen's sums depend on its vector instructions; these have one order.
+template <class A, class B>
+auto dot(const A& a, const B& b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+/// ‖a‖₁
+template <class Vector>
+auto norm_1(const Vector& a) {
+  using std::abs;
+  return (abs(a[0]) + abs(a[1])) + abs(a[2]);
 }
 
 /// x + t v; a scalar type that carries more than its value may have its own overload (audited.hpp).
@@ -62,11 +75,15 @@ namespace detail {
 template <class T, class Coordinate>
 Vector3<T> difference(const Coordinate* a, const Coordinate* b, const Frame& frame) {
   const auto component = [&](int k) -> T {
-    if (frame.identity()) return static_cast<T>(a[k]) - static_cast<T>(b[k]);
-    using std::ldexp;
-    const int reduce = frame.reduced ? -Frame::reduction : 0;
-    return ldexp(T(ldexp(static_cast<T>(a[k]), reduce) - ldexp(static_cast<T>(b[k]), reduce)),
-                 frame.exponent);
+    if constexpr (!is_scalar<T>) {  // lanes are not scaled
+      return a[k] - b[k];
+    } else {
+      if (frame.identity()) return static_cast<T>(a[k]) - static_cast<T>(b[k]);
+      using std::ldexp;
+      const int reduce = frame.reduced ? -Frame::reduction : 0;
+      return ldexp(T(ldexp(static_cast<T>(a[k]), reduce) - ldexp(static_cast<T>(b[k]), reduce)),
+                   frame.exponent);
+    }
   };
   return {component(0), component(1), component(2)};
 }
@@ -152,13 +169,10 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   const Six hi = p.max(q).max(r).max(T(0));
   const Six lo = p.min(q).min(r).min(T(0));
   const Six extent = hi - lo;
-  const auto largest = [](const Six& six, int first) {
-    using std::max;
-    return max(max(six[first], six[first + 1]), six[first + 2]);
-  };
   // The edges of a triangle are the differences of {0, q, r}; the edges of EE are q and r themselves.
-  pair.E = kind == Kind::vertex_triangle ? largest(extent, 0) : largest(hi.max(-lo), 0);
-  pair.W = largest(extent, 3);
+  const Six edges = kind == Kind::vertex_triangle ? extent : Six(hi.max(-lo));
+  pair.E = max_component(edges.template head<3>());
+  pair.W = max_component(extent.template tail<3>());
   pair.B =
       (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + bound_margin * epsilon<T>());
 }
@@ -181,10 +195,11 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Verte
 /// 2^100], nothing can overflow, and a result that underflows is below 2^-1074, while B⁴ε >= 2^-452. So
 /// scaling would change no digit there. For a narrower scalar the same argument holds with a smaller range.
 template <class T>
-bool in_range(T B) {
-  constexpr int range = std::numeric_limits<T>::max_exponent >= 1024 ? 50 : 3;
-  const T root = static_cast<T>(1ULL << range);
-  return B <= root * root && B >= 1 / (root * root);
+auto in_range(T B) {
+  using Number = ScalarOf<T>;
+  constexpr int range = std::numeric_limits<Number>::max_exponent >= 1024 ? 50 : 3;
+  const Number root = static_cast<Number>(1ULL << range);
+  return (B <= T(root * root)) & (B >= T(1 / (root * root)));
 }
 
 /// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if the
@@ -233,7 +248,7 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 /// joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative error of at
 /// most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
 template <Kind kind, class T>
-bool within_reach(const Pair<kind, T>& pair) {
+auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;
 }
 

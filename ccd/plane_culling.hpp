@@ -12,26 +12,30 @@ namespace nearmiss {
 
 namespace detail {
 
+// The least and the largest coordinate of the first and of the second primitive. `coordinate(time, vertex)` is one number or a
+// vector of numbers.
+template <Kind kind, class Coordinate>
+[[gnu::always_inline]] inline auto extents(const Coordinate& coordinate, std::size_t time) {
+  using std::max;
+  using std::min;
+  const auto s0 = coordinate(time, 0);
+  const auto s1 = coordinate(time, 1);
+  const auto s2 = coordinate(time, 2);
+  const auto s3 = coordinate(time, 3);
+  if constexpr (kind == Kind::vertex_triangle)
+    return std::array{s0, s0, min(min(s1, s2), s3), max(max(s1, s2), s3)};
+  else
+    return std::array{min(s0, s1), max(s0, s1), min(s2, s3), max(s2, s3)};
+}
+
 // Whether one primitive lies entirely on one side of the other in the given coordinate, at t = 0 and, on the
 // same side, at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
 // at all times between them. The same holds for every convex combination, so the primitives never meet.
-// `coordinate(time, vertex)` is one number or a vector of numbers, and the answer has the same shape.
+// The answer is one truth value or a vector of them, as the coordinates are.
 template <Kind kind, class Coordinate, class Steps>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate, const Steps& steps) {
-  using std::max;
-  using std::min;
-  const auto extents = [&](std::size_t time) {  // extents of the first and the second primitive
-    const auto s0 = coordinate(time, 0);
-    const auto s1 = coordinate(time, 1);
-    const auto s2 = coordinate(time, 2);
-    const auto s3 = coordinate(time, 3);
-    if constexpr (kind == Kind::vertex_triangle)
-      return std::array{s0, s0, min(min(s1, s2), s3), max(max(s1, s2), s3)};
-    else
-      return std::array{min(s0, s1), max(s0, s1), min(s2, s3), max(s2, s3)};
-  };
-  const auto start = extents(0);
-  const auto end = extents(1);
+  const auto start = extents<kind>(coordinate, 0);
+  const auto end = extents<kind>(coordinate, 1);
   if (!steps.does(Step::touching_meets)) {
     const auto meets_above = (start[0] < start[3]) | (end[0] < end[3]);
     const auto meets_below = (start[1] > start[2]) | (end[1] > end[2]);
@@ -45,7 +49,7 @@ template <Kind kind, class Coordinate, class Steps>
 
 /// Tests the axes x, y and z; `x(time, vertex, k)` is coordinate k of a point.
 template <Kind kind, class Points, class Steps = AllSteps>
-auto separated_across_axis(const Points& x, const Steps& steps = {}) {
+[[gnu::always_inline]] inline auto separated_across_axis(const Points& x, const Steps& steps = {}) {
   const auto axis = [&](std::size_t k) {
     return separated<kind>([&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); },
                            steps);
@@ -55,7 +59,7 @@ auto separated_across_axis(const Points& x, const Steps& steps = {}) {
 
 /// Tests the diagonals x ± y, x ± z and y ± z.
 template <Kind kind, class Points, class Steps = AllSteps>
-auto separated_across_diagonal(const Points& x, const Steps& steps = {}) {
+[[gnu::always_inline]] inline auto separated_across_diagonal(const Points& x, const Steps& steps = {}) {
   const auto sum = [&](std::size_t k, std::size_t l) {
     return separated<kind>(
         [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) + x(time, vertex, l); },

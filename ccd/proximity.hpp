@@ -24,33 +24,35 @@ struct Configuration {
   std::array<T, weight_count> weights;
 
   Configuration(const Pair<kind, T>& pair, T t)
-      : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(N.dot(N)) {
+      : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(dot(N, N)) {
     if constexpr (kind == Kind::vertex_triangle) {
-      weights[0] = N.dot(q.cross(p));
-      weights[1] = N.dot(p.cross(r));
+      weights[0] = dot(N, q.cross(p));
+      weights[1] = dot(N, p.cross(r));
       weights[2] = weights[0] + weights[1];
     } else {
-      weights[0] = N.dot(p.cross(r));
-      weights[1] = N.dot(p.cross(q));
+      weights[0] = dot(N, p.cross(r));
+      weights[1] = dot(N, p.cross(q));
     }
   }
 
   /// Barycentric test: every weight in [0, N·N].
   template <class Steps = AllSteps>
-  [[nodiscard]] bool inside(const Steps& steps = {}) const {
-    return !steps.does(Step::inside) || std::all_of(weights.begin(), weights.end(), [&](T w) {
-      return at_most(T(0), w, steps) && at_most(w, NN, steps);
-    });
+  [[nodiscard]] auto inside(const Steps& steps = {}) const {
+    const auto between = [&](const T& w) { return at_most(T(0), w, steps) & at_most(w, NN, steps); };
+    decltype(between(NN)) inside(true);
+    if (steps.does(Step::inside))
+      for (const T& w : weights) inside = inside & between(w);
+    return inside;
   }
 
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
   template <class Steps = AllSteps>
-  [[nodiscard]] bool well_shaped(const Tolerances<T>& tol, const Steps& steps = {}) const {
+  [[nodiscard]] auto well_shaped(const Tolerances<T>& tol, const Steps& steps = {}) const {
     using std::max;
     const T area = max_component(N);
     T longest = max(max_component(q), max_component(r));
     if constexpr (kind == Kind::vertex_triangle) longest = max(longest, max_component(r - q));
-    return at_most(tol.tau, area, steps) && at_most(T(longest * tol.eta), area, steps);
+    return at_most(tol.tau, area, steps) & at_most(T(longest * tol.eta), area, steps);
   }
 };
 

@@ -117,7 +117,7 @@ double least_loosening(const Hits& hits) {
 
 /// a <= b, used by every comparison that accepts.
 template <class T, class Steps>
-bool at_most(T a, T b, const Steps& steps) {
+auto at_most(T a, T b, const Steps& steps) {
   return steps.does(Step::ties) ? a <= b : a < b;
 }
 

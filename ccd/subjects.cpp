@@ -14,6 +14,7 @@
 #include "ccd/subject.hpp"
 #include "ccd/tight_tolerances.hpp"
 #include "ccd/wang.hpp"
+#include "ccd/wang_batch.hpp"
 #include "ccd/wang_time.hpp"
 
 namespace nearmiss {
@@ -29,7 +30,7 @@ double own_bound(const Query& query) {
 /// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
 /// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
 /// `claims_bound`, `takes_separation` and `time_sort`.
-template <class Policy>
+template <class Policy, bool is_batched = false>
 class BuiltInSubject final : public Subject {
  public:
   BuiltInSubject(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
@@ -43,6 +44,14 @@ class BuiltInSubject final : public Subject {
 
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     const PlainArithmetic guard;
+    if constexpr (is_batched) {
+      if (!given_) {
+        wang_in_lanes(queries, verdicts);
+        for (std::size_t i = 0; i < queries.size(); ++i)
+          if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
+        return;
+      }
+    }
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide_plainly(queries[i]);
   }
 
@@ -158,19 +167,20 @@ struct Entry {
   std::unique_ptr<Subject> (*make)(std::string_view name, std::optional<double> given);
 };
 
-template <class Policy>
+template <class Policy, bool is_batched = false>
 constexpr Entry entry(std::string_view name, std::string_view about) {
   return {{name, about},
           [](std::string_view own_name, std::optional<double> given) -> std::unique_ptr<Subject> {
-            return std::make_unique<BuiltInSubject<Policy>>(own_name, given);
+            return std::make_unique<BuiltInSubject<Policy, is_batched>>(own_name, given);
           }};
 }
 
 constexpr std::array registry{
     entry<Basic<true>>("basic", "cubic CCD without any tolerance, plane culling: the baseline"),
     entry<Basic<false>>("basic-plain", "the same without plane culling"),
-    entry<Wang<WangOptions{true, VeCulling::per_root}>>(
+    entry<Wang<WangOptions{true, VeCulling::per_root}>, true>(
         "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}>>("wang-scalar", "the same, one query at a time"),
     entry<Wang<WangOptions{true, VeCulling::fixed}>>(
         "wang-eps", "the same with the paper's fixed interval, the square root of epsilon"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "ccd/scalar.hpp"
+
 namespace nearmiss {
 
 /// Machine epsilon of a scalar, twice its unit roundoff u: the paper's ε.
 template <class T>
 constexpr T epsilon() {
-  return std::numeric_limits<T>::epsilon();
+  return std::numeric_limits<ScalarOf<T>>::epsilon();
 }
 
 /// ε^¼, the paper's measure of how far apart the primitives of a false positive may be (2^-13 for double).

@@ -52,9 +52,35 @@ namespace detail {
 
 // Whether |F̂| exceeds the threshold at t - h and t + h; a time outside [0, 1] needs no test.
 template <class T>
-bool brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
+auto brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
   using std::abs;
-  return (t - h < 0 || abs(F(t - h)) > threshold) && (t + h > 1 || abs(F(t + h)) > threshold);
+  return ((t - h < T(0)) | (abs(F(t - h)) > threshold)) & ((t + h > T(1)) | (abs(F(t + h)) > threshold));
+}
+
+// μ + 2E + m: how far |F̂| must be above 0 at both ends of an interval that contains the true root.
+template <class T>
+T culling_threshold(T mu, T eps, T B) {
+  return mu + (2 * evaluation_error + node_error) * eps * B * B * B;
+}
+
+// `per_root` doubles h at most so often.
+inline constexpr int culling_doublings = 4;
+
+// The most by which a weight may move within h.
+template <Kind kind, class T>
+T weight_spread(const Configuration<kind, T>& configuration, T W, T h) {
+  const T edges = norm_1(configuration.q) + norm_1(configuration.r);
+  return norm_1(configuration.N) * edges * T(1.7320508075688775) * W * h;
+}
+
+// Whether a weight is outside [0, N·N] by more than its spread and its rounding error.
+template <Kind kind, class T>
+auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) {
+  const T slack = spread + (weight_error + spread_error) * eps * B * B * B * B;
+  const auto beyond = [&](const T& w) { return (w < -slack) | (w > configuration.NN + slack); };
+  decltype(beyond(spread)) outside(false);
+  for (const T& w : configuration.weights) outside = outside | beyond(w);
+  return outside;
 }
 
 }  // namespace detail
@@ -77,8 +103,7 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
   using std::sqrt;
   const T B = pair.B;
   const T eps = steps.does(Step::culling_rounding) ? epsilon<T>() : 0;
-  const T threshold = tol.mu + (2 * evaluation_error + node_error) * eps * B * B * B;
-  const T rounding = (weight_error + spread_error) * eps * B * B * B * B;
+  const T threshold = detail::culling_threshold(tol.mu, eps, B);
   T h;
   T spread;  // the most by which a weight may move
   if constexpr (culling == VeCulling::fixed) {
@@ -87,7 +112,6 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
     spread = 9 * B * B * B * B * h;
   } else {
     const T slope = abs(F.slope(t));
-    constexpr int doublings = 4;
     h = 4 * threshold;
     if (!(h < slope)) return false;
     h /= slope;
@@ -95,17 +119,13 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
       return !steps.does(Step::culling_bracket) || detail::brackets_root(F, t, h, threshold);
     };
     for (int i = 0; !bracketed(); ++i) {
-      if (i == doublings) return false;
+      if (i == detail::culling_doublings) return false;
       h *= 2;
     }
     if (h > 1) return false;
-    const T edges = configuration.q.template lpNorm<1>() + configuration.r.template lpNorm<1>();
-    const T root3 = T(1.7320508075688775);
-    spread = configuration.N.template lpNorm<1>() * edges * root3 * pair.W * h;
+    spread = detail::weight_spread(configuration, pair.W, h);
   }
-  const T slack = (steps.does(Step::culling_spread) ? spread : 0) + rounding;
-  return std::any_of(configuration.weights.begin(), configuration.weights.end(),
-                     [&](T w) { return w < -slack || w > configuration.NN + slack; });
+  return detail::outside(configuration, steps.does(Step::culling_spread) ? spread : T(0), eps, B);
 }
 
 }  // namespace nearmiss

@@ -26,11 +26,11 @@ template <class T, class Steps = AllSteps>
 bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Steps& steps = {}) {
   const Vector3<T> a = ve.x0i.at(t);
   const Vector3<T> e = ve.xji.at(t);
-  const T ll = e.squaredNorm();
+  const T ll = dot(e, e);
   if (!at_most(tol.lambda2, ll, steps)) return false;
-  const T w = a.dot(e);
+  const T w = dot(a, e);
   if (!(at_most(T(0), w, steps) && at_most(w, ll, steps))) return false;
-  const T F = a.cross(e).template lpNorm<1>() - tol.S * max_component(e);
+  const T F = norm_1(a.cross(e)) - tol.S * max_component(e);
   return at_most(F, tol.psi, steps);
 }
 

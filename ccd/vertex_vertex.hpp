@@ -16,9 +16,10 @@ namespace nearmiss {
 template <class T, class Steps = AllSteps>
 std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol, const Steps& steps = {}) {
   using std::clamp;
-  const T vv = ji.v().dot(ji.v());
-  const T t = vv > 0 ? clamp(T(-ji.x().dot(ji.v()) / vv), T(0), T(1)) : T(0);
-  if (at_most(T(ji.at(t).squaredNorm()), T(tol.D2 + tol.delta), steps)) return t;
+  const T vv = dot(ji.v(), ji.v());
+  const T t = vv > 0 ? clamp(T(-dot(ji.x(), ji.v()) / vv), T(0), T(1)) : T(0);
+  const Vector3<T> apart = ji.at(t);
+  if (at_most(T(dot(apart, apart)), T(tol.D2 + tol.delta), steps)) return t;
   return std::nullopt;
 }
 

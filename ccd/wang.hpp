@@ -75,6 +75,12 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
+template <Kind kind, class T>
+T sum_of_squares(const Pair<kind, T>& pair) {
+  const auto squares = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).eval();
+  return ((squares[0] + squares[1]) + (squares[2] + squares[3])) + (squares[4] + squares[5]);
+}
+
 // Whether |F| provably stays above μ, without knowing B. If so, solve_cubic finds no root, and no further
 // test is needed.
 //
@@ -88,11 +94,11 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 // either, since it only affects the sign of F*. The code compares squares, (16 μ1)² s³, to avoid a square
 // root. If s is out of range, s³ might overflow or underflow, and the answer is false.
 template <Kind kind, class T, class Steps>
-bool keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
-  const T s = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).sum();
+auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
+  const T s = sum_of_squares(pair);
   const T c = clearance(F);
-  const T factor = steps.does(Step::clear_of_mu) ? 16 * steps.tolerances(T(1)).mu : 0;
-  return in_range(s) && c > 0 && c * c > factor * factor * (s * s * s);
+  const T factor = steps.does(Step::clear_of_mu) ? T(16 * steps.tolerances(T(1)).mu) : T(0);
+  return in_range(s) & (c > T(0)) & (c * c > factor * factor * (s * s * s));
 }
 
 // Algorithms 3 and 4 for a pair whose vectors are within B.

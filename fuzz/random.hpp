@@ -17,7 +17,7 @@ namespace nearmiss {
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
-      : key_{{seed, stream}}, counter_{{index, 0, 0, 0}} {}
+      : key_{{seed, stream}}, index_(index) {}
 
   std::uint64_t bits() {
     if (used_ == 4) {
@@ -73,13 +73,12 @@ class Random {
   static double fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
   r123::Philox4x64::ctr_type next_block() {
-    const auto block = r123::Philox4x64()(counter_, key_);
-    ++counter_[1];
-    return block;
+    return r123::Philox4x64()({{index_, block_number_++, 0, 0}}, key_);
   }
 
   r123::Philox4x64::key_type key_;
-  r123::Philox4x64::ctr_type counter_;
+  std::uint64_t index_;
+  std::uint64_t block_number_ = 0;
   r123::Philox4x64::ctr_type block_{};
   unsigned used_ = 4;
 };

@@ -165,17 +165,27 @@ Family find_family(std::string_view name, std::span<const Family> known) {
   return of_contact == name ? family : with_separation(family, name.substr(of_contact.size() + 1));
 }
 
-Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
-  // The stream is a hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
+namespace {
+
+/// A hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
+std::uint64_t stream_of(const Family& family) {
   std::uint64_t stream = 0xcbf29ce484222325;
   for (const char c : base_name(family.name))
     stream = (stream ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return {seed, stream, index};
+  return stream;
+}
+
+}  // namespace
+
+Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index) {
+  return {seed, stream_of(family), index};
 }
 
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index) {
-  Random random = random_of(family, seed, index);
-  return family.make(random, kind_of(index));
+  return QueryMaker(family, seed)(index);
 }
+
+QueryMaker::QueryMaker(const Family& family, std::uint64_t seed)
+    : family_(family), seed_(seed), stream_(stream_of(family)) {}
 
 }  // namespace nearmiss

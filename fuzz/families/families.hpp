@@ -87,4 +87,20 @@ Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
 /// Query number `index` of a family.
 Query make_query(const Family& family, std::uint64_t seed, std::uint64_t index);
 
+/// Makes many queries of a family, which must outlive it.
+class QueryMaker {
+ public:
+  QueryMaker(const Family& family, std::uint64_t seed);
+  /// Query number `index`.
+  [[nodiscard]] Query operator()(std::uint64_t index) const {
+    Random random(seed_, stream_, index);
+    return family_.make(random, kind_of(index));
+  }
+
+ private:
+  const Family& family_;
+  std::uint64_t seed_;
+  std::uint64_t stream_;
+};
+
 }  // namespace nearmiss

@@ -44,9 +44,11 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
   const std::uint64_t first = first_of(block, kind);
   batch.first_number = first;
   batch.step = kinds.size();
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds.size() + 1);
+  const QueryMaker make(*block.family, plan.seed);
   for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
     stop.check();
-    batch.queries.push_back(make_query(*block.family, plan.seed, index));
+    batch.queries.push_back(make(index));
   }
   if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
   batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {

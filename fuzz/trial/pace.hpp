@@ -35,7 +35,7 @@ class Pace {
 
  private:
   static constexpr std::size_t first = 2;
-  static constexpr double most = 512;
+  static constexpr double most = 1024;
   mutable std::mutex mutex_;
   std::map<std::string, std::size_t> cases_;
 };

@@ -221,10 +221,11 @@ Trial::Trial(const Subjects& subjects, Batch batch, const Comparison& comparison
 
 void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
   check_coordinates(batch_);
-  const std::vector<Verdict> not_asked(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
   for (std::size_t s = 0; s < subjects_.size(); ++s)
-    answers_.push_back(batch_.can_ask(*subjects_[s]) && asks(s) ? decide_all(*subjects_[s], batch_, times_[s])
-                                                                : not_asked);
+    if (batch_.can_ask(*subjects_[s]) && asks(s))
+      answers_.push_back(decide_all(*subjects_[s], batch_, times_[s]));
+    else
+      answers_.emplace_back(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
 }
 
 TrialResult Trial::judge(const LeastKept& known) const {

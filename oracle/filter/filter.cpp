@@ -108,25 +108,6 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
                          width < rough_time ? Asked::when_precisely : Asked::when);
 }
 
-bool has(Instructions instructions) {
-  switch (instructions) {
-    case Instructions::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512vl");
-    case Instructions::avx2:
-      return __builtin_cpu_supports("avx2");
-    default:
-      return true;
-  }
-}
-
-Instructions widest_instructions() {
-  static const Instructions widest = has(Instructions::avx512) ? Instructions::avx512
-                                     : has(Instructions::avx2) ? Instructions::avx2
-                                                               : Instructions::sse2;
-  return widest;
-}
-
 void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instructions instructions) {
   certified::filter_all(queries, 1, stages, instructions);
   for (std::size_t i = 0; i < queries.size(); ++i)
@@ -134,7 +115,7 @@ void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instr
 }
 
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {
-  certified::filter_all(queries, caution, stages, widest_instructions());
+  certified::filter_all(queries, caution, stages, chosen_instructions());
 }
 
 }  // namespace nearmiss

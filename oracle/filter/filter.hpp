@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "ccd/instructions.hpp"
 #include "ccd/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 
@@ -47,17 +48,9 @@ inline constexpr double rough_time = 0x1p-30;
 /// certainly is none. Most are at most `width` wide, or as narrow as doubles allow. It does not include the box test.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// The x86-64 instruction sets that can decide many queries at once.
-enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
-
-/// Whether this machine has the instruction set.
-bool has(Instructions instructions);
-/// The widest instruction set that this machine has.
-Instructions widest_instructions();
-
 /// Decides many queries of both kinds. The instruction set does not affect the answers.
 void filter(std::span<const Query> queries, std::span<FilterStage> stages,
-            Instructions instructions = widest_instructions());
+            Instructions instructions = chosen_instructions());
 
 /// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries
 /// that it decides are not near their bounds.

@@ -58,7 +58,8 @@ LadderPlace place_of(const std::string& subject) {
     place.unit = claimed_distance("wang", double_exponent);
   else if (algorithm == "wang-tight")
     place.unit = claimed_distance("wang-tight", *exponent);
-  else if (algorithm == "wang" || algorithm == "wang-eps" || algorithm == "wang-plain")
+  else if (algorithm == "wang" || algorithm == "wang-scalar" || algorithm == "wang-eps" ||
+           algorithm == "wang-plain")
     place.unit = claimed_distance("wang", *exponent);
   return place;
 }

@@ -65,7 +65,7 @@ TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
       for (const auto& family : {miss_search(*subject), far_search(*subject)})
         hash.add_all(search(family, i).x);
   }
-  EXPECT_EQ(hash.value(), 0xf240a9f8dd641196) << std::hex << hash.value();
+  EXPECT_EQ(hash.value(), 0x6de54ae0e88b2ce) << std::hex << hash.value();
 }
 
 TEST(MissSearch, PassesTheErrorsOfASubjectOn) {

@@ -57,6 +57,17 @@ TEST_F(CommandLine, FilesThatAreNone) {
   }
 }
 
+TEST_F(CommandLine, AWrongNumberOfLanes) {
+  for (const char* wrong : {"3", "16", "x", "-2", "8 "}) {
+    const Output output = run("subjects", std::string("NEARMISS_LANES='") + wrong + "'");
+    EXPECT_EQ(output.code, 2);
+    EXPECT_EQ(output.error,
+              "nearmiss: NEARMISS_LANES: found '" + std::string(wrong) + "', expected 2, 4 or 8\n");
+  }
+  for (const char* right : {"", "2"})
+    EXPECT_EQ(run("subjects", std::string("NEARMISS_LANES=") + right).code, 0);
+}
+
 TEST_F(CommandLine, ArgumentsWithoutAValue) {
   expect_refused("fuzz --time ''", {"found an empty argument after '--time', expected a value"});
   expect_refused("fuzz --cases 10 --subject ,", {"found an empty list after '--subject', expected a value"});

@@ -168,7 +168,7 @@ Readings missed_minimum(const AuditSample& s) {
   const double F_error = near_edge(s).back().derived * root_eps;
   const auto F = [&](double t) {
     const Vector3<double> e = s.q.at(t);
-    return s.p.at(t).cross(e).lpNorm<1>() - S * max_component(e);
+    return norm_1(s.p.at(t).cross(e)) - S * max_component(e);
   };
   double best = std::min(F(0), F(1));
   const auto look = [&](const auto& times) {
@@ -197,8 +197,8 @@ Readings missed_minimum(const AuditSample& s) {
 
 Readings vertex_vertex_time(const AuditSample& s) {
   const Moving<AuditedRational> ji = exactly(s.p, s.reach);
-  const Reading m = reading(ji.x().dot(ji.v()), s);
-  const Reading n = reading(ji.v().dot(ji.v()), s);
+  const Reading m = reading(dot(ji.x(), ji.v()), s);
+  const Reading n = reading(dot(ji.v(), ji.v()), s);
   std::vector<ComparedSides> kept;
   const auto t = vertex_vertex(ji, thresholds(s), ComparisonLog<Rational>(kept));
   const AuditedRational& squared = kept.at(0).first;

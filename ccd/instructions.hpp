@@ -1,0 +1,27 @@
+// The vector instructions that many queries at once are decided with.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace nearmiss {
+
+/// The x86-64 instruction sets whose registers hold 2, 4 and 8 doubles. None changes an answer.
+enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
+
+inline constexpr std::array all_instructions{Instructions::sse2, Instructions::avx2, Instructions::avx512};
+
+/// The number of doubles in a register.
+constexpr int lanes(Instructions instructions) { return 2 << static_cast<int>(instructions); }
+
+/// Whether this machine has the instruction set.
+bool has(Instructions instructions);
+/// The widest instruction set that this machine has.
+Instructions widest_instructions();
+
+/// The instruction set that is used: the widest one, or the one with as many lanes as the variable NEARMISS_LANES of the
+/// environment says: 2, 4 or 8. Throws Error if this is another number or this machine does not have the instructions.
+Instructions chosen_instructions();
+
+}  // namespace nearmiss

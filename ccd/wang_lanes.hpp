@@ -1,0 +1,424 @@
+// The failure-proof CCD for many queries at once: the arithmetic of wang.hpp in lanes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "ccd/cubic.hpp"
+#include "ccd/lanes.hpp"
+#include "ccd/motion.hpp"
+#include "ccd/plane_culling.hpp"
+#include "ccd/proximity.hpp"
+#include "ccd/subject.hpp"
+#include "ccd/tolerances.hpp"
+#include "ccd/ve_culling.hpp"
+#include "ccd/wang.hpp"
+#include "ccd/wang_batch.hpp"
+
+namespace nearmiss {
+
+/// Decides queries of one kind step by step, with those that are left side by side in n lanes: planes, the clearance of F,
+/// the roots of F, the tests at the roots. It leaves undecided what needs vertex-edge tests, another frame or another order of
+/// end points. A lane computes exactly what the templates compute for its query alone, so n changes no verdict.
+template <int n, Kind kind>
+class WangLanes {
+ public:
+  /// Decides those of at most `wang_batch_size` queries that are of its kind.
+  void run(const Query* queries, std::size_t count, Verdict* verdicts) {
+    queries_ = queries;
+    verdicts_ = verdicts;
+    Rows of_kind;
+    for (std::size_t row = 0; row < count; ++row) of_kind.add_if(queries[row].kind == kind, row);
+    reject_clear(reject_separated(of_kind));
+    find_roots();
+    refine_roots();
+    test_candidates();
+    conclude();
+  }
+
+ private:
+  using Real = Lanes<n>;
+  using Mask = typename Real::mask_type;
+
+  /// Numbers of a list, with room for a whole pack behind the last one.
+  template <class Number, std::size_t most>
+  using Column = std::array<Number, most + n>;
+
+  /// A list of indices of queries.
+  class Rows {
+   public:
+    /// Adds a row if it is wanted, without a branch.
+    void add_if(bool wanted, std::size_t row) {
+      rows_[size_] = static_cast<std::uint8_t>(row);
+      size_ += wanted ? 1 : 0;
+    }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return rows_[i]; }
+
+   private:
+    Column<std::uint8_t, wang_batch_size> rows_{};
+    std::size_t size_ = 0;
+  };
+
+  /// The coordinates of the queries in n rows, as those of one query.
+  struct Points {
+    std::array<Real, 24> x;  ///< in the order of Query::x
+    const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
+      return x[12 * time + 3 * vertex + k];
+    }
+  };
+  template <class RowOfLane>
+  Points points(const RowOfLane& row) const {
+    Points points;
+    for (std::size_t i = 0; i < 24; i += n)
+      load_transposed<n>([&](std::size_t lane) { return &queries_[row(lane)].x[i]; }, &points.x[i]);
+    return points;
+  }
+
+  /// Calls `visit(lane)` for the lanes of the pack from `first` on of a list of some size.
+  template <class Visit>
+  static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
+    const std::size_t count = std::min<std::size_t>(n, size - first);
+    for (std::size_t lane = 0; lane < count; ++lane) visit(lane);
+  }
+
+  /// Numbers or truth values, to be read one by one.
+  static std::array<double, n> each(const Real& lanes) {
+    std::array<double, n> numbers;
+    lanes.copy_to(numbers.data(), std::experimental::element_aligned);
+    return numbers;
+  }
+  static std::array<bool, n> each(const Mask& mask) {
+    std::array<bool, n> truths;
+    mask.copy_to(truths.data(), std::experimental::element_aligned);
+    return truths;
+  }
+
+  /// Gives the lanes behind the end of a list numbers of their own.
+  template <class Numbers>
+  static void pad(Numbers& numbers, std::size_t size) {
+    std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
+  }
+
+  static Real load(const double* numbers) {
+    Real lanes;
+    lanes.copy_from(numbers, std::experimental::element_aligned);
+    return lanes;
+  }
+
+  /// Leaves the queries that no plane separates. A coordinate that is not finite leaves its query undecided.
+  Rows reject_separated(const Rows& rows) {
+    Rows left;
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      const Points x = points([&](std::size_t lane) { return rows[i + lane]; });
+      const auto separated =
+          each(Mask(detail::separated_across_axis<kind>(x) | detail::separated_across_diagonal<kind>(x)));
+      // Four sums at a time, since each addition depends on the one before.
+      std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
+      for (std::size_t c = 4; c < 24; ++c) sums[c % 4] += x.x[c];
+      const auto finite = each(Mask(abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < Real(HUGE_VAL)));
+      for_lanes(i, rows.size(), [&](std::size_t lane) {
+        const std::size_t row = rows[i + lane];
+        verdicts_[row] =
+            finite[lane] && separated[lane] ? Verdict::rejected(Rejection::planes) : undecided_verdict;
+        left.add_if(finite[lane] && !separated[lane], row);
+      });
+    }
+    return left;
+  }
+
+  /// Of the pairs that need no other frame or order, keeps F, W and B of those whose F may have a root.
+  void reject_clear(const Rows& rows) {
+    for (std::size_t i = 0; i < rows.size(); i += n) {
+      Pair<kind, Real> pair;
+      form_vectors(points([&](std::size_t lane) { return rows[i + lane]; }), pair);
+      const Cubic<Real> F = coplanarity(pair);
+      const auto is_clear = each(detail::keeps_clear(pair, F, AllSteps{}));
+      detail::form_bound(pair);
+      // If the sum of squares is in range, all vectors are finite.
+      const auto is_plain =
+          each(Mask(in_range(detail::sum_of_squares(pair)) & in_range(pair.B) & within_reach(pair)));
+      const std::array columns{each(F.a), each(F.b), each(F.c), each(F.d), each(pair.W), each(pair.B)};
+      for_lanes(i, rows.size(), [&](std::size_t lane) {
+        const std::size_t row = rows[i + lane];
+        if (is_clear[lane]) verdicts_[row] = Verdict::rejected(Rejection::no_root);
+        for (std::size_t c = 0; c < columns.size(); ++c) columns_[c][left_.size()] = columns[c][lane];
+        left_.add_if(!is_clear[lane] && is_plain[lane], row);
+      });
+    }
+  }
+
+  /// F, W and B of some queries; `take` reads n numbers of a column.
+  struct Polynomial {
+    Cubic<Real> F;
+    Real W, B;
+  };
+  template <class Take>
+  Polynomial polynomial(const Take& take) const {
+    return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},
+            take(columns_[4]),
+            take(columns_[5])};
+  }
+  template <class PlaceOfLane>
+  Polynomial polynomial_at(const PlaceOfLane& place) const {
+    return polynomial([&](const auto& column) {
+      return gather<Real>([&](std::size_t lane) { return column[place(lane)]; });
+    });
+  }
+
+  /// A node or a part of the step between two nodes, with the values of F.
+  struct Bracket {
+    Real lo, hi, f_lo, f_hi;
+  };
+
+  /// What an interval between two nodes contributes.
+  enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
+
+  static Real contribution(const Bracket& interval, const Mask& exists, const Real& mu) {
+    const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };
+    const Mask changes = (interval.f_lo < Real(0)) != (interval.f_hi < Real(0));
+    Real found = select(changes, is(root_between), is(nothing));
+    found = select(abs(interval.f_hi) <= mu, is(right_node), found);
+    found = select(abs(interval.f_lo) <= mu, is(left_node), found);
+    return select(exists, found, is(nothing));
+  }
+
+  /// As detail::find_critical_times: the number of critical points, and they in order, 1 in place of those that are missing.
+  struct Critical {
+    Mask any, two;
+    Real first, second;
+  };
+  static Critical critical_times(const Cubic<Real>& F) {
+    const Real s1 = F.c + F.b;
+    const Real s2 = 3 * F.a + 2 * F.b + F.c;
+    const Mask has_signs = (min(F.c, min(s1, s2)) < Real(0)) & (max(F.c, max(s1, s2)) > Real(0));
+    Critical critical{Mask(false), Mask(false), Real(1), Real(1)};
+    if (none_of(has_signs)) return critical;
+    const auto [one, other] = quadratic_roots(3 * F.a, 2 * F.b, F.c);
+    critical.any = has_signs & (one.is_inside | other.is_inside);
+    critical.two = has_signs & one.is_inside & other.is_inside;
+    const Real lesser = select(one.value > other.value, other.value, one.value);
+    const Real greater = select(one.value > other.value, one.value, other.value);
+    critical.first = select(
+        critical.any, select(critical.two, lesser, select(one.is_inside, one.value, other.value)), Real(1));
+    critical.second = select(critical.two, greater, Real(1));
+    return critical;
+  }
+
+  /// As add_quotient: the quotient, and whether it is in [0, 1].
+  struct Quotient {
+    Real value;
+    Mask is_inside;
+  };
+  static Quotient quotient(Real numerator, Real denominator) {
+    const Mask negative = denominator < Real(0);
+    numerator = select(negative, Real(-numerator), numerator);
+    denominator = select(negative, Real(-denominator), denominator);
+    return {numerator / denominator,
+            (denominator > Real(0)) & (numerator >= Real(0)) & (numerator <= denominator)};
+  }
+
+  /// As solve_quadratic.
+  static std::array<Quotient, 2> quadratic_roots(const Real& a, const Real& b, const Real& c) {
+    const Mask is_linear = a == Real(0);
+    const Real disc = b * b - 4 * a * c;
+    const Real root = select(disc > Real(0), Real(sqrt(max(disc, Real(0)))), Real(0));
+    const Real q = select(b >= Real(0), Real(-(b + root)), Real(root - b));
+    std::array<Quotient, 2> roots{quotient(select(is_linear, Real(-c), q), select(is_linear, b, Real(2 * a))),
+                                  quotient(2 * c, q)};
+    roots[1].is_inside = roots[1].is_inside & (root > Real(0)) & !is_linear;
+    return roots;
+  }
+
+  /// As solve_cubic, without refining: makes the candidates, the roots of each query in ascending order and then t = 1 if F is
+  /// small there.
+  void find_roots() {
+    for (auto& column : columns_) pad(column, left_.size());
+    for (std::size_t i = 0; i < left_.size(); i += n) {
+      const auto [F, W, B] = polynomial([i](const auto& column) { return load(&column[i]); });
+      const Real mu = AllSteps::tolerances(B).mu;
+      const Critical critical = critical_times(F);
+      const std::array<Real, 4> time{Real(0), critical.first, critical.second, Real(1)};
+      const std::array<Real, 4> value{F.d, F(time[1]), F(time[2]), F(time[3])};
+      const Mask may_vanish = !(clearance(F) > mu);
+      const std::array<Mask, 3> exists{may_vanish, may_vanish & critical.any, may_vanish & critical.two};
+      std::array<std::array<double, n>, 3> contributions;
+      for (std::size_t k = 0; k < 3; ++k)
+        contributions[k] = each(contribution({time[k], time[k + 1], value[k], value[k + 1]}, exists[k], mu));
+      const auto at_end = each(Mask(may_vanish & (abs(value[3]) <= mu)));
+      const std::array times{each(time[0]), each(time[1]), each(time[2]), each(time[3])};
+      const std::array values{each(value[0]), each(value[1]), each(value[2]), each(value[3])};
+      for_lanes(i, left_.size(), [&](std::size_t lane) {
+        const std::size_t place = i + lane;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto found = static_cast<Contribution>(contributions[k][lane]);
+          if (found == nothing) continue;
+          if (found == root_between)
+            add_bracket({times[k][lane], times[k + 1][lane], values[k][lane], values[k + 1][lane]}, place);
+          add_candidate(place, times[found == left_node ? k : k + 1][lane], true);
+        }
+        if (at_end[lane]) add_candidate(place, 1, false);
+      });
+    }
+  }
+
+  /// A bracket of one query.
+  struct OneBracket {
+    double lo, hi, f_lo, f_hi;
+  };
+  void add_bracket(const OneBracket& bracket, std::size_t place) {
+    brackets_[0][bracket_count_] = bracket.lo;
+    brackets_[1][bracket_count_] = bracket.hi;
+    brackets_[2][bracket_count_] = bracket.f_lo;
+    brackets_[3][bracket_count_] = bracket.f_hi;
+    bracket_place_[bracket_count_] = static_cast<std::uint8_t>(place);
+    bracket_candidate_[bracket_count_++] = static_cast<std::uint16_t>(candidate_count_);
+  }
+  void add_candidate(std::size_t place, double time, bool is_root) {
+    candidate_place_[candidate_count_] = static_cast<std::uint8_t>(place);
+    candidate_is_root_[candidate_count_] = is_root;
+    candidate_time_[candidate_count_++] = time;
+  }
+
+  /// As detail::refine_root, for all brackets.
+  void refine_roots() {
+    for (auto& column : brackets_) pad(column, bracket_count_);
+    pad(bracket_place_, bracket_count_);
+    for (std::size_t i = 0; i < bracket_count_; i += n) {
+      const Polynomial known = polynomial_at([&](std::size_t lane) { return bracket_place_[i + lane]; });
+      const Bracket bracket{load(&brackets_[0][i]), load(&brackets_[1][i]), load(&brackets_[2][i]),
+                            load(&brackets_[3][i])};
+      const auto roots = each(refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
+                                      gather<Real>([](std::size_t lane) {
+                                        return static_cast<double>(lane);
+                                      }) < Real(static_cast<double>(bracket_count_ - i))));
+      for_lanes(i, bracket_count_,
+                [&](std::size_t lane) { candidate_time_[bracket_candidate_[i + lane]] = roots[lane]; });
+    }
+  }
+
+  static Real refined(const Cubic<Real>& F, Bracket known, const Real& mu, Mask active) {
+    auto& [lo, hi, f_lo, f_hi] = known;
+    Real root(0);
+    const auto end_with = [&](const Mask& ends, const Real& time) {
+      root = select(active & ends, time, root);
+      active = active & !ends;
+    };
+    Real t = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
+    Real last_step = hi - lo;
+    while (true) {
+      const Mask leaves = !((t > lo) & (t < hi));
+      t = select(leaves, Real(lo + (hi - lo) / 2), t);
+      last_step = select(leaves, Real(hi - lo), last_step);
+      end_with(!((t > lo) & (t < hi)), select(abs(f_lo) <= abs(f_hi), lo, hi));
+      const Real value = F(t);
+      end_with(abs(value) <= mu, t);
+      if (none_of(active)) return root;
+      const Mask is_before = (value < Real(0)) == (f_lo < Real(0));
+      lo = select(is_before, t, lo);
+      f_lo = select(is_before, value, f_lo);
+      hi = select(is_before, hi, t);
+      f_hi = select(is_before, f_hi, value);
+      const Real slope = F.slope(t);
+      const Real step = select(slope != Real(0), Real(value / slope), hi);
+      const Real next = t - step;
+      end_with(next == t, t);
+      t = select(abs(step) * 2 <= last_step, next, hi);
+      last_step = abs(step);
+    }
+  }
+
+  /// The tests of Algorithms 3 and 4 at all candidates, and where they fail, the culling of vertex-edge tests.
+  void test_candidates() {
+    pad(candidate_place_, candidate_count_);
+    pad(candidate_time_, candidate_count_);
+    for (std::size_t i = 0; i < candidate_count_; i += n) {
+      const auto place = [&](std::size_t lane) { return candidate_place_[i + lane]; };
+      Pair<kind, Real> pair;
+      form_vectors(points([&](std::size_t lane) { return left_[place(lane)]; }), pair);
+      const Polynomial known = polynomial_at(place);
+      pair.W = known.W;
+      pair.B = known.B;
+      const Real t = load(&candidate_time_[i]);
+      const auto tol = AllSteps::tolerances(known.B);
+      const Configuration<kind, Real> configuration(pair, t);
+      const Mask well_shaped = configuration.well_shaped(tol);
+      const Mask passes = well_shaped & configuration.inside();
+      const auto accepted = each(passes);
+      const auto excluded =
+          each(Mask(well_shaped & !passes & excludes(pair, known.F, configuration, t, tol)));
+      for_lanes(i, candidate_count_, [&](std::size_t lane) {
+        candidate_passes_[i + lane] = accepted[lane];
+        candidate_is_excluded_[i + lane] = excluded[lane];
+      });
+    }
+  }
+
+  /// As excludes_collision.
+  static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F,
+                       const Configuration<kind, Real>& configuration, const Real& t,
+                       const Tolerances<Real>& tol) {
+    const auto eps = epsilon<Real>();
+    const Real threshold = detail::culling_threshold(tol.mu, eps, pair.B);
+    const Real slope = abs(F.slope(t));
+    Real h = 4 * threshold;
+    const Mask is_steep = h < slope;
+    h = h / slope;
+    Mask bracketed = detail::brackets_root(F, t, h, threshold);
+    for (int i = 0; i < detail::culling_doublings && any_of(is_steep & !bracketed); ++i) {
+      h = select(bracketed, h, Real(h * 2));
+      bracketed = bracketed | detail::brackets_root(F, t, h, threshold);
+    }
+    const Real spread = detail::weight_spread(configuration, pair.W, h);
+    return is_steep & bracketed & !(h > Real(1)) & detail::outside(configuration, spread, eps, pair.B);
+  }
+
+  /// As detail::wang_tests, up to the vertex-edge tests.
+  void conclude() {
+    std::size_t next = 0;
+    for (std::size_t place = 0; place < left_.size(); ++place) {
+      const std::size_t first = next;
+      while (next < candidate_count_ && candidate_place_[next] == place) ++next;
+      verdicts_[left_[place]] = verdict(first, next);
+    }
+  }
+
+  /// The verdict from some candidates of one query.
+  [[nodiscard]] Verdict verdict(std::size_t first, std::size_t end) const {
+    bool culled = true;
+    for (std::size_t i = first; i < end; ++i) {
+      if (candidate_passes_[i]) return Verdict::accepted(Stage::proximity, candidate_time_[i]);
+      culled = culled && (!candidate_is_root_[i] || candidate_is_excluded_[i]);
+    }
+    if (!culled) return undecided_verdict;
+    return Verdict::rejected(first == end || !candidate_is_root_[first] ? Rejection::no_root
+                                                                        : Rejection::culled);
+  }
+
+  static constexpr std::size_t most_brackets = 3 * wang_batch_size;
+  static constexpr std::size_t most_candidates = 4 * wang_batch_size;
+
+  const Query* queries_ = nullptr;
+  Verdict* verdicts_ = nullptr;
+  Rows left_;  ///< queries whose F may have a root; a place is an index in this list
+  std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, W and B, by place
+  std::array<Column<double, most_brackets>, 4> brackets_;
+  Column<std::uint8_t, most_brackets> bracket_place_;
+  Column<std::uint16_t, most_brackets> bracket_candidate_;
+  std::size_t bracket_count_ = 0;
+  Column<std::uint8_t, most_candidates> candidate_place_;
+  Column<bool, most_candidates> candidate_is_root_, candidate_passes_, candidate_is_excluded_;
+  Column<double, most_candidates> candidate_time_;
+  std::size_t candidate_count_ = 0;
+};
+
+template <int n>
+void decide_batch(const Query* queries, std::size_t count, Verdict* verdicts) {
+  WangLanes<n, Kind::vertex_triangle>().run(queries, count, verdicts);
+  WangLanes<n, Kind::edge_edge>().run(queries, count, verdicts);
+}
+
+}  // namespace nearmiss
