@@ -77,8 +77,11 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
-  const auto squares = (pair.p.xv.square() + pair.q.xv.square() + pair.r.xv.square()).eval();
-  return ((squares[0] + squares[1]) + (squares[2] + squares[3])) + (squares[4] + squares[5]);
+  const auto squares = [&](int i) -> T {
+    const auto square = [i](const Moving<T>& moving) { return moving.xv[i] * moving.xv[i]; };
+    return square(pair.p) + square(pair.q) + square(pair.r);
+  };
+  return ((squares(0) + squares(1)) + (squares(2) + squares(3))) + (squares(4) + squares(5));
 }
 
 // Whether |F| provably stays above μ, without knowing B. If so, solve_cubic finds no root, and no further
