@@ -48,7 +48,7 @@ struct DifferencePolygon {
 /// scaling or is 0.
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
-  const DifferencePolygon<kind, T> polygon(query);
+  DifferencePolygon<kind, T> polygon(query);
   if (in_range(polygon.X)) return polygon;
   Frame frame;
   frame.reduced = !(polygon.X <= std::numeric_limits<T>::max() / 16);
