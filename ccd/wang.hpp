@@ -75,6 +75,7 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
+// In one order, as `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
   const auto squares = [&](int i) -> T {

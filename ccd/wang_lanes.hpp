@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "ccd/cubic.hpp"
+#include "ccd/cubic_lanes.hpp"
 #include "ccd/lanes.hpp"
 #include "ccd/motion.hpp"
 #include "ccd/plane_culling.hpp"
@@ -169,70 +170,6 @@ class WangLanes {
     });
   }
 
-  /// A node or a part of the step between two nodes, with the values of F.
-  struct Bracket {
-    Real lo, hi, f_lo, f_hi;
-  };
-
-  /// What an interval between two nodes contributes.
-  enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
-
-  static Real contribution(const Bracket& interval, const Mask& exists, const Real& mu) {
-    const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };
-    const Mask changes = (interval.f_lo < Real(0)) != (interval.f_hi < Real(0));
-    Real found = select(changes, is(root_between), is(nothing));
-    found = select(abs(interval.f_hi) <= mu, is(right_node), found);
-    found = select(abs(interval.f_lo) <= mu, is(left_node), found);
-    return select(exists, found, is(nothing));
-  }
-
-  /// As detail::find_critical_times: the number of critical points, and they in order, 1 in place of those that are missing.
-  struct Critical {
-    Mask any, two;
-    Real first, second;
-  };
-  static Critical critical_times(const Cubic<Real>& F) {
-    const Real s1 = F.c + F.b;
-    const Real s2 = 3 * F.a + 2 * F.b + F.c;
-    const Mask has_signs = (min(F.c, min(s1, s2)) < Real(0)) & (max(F.c, max(s1, s2)) > Real(0));
-    Critical critical{Mask(false), Mask(false), Real(1), Real(1)};
-    if (none_of(has_signs)) return critical;
-    const auto [one, other] = quadratic_roots(3 * F.a, 2 * F.b, F.c);
-    critical.any = has_signs & (one.is_inside | other.is_inside);
-    critical.two = has_signs & one.is_inside & other.is_inside;
-    const Real lesser = select(one.value > other.value, other.value, one.value);
-    const Real greater = select(one.value > other.value, one.value, other.value);
-    critical.first = select(
-        critical.any, select(critical.two, lesser, select(one.is_inside, one.value, other.value)), Real(1));
-    critical.second = select(critical.two, greater, Real(1));
-    return critical;
-  }
-
-  /// As add_quotient: the quotient, and whether it is in [0, 1].
-  struct Quotient {
-    Real value;
-    Mask is_inside;
-  };
-  static Quotient quotient(Real numerator, Real denominator) {
-    const Mask negative = denominator < Real(0);
-    numerator = select(negative, Real(-numerator), numerator);
-    denominator = select(negative, Real(-denominator), denominator);
-    return {numerator / denominator,
-            (denominator > Real(0)) & (numerator >= Real(0)) & (numerator <= denominator)};
-  }
-
-  /// As solve_quadratic.
-  static std::array<Quotient, 2> quadratic_roots(const Real& a, const Real& b, const Real& c) {
-    const Mask is_linear = a == Real(0);
-    const Real disc = b * b - 4 * a * c;
-    const Real root = select(disc > Real(0), Real(sqrt(max(disc, Real(0)))), Real(0));
-    const Real q = select(b >= Real(0), Real(-(b + root)), Real(root - b));
-    std::array<Quotient, 2> roots{quotient(select(is_linear, Real(-c), q), select(is_linear, b, Real(2 * a))),
-                                  quotient(2 * c, q)};
-    roots[1].is_inside = roots[1].is_inside & (root > Real(0)) & !is_linear;
-    return roots;
-  }
-
   /// As solve_cubic, without refining: makes the candidates, the roots of each query in ascending order and then t = 1 if F is
   /// small there.
   void find_roots() {
@@ -240,36 +177,33 @@ class WangLanes {
     for (std::size_t i = 0; i < left_.size(); i += n) {
       const auto [F, W, B] = polynomial([i](const auto& column) { return load(&column[i]); });
       const Real mu = AllSteps::tolerances(B).mu;
-      const Critical critical = critical_times(F);
+      const auto critical = detail::critical_times(F);
       const std::array<Real, 4> time{Real(0), critical.first, critical.second, Real(1)};
       const std::array<Real, 4> value{F.d, F(time[1]), F(time[2]), F(time[3])};
       const Mask may_vanish = !(clearance(F) > mu);
       const std::array<Mask, 3> exists{may_vanish, may_vanish & critical.any, may_vanish & critical.two};
       std::array<std::array<double, n>, 3> contributions;
       for (std::size_t k = 0; k < 3; ++k)
-        contributions[k] = each(contribution({time[k], time[k + 1], value[k], value[k + 1]}, exists[k], mu));
+        contributions[k] =
+            each(detail::contribution<Real>({time[k], time[k + 1], value[k], value[k + 1]}, exists[k], mu));
       const auto at_end = each(Mask(may_vanish & (abs(value[3]) <= mu)));
       const std::array times{each(time[0]), each(time[1]), each(time[2]), each(time[3])};
       const std::array values{each(value[0]), each(value[1]), each(value[2]), each(value[3])};
       for_lanes(i, left_.size(), [&](std::size_t lane) {
         const std::size_t place = i + lane;
         for (std::size_t k = 0; k < 3; ++k) {
-          const auto found = static_cast<Contribution>(contributions[k][lane]);
-          if (found == nothing) continue;
-          if (found == root_between)
+          const auto found = static_cast<detail::Contribution>(contributions[k][lane]);
+          if (found == detail::nothing) continue;
+          if (found == detail::root_between)
             add_bracket({times[k][lane], times[k + 1][lane], values[k][lane], values[k + 1][lane]}, place);
-          add_candidate(place, times[found == left_node ? k : k + 1][lane], true);
+          add_candidate(place, times[found == detail::left_node ? k : k + 1][lane], true);
         }
         if (at_end[lane]) add_candidate(place, 1, false);
       });
     }
   }
 
-  /// A bracket of one query.
-  struct OneBracket {
-    double lo, hi, f_lo, f_hi;
-  };
-  void add_bracket(const OneBracket& bracket, std::size_t place) {
+  void add_bracket(const detail::Bracket<double>& bracket, std::size_t place) {
     brackets_[0][bracket_count_] = bracket.lo;
     brackets_[1][bracket_count_] = bracket.hi;
     brackets_[2][bracket_count_] = bracket.f_lo;
@@ -289,45 +223,14 @@ class WangLanes {
     pad(bracket_place_, bracket_count_);
     for (std::size_t i = 0; i < bracket_count_; i += n) {
       const Polynomial known = polynomial_at([&](std::size_t lane) { return bracket_place_[i + lane]; });
-      const Bracket bracket{load(&brackets_[0][i]), load(&brackets_[1][i]), load(&brackets_[2][i]),
-                            load(&brackets_[3][i])};
-      const auto roots = each(refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
-                                      gather<Real>([](std::size_t lane) {
-                                        return static_cast<double>(lane);
-                                      }) < Real(static_cast<double>(bracket_count_ - i))));
+      const detail::Bracket<Real> bracket{load(&brackets_[0][i]), load(&brackets_[1][i]),
+                                          load(&brackets_[2][i]), load(&brackets_[3][i])};
+      const auto roots = each(detail::refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
+                                              gather<Real>([](std::size_t lane) {
+                                                return static_cast<double>(lane);
+                                              }) < Real(static_cast<double>(bracket_count_ - i))));
       for_lanes(i, bracket_count_,
                 [&](std::size_t lane) { candidate_time_[bracket_candidate_[i + lane]] = roots[lane]; });
-    }
-  }
-
-  static Real refined(const Cubic<Real>& F, Bracket known, const Real& mu, Mask active) {
-    auto& [lo, hi, f_lo, f_hi] = known;
-    Real root(0);
-    const auto end_with = [&](const Mask& ends, const Real& time) {
-      root = select(active & ends, time, root);
-      active = active & !ends;
-    };
-    Real t = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
-    Real last_step = hi - lo;
-    while (true) {
-      const Mask leaves = !((t > lo) & (t < hi));
-      t = select(leaves, Real(lo + (hi - lo) / 2), t);
-      last_step = select(leaves, Real(hi - lo), last_step);
-      end_with(!((t > lo) & (t < hi)), select(abs(f_lo) <= abs(f_hi), lo, hi));
-      const Real value = F(t);
-      end_with(abs(value) <= mu, t);
-      if (none_of(active)) return root;
-      const Mask is_before = (value < Real(0)) == (f_lo < Real(0));
-      lo = select(is_before, t, lo);
-      f_lo = select(is_before, value, f_lo);
-      hi = select(is_before, hi, t);
-      f_hi = select(is_before, f_hi, value);
-      const Real slope = F.slope(t);
-      const Real step = select(slope != Real(0), Real(value / slope), hi);
-      const Real next = t - step;
-      end_with(next == t, t);
-      t = select(abs(step) * 2 <= last_step, next, hi);
-      last_step = abs(step);
     }
   }
 

@@ -43,12 +43,14 @@ TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
   EXPECT_GT(most, 0.2);
 }
 
-TEST(Searches, MakeFiniteQueriesForTheLargestSeparations) {
+class LargeSeparations : public ::testing::TestWithParam<const char*> {};
+TEST_P(LargeSeparations, AreThoseOfFiniteQueries) {
   const auto advance = make_subject("advance");
-  for (const std::string separation : {"1e308", "1.7976931348623157e308"})
-    for (const Family& family : searches(*advance, Stop::never(), separation))
-      EXPECT_TRUE(is_finite(search(family, 0))) << family.name << ' ' << separation;
+  for (const Family& family : searches(*advance, Stop::never(), GetParam()))
+    for (std::uint64_t i = 0; i < 2; ++i)
+      EXPECT_TRUE(is_finite(search(family, i))) << family.name << ':' << i;
 }
+INSTANTIATE_TEST_SUITE_P(Searches, LargeSeparations, ::testing::Values("1e308", "1.7976931348623157e308"));
 
 TEST(MissSearch, IsAPureFunction) {
   const auto wang = make_subject("wang");

@@ -21,10 +21,12 @@ if(NEARMISS_LIBFUZZER)
   add_link_options(-fsanitize=undefined)  # a coverage runtime for executables without libFuzzer
 endif()
 
+# Bools are joined by | to save a branch, which clang advises against.
+set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
+
 # nearmiss_options(TARGET): our code compiles without warnings; includes are relative to the top folder, "folder/file.hpp".
 function(nearmiss_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)  # bools are joined by | to save a branch
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror ${nearmiss_joined_bools})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
