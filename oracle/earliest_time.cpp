@@ -3,8 +3,10 @@
 #include <gmpxx.h>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "ccd/arithmetic.hpp"
 #include "oracle/exact/first_approach.hpp"
@@ -55,28 +57,19 @@ bool is_below(Root t, double time) {
 
 }  // namespace
 
-/// The exact times. The distance is below h right after `below`; nothing if it never is.
-struct EarliestTime::Exact {
-  Root time;
-  std::optional<Root> below;
-
-  explicit Exact(const Query& query) : time(Number(0)) {
-    if (query.separation > 0) {
-      auto approach = exact::first_approach(query);
-      if (!approach) refuse();
-      time = std::move(approach->time);
-      below = std::move(approach->below);
-    } else {
-      exact::Predicates predicates(query);
-      auto contact = exact::first_contact(predicates);
-      if (!contact) refuse();
-      time = std::move(contact->time);
-      below = time;
-    }
-  }
-};
-
 namespace {
+
+exact::FirstApproach first_approach(const Query& query) {
+  if (query.separation > 0) {
+    auto approach = exact::first_approach(query);
+    if (!approach) refuse();
+    return *std::move(approach);
+  }
+  exact::Predicates predicates(query);
+  auto contact = exact::first_contact(predicates);
+  if (!contact) refuse();
+  return {contact->time, contact->time};
+}
 
 /// Certified bounds show that the distance is above h right at the beginning of the enclosure, unless that is 0, and below h at
 /// its end.
@@ -84,10 +77,12 @@ KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_c
 
 }  // namespace
 
-EarliestTime::EarliestTime(const Query& query, const std::optional<KnownApproach>& known) : query_(query) {
+EarliestTime::EarliestTime(const Query& query, const KnownTimes& known)
+    : query_(query), exact_(known.exactly) {
   const PlainArithmetic guard;
   if (query.separation > 0) {
-    const KnownApproach approach = narrowed(query, known ? *known : known_approach(query), rough_time);
+    const KnownApproach approach =
+        narrowed(query, known.approach ? *known.approach : known_approach(query), rough_time);
     is_certified_ = approach.stage == FilterStage::within;
     rough_ = between(approach.time, is_certified_);
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
@@ -98,10 +93,6 @@ EarliestTime::EarliestTime(const Query& query, const std::optional<KnownApproach
     rough_ = *time;
   }
 }
-
-EarliestTime::~EarliestTime() = default;
-EarliestTime::EarliestTime(EarliestTime&&) noexcept = default;
-EarliestTime& EarliestTime::operator=(EarliestTime&&) noexcept = default;
 
 namespace {
 
@@ -162,8 +153,8 @@ const KnownTime& EarliestTime::narrow() {
   return *narrow_;
 }
 
-const EarliestTime::Exact& EarliestTime::exact() {
-  if (!exact_) exact_ = std::make_unique<Exact>(query_);
+const exact::FirstApproach& EarliestTime::exact() {
+  if (!exact_) exact_ = std::make_shared<exact::FirstApproach>(first_approach(query_));
   return *exact_;
 }
 

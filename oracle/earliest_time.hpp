@@ -11,20 +11,26 @@
 
 namespace nearmiss {
 
+namespace exact {
+struct FirstApproach;
+}
+
+/// What a decision shows of the earliest time.
+struct KnownTimes {
+  std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show
+  std::shared_ptr<const exact::FirstApproach>
+      exactly;  ///< if exact arithmetic found the time; for h = 0, the contact
+};
+
 /// The time t* in [0, 1] at which the distance of the primitives is first at most h; for h = 0, at which they first share a
 /// point. Arithmetic with certified bounds encloses it first; exact arithmetic is only used for a question that the
 /// enclosure does not answer.
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
-  explicit EarliestTime(const Query& query) : EarliestTime(query, std::nullopt) {}
-  /// The same for h > 0, starting from what known_approach(query) has found. All answers are the same.
-  EarliestTime(const Query& query, const std::optional<KnownApproach>& known);
-  ~EarliestTime();
-  EarliestTime(EarliestTime&&) noexcept;
-  EarliestTime& operator=(EarliestTime&&) noexcept;
-  EarliestTime(const EarliestTime&) = delete;
-  EarliestTime& operator=(const EarliestTime&) = delete;
+  explicit EarliestTime(const Query& query) : EarliestTime(query, KnownTimes{}) {}
+  /// The same, starting from what a decision of the query has found. All answers are the same.
+  EarliestTime(const Query& query, const KnownTimes& known);
 
   /// What certified bounds in double show of t*.
   [[nodiscard]] const Enclosure& known() const { return rough_.time; }
@@ -44,18 +50,16 @@ class EarliestTime {
   [[nodiscard]] std::string rational();
 
  private:
-  struct Exact;
-
   /// The narrowest enclosure that certified bounds give.
   const KnownTime& narrow();
-  const Exact& exact();
+  const exact::FirstApproach& exact();
 
   Query query_;
   KnownTime rough_;
   bool is_certified_ =
       true;  ///< whether certified bounds enclose t*, and show that the distance falls below h > 0
   std::optional<KnownTime> narrow_;  ///< made when it is needed, as the exact times are
-  std::unique_ptr<Exact> exact_;
+  std::shared_ptr<const exact::FirstApproach> exact_;
 };
 
 }  // namespace nearmiss

@@ -1,6 +1,8 @@
 #include "oracle/oracle.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -14,10 +16,19 @@ namespace nearmiss {
 
 Decision decide_exactly(const Query& query) {
   const PlainArithmetic guard;
-  if (query.separation == 0) return {exact::any_collision(query), FilterStage::undecided};
-  const auto approach = exact::first_approach(query);
-  const bool comes_below = approach && approach->below;
-  return {comes_below, FilterStage::undecided, approach && !comes_below};
+  Decision decision{false, FilterStage::undecided};
+  std::optional<exact::FirstApproach> approach;
+  if (query.separation == 0) {
+    auto [any, first] = exact::any_collision(query);
+    decision.collision = any;
+    if (first) approach = exact::FirstApproach{*first, *first};
+  } else {
+    approach = exact::first_approach(query);
+    decision.collision = approach && approach->below;
+    decision.is_tie = approach && !approach->below;
+  }
+  if (approach) decision.known.exactly = std::make_shared<exact::FirstApproach>(*std::move(approach));
+  return decision;
 }
 
 bool collides_exactly(const Query& query) { return decide_exactly(query).collision; }
@@ -31,7 +42,7 @@ Decision decide(const Query& query) {
   if (query.separation > 0) {
     const KnownApproach known = known_approach(query);
     Decision decision = settle(query, known.stage);
-    decision.known = known;
+    decision.known.approach = known;
     return decision;
   }
   if (!boxes_meet(query)) return {false, FilterStage::boxes};

@@ -18,8 +18,7 @@ struct Decision {
   FilterStage stage{};  ///< `undecided`: by exact arithmetic
   /// The smallest distance is exactly h > 0, so that both answers are right.
   bool is_tie = false;
-  /// For h > 0: what certified bounds show, from which EarliestTime goes on.
-  std::optional<KnownApproach> known = std::nullopt;
+  KnownTimes known = {};  ///< from which EarliestTime goes on
 
   /// The answer of the boxes or the filter; nothing if exact arithmetic decided.
   [[nodiscard]] std::optional<bool> by_filter() const {

@@ -66,7 +66,7 @@ class ExactSubject final : public Subject {
     if (!decision.collision && !decision.is_tie)
       return Verdict::rejected(filtered ? Rejection::filter : Rejection::exact);
     Verdict hit{.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
-    if (entry_.is_timed) hit.time = EarliestTime(query).enclosure().lo;
+    if (entry_.is_timed) hit.time = EarliestTime(query, decision.known).enclosure().lo;
     return hit;
   }
 

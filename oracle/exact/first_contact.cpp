@@ -3,6 +3,7 @@
 #include "oracle/exact/first_contact.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace nearmiss::exact {
@@ -87,16 +88,18 @@ std::optional<FirstContact> first_contact(Predicates& predicates) {
   return first;
 }
 
-bool any_collision(const Query& query) {
+Collision any_collision(const Query& query) {
   Predicates predicates(query);
+  if (!predicates.F().is_zero()) {
+    auto contact = first_contact(predicates);
+    return contact ? Collision{true, std::move(contact->time)} : Collision{};
+  }
   const auto meet = [&](Root& t) { return meet_at(predicates, t).has_value(); };
-  const auto meet_at_a_root = [&](const Polynomial& p) { return holds_at_a_root(p, meet); };
-  const Polynomial& F = predicates.F();
-  if (!F.is_zero()) return meet_at_a_root(F);  // only there are the points in one plane
   Root start{Number(0)};
-  if (meet(start)) return true;
+  if (meet(start)) return {true, start};
   const auto deciding = deciding_polynomials(predicates);
-  return std::any_of(deciding.begin(), deciding.end(), meet_at_a_root);
+  return {std::any_of(deciding.begin(), deciding.end(),
+                      [&](const Polynomial& p) { return holds_at_a_root(p, meet); })};
 }
 
 }  // namespace nearmiss::exact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nearmiss::exact {
 
@@ -23,21 +24,29 @@ PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
   return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
 }
 
-Number unit(const Query& query) {
+int unit_exponent(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
-  if (largest == 0) return 1;
-  const int exponent = -3 - std::ilogb(largest);  // in two factors, since 2^exponent need not be a double
-  return Number(std::ldexp(1.0, exponent / 2)) * Number(std::ldexp(1.0, exponent - exponent / 2));
+  return largest == 0 ? 0 : -3 - std::ilogb(largest);
 }
 
-std::array<PolynomialVector, 4> moving_points(const Query& query, const Number& scale) {
+Number scaled(double x, int exponent) {
+  // A product that is a normal number is exact.
+  if (const double product = std::ldexp(x, exponent); std::isnormal(product) || x == 0) return product;
+  // 2^exponent need not be a double.
+  return Number(x) * Number(std::ldexp(1.0, exponent / 2)) * Number(std::ldexp(1.0, exponent - exponent / 2));
+}
+
+std::array<PolynomialVector, 4> moving_points(const Query& query, int exponent) {
   std::array<PolynomialVector, 4> points;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Number start = Number(query.x[3 * i + k]) * scale;
-      const Number end = Number(query.x[12 + 3 * i + k]) * scale;
-      points[i][k] = Polynomial({start, end - start});
+      const Number start = scaled(query.x[3 * i + k], exponent);
+      const Number end = scaled(query.x[12 + 3 * i + k], exponent);
+      Numbers coefficients;
+      coefficients.push_back(start);
+      coefficients.push_back(end - start);
+      points[i][k] = Polynomial(std::move(coefficients));
     }
   return points;
 }

@@ -18,11 +18,14 @@ Polynomial dot(const PolynomialVector& a, const PolynomialVector& b);
 Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k);
 PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
 
-/// A power of two that scales all coordinates below 1/4. Differences of four coordinates are then below 1,
+/// The exponent of a power of two that scales all coordinates below 1/4. Differences of four coordinates are then below 1,
 /// and these and most products have no more limbs than necessary.
-Number unit(const Query& query);
+int unit_exponent(const Query& query);
 
-/// The points x0 to x3, x(0) + t (x(1) - x(0)), multiplied by `scale`.
-std::array<PolynomialVector, 4> moving_points(const Query& query, const Number& scale);
+/// x 2^exponent.
+Number scaled(double x, int exponent);
+
+/// The points x0 to x3, x(0) + t (x(1) - x(0)), multiplied by 2^exponent.
+std::array<PolynomialVector, 4> moving_points(const Query& query, int exponent);
 
 }  // namespace nearmiss::exact

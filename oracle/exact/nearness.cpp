@@ -27,10 +27,10 @@ bool FeatureNearness::is_extended_at(Root& t) const {
 }
 
 Nearness::Nearness(const Query& query, double b) {
-  const Number scale = unit(query);
-  const Number scaled = Number(b) * scale;
-  squared_b_ = Polynomial({scaled * scaled});
-  const auto x = moving_points(query, scale);
+  const int exponent = unit_exponent(query);
+  const Number scaled_b = scaled(b, exponent);
+  squared_b_ = Polynomial({scaled_b * scaled_b});
+  const auto x = moving_points(query, exponent);
   if (query.kind == Kind::vertex_triangle) {
     for (std::size_t i = 1; i < 4; ++i) {
       add_vertices(x[0], x[i]);

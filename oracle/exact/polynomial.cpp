@@ -7,7 +7,7 @@ namespace nearmiss::exact {
 
 int sign(const Number& x) { return static_cast<int>(CGAL::sign(x)); }
 
-Polynomial::Polynomial(std::vector<Number> coefficients) : a_(std::move(coefficients)) {
+Polynomial::Polynomial(Numbers&& coefficients) : a_(std::move(coefficients)) {
   while (!a_.empty() && CGAL::is_zero(a_.back())) a_.pop_back();
 }
 
@@ -19,7 +19,7 @@ Number Polynomial::operator()(const Number& t) const {
 }
 
 Polynomial Polynomial::derivative() const {
-  std::vector<Number> d;
+  Numbers d;
   for (std::size_t i = 1; i < a_.size(); ++i) d.push_back(a_[i] * Number(static_cast<int>(i)));
   return Polynomial(std::move(d));
 }
@@ -32,7 +32,7 @@ Polynomial by_coefficients(const Polynomial& p, const Polynomial& q, const Combi
   static const Number zero = 0;
   const auto& a = p.coefficients();
   const auto& b = q.coefficients();
-  std::vector<Number> result;
+  Numbers result;
   result.reserve(std::max(a.size(), b.size()));
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
     result.push_back(combine(i < a.size() ? a[i] : zero, i < b.size() ? b[i] : zero));
@@ -52,7 +52,7 @@ Polynomial operator-(const Polynomial& p, const Polynomial& q) {
 Polynomial operator*(const Polynomial& p, const Polynomial& q) {
   if (p.is_zero() || q.is_zero()) return {};
   const std::size_t size = p.a_.size() + q.a_.size() - 1;
-  std::vector<Number> product;
+  Numbers product;
   product.reserve(size);
   for (std::size_t k = 0; k < size; ++k) {
     const std::size_t first = k < q.a_.size() ? 0 : k + 1 - q.a_.size();
@@ -91,7 +91,7 @@ Division divide(const Polynomial& p, const Polynomial& q) {
   const int side = sign(q.leading());
   const Polynomial factor({side > 0 ? q.leading() : -q.leading()});
   for (; remainder.degree() >= q.degree(); ++steps) {
-    std::vector<Number> term(static_cast<std::size_t>(remainder.degree() - q.degree()) + 1);
+    Numbers term(static_cast<std::size_t>(remainder.degree() - q.degree()) + 1);
     term.back() = side > 0 ? remainder.leading() : -remainder.leading();
     const Polynomial step(std::move(term));
     quotient = factor * quotient + step;
@@ -115,7 +115,7 @@ std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
     if (remainder.is_zero()) return sequence;
     Number factor = -g;
     for (int i = 0; i < steps; ++i) factor = factor * h;
-    std::vector<Number> next = remainder.coefficients();
+    Numbers next = remainder.coefficients();
     for (Number& c : next) c = c / factor;
     g = lead;
     Number power = 1;
@@ -139,7 +139,7 @@ Polynomial square_free(const Polynomial& p) {
   return common.degree() < 1 ? p : divide(p, common).quotient;
 }
 
-int sign_changes(const std::vector<Number>& numbers) {
+int sign_changes(const Numbers& numbers) {
   int changes = 0;
   int last = 0;
   for (const Number& c : numbers) {

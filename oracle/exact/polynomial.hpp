@@ -3,6 +3,8 @@
 
 #include <CGAL/Mpzf.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,9 @@ namespace nearmiss::exact {
 /// A binary floating-point number of any length: sums, differences and products are exact.
 using Number = CGAL::Mpzf;
 
+/// Up to four numbers, as many as F has coefficients, need no allocation.
+using Numbers = boost::container::small_vector<Number, 4>;
+
 /// The sign of x: -1, 0 or 1.
 int sign(const Number& x);
 
@@ -18,12 +23,12 @@ int sign(const Number& x);
 class Polynomial {
  public:
   Polynomial() = default;
-  explicit Polynomial(std::vector<Number> coefficients);
+  explicit Polynomial(Numbers&& coefficients);
 
   [[nodiscard]] bool is_zero() const { return a_.empty(); }
   /// The degree; -1 for the zero polynomial.
   [[nodiscard]] int degree() const { return static_cast<int>(a_.size()) - 1; }
-  [[nodiscard]] const std::vector<Number>& coefficients() const { return a_; }
+  [[nodiscard]] const Numbers& coefficients() const { return a_; }
   [[nodiscard]] const Number& leading() const { return a_.back(); }
 
   [[nodiscard]] Number operator()(const Number& t) const;
@@ -35,7 +40,7 @@ class Polynomial {
   friend Polynomial operator*(const Polynomial& p, const Polynomial& q);
 
  private:
-  std::vector<Number> a_;
+  Numbers a_;
 };
 
 /// Whether one polynomial is a constant times the other; neither may be zero.
@@ -61,6 +66,6 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 Polynomial square_free(const Polynomial& p);
 
 /// The number of sign changes along the numbers, with zeros left out.
-int sign_changes(const std::vector<Number>& numbers);
+int sign_changes(const Numbers& numbers);
 
 }  // namespace nearmiss::exact

@@ -12,17 +12,21 @@ OnSegment on_segment(const PolynomialVector& x, const PolynomialVector& a, const
 
 }  // namespace
 
-Predicates::Predicates(const Query& query) : kind_(query.kind), x_(moving_points(query, unit(query))) {}
+Predicates::Predicates(const Query& query)
+    : kind_(query.kind), x_(moving_points(query, unit_exponent(query))) {
+  const bool is_triangle = kind_ == Kind::vertex_triangle;
+  p_ = is_triangle ? x_[0] - x_[1] : x_[2] - x_[0];
+  q_ = is_triangle ? x_[2] - x_[1] : x_[1] - x_[0];
+  r_ = is_triangle ? x_[3] - x_[1] : x_[3] - x_[2];
+}
 
 const Polynomial& Predicates::F() {
-  if (!F_) F_ = dot(kind_ == Kind::vertex_triangle ? x_[0] - x_[1] : x_[2] - x_[0], N());
+  if (!F_) F_ = dot(p_, N());
   return *F_;
 }
 
 const PolynomialVector& Predicates::N() {
-  if (!N_)
-    N_ = kind_ == Kind::vertex_triangle ? cross(x_[2] - x_[1], x_[3] - x_[1])
-                                        : cross(x_[1] - x_[0], x_[3] - x_[2]);
+  if (!N_) N_ = cross(q_, r_);
   return *N_;
 }
 
@@ -37,17 +41,14 @@ const std::vector<OnSegment>& Predicates::segments() {
 }
 
 std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
-  if (kind_ == Kind::vertex_triangle) {
-    const PolynomialVector a = x_[1] - x_[0];
-    const PolynomialVector b = x_[2] - x_[0];
-    const PolynomialVector c = x_[3] - x_[0];
-    return {cross(b, c, k), cross(c, a, k), cross(a, b, k)};
-  }
-  const PolynomialVector x20 = x_[2] - x_[0];
   const Polynomial& normal = N()[k];
-  const Polynomial alpha = cross(x20, x_[3] - x_[2], k);
-  const Polynomial beta = cross(x20, x_[1] - x_[0], k);
-  return {alpha, normal - alpha, beta, normal - beta};
+  const Polynomial of_q = cross(p_, r_, k);
+  if (kind_ == Kind::vertex_triangle) {
+    const Polynomial of_r = cross(q_, p_, k);
+    return {normal - of_q - of_r, of_q, of_r};
+  }
+  const Polynomial of_r = cross(p_, q_, k);
+  return {of_q, normal - of_q, of_r, normal - of_r};
 }
 
 std::vector<OnSegment> Predicates::make_segments() const {

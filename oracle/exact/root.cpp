@@ -15,7 +15,7 @@ namespace {
 constexpr double around = 0x1p-44;
 
 /// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
-std::vector<double> in_proportion(const std::vector<Number>& numbers) {
+std::vector<double> in_proportion(const Numbers& numbers) {
   std::vector<double> result;
   result.reserve(numbers.size());
   double largest = 0;
@@ -24,7 +24,7 @@ std::vector<double> in_proportion(const std::vector<Number>& numbers) {
     largest = std::max(largest, std::abs(result.back()));
   }
   if (largest > 0x1p-500 && largest < 0x1p500) return result;
-  std::vector<Number> scaled;
+  Numbers scaled;
   for (const Number& x : numbers) scaled.push_back(x * Number(largest < 1 ? 0x1p800 : 0x1p-800));
   return in_proportion(scaled);
 }
@@ -77,7 +77,7 @@ double simplest_between(const Number& lower, const Number& higher) {
 int count_roots_inside(const Polynomial& p) {
   const std::vector<Polynomial> chain = remainders(p, p.derivative());
   const auto changes_at = [&](const Number& t) {
-    std::vector<Number> values;
+    Numbers values;
     for (const Polynomial& each : chain) values.push_back(each(t));
     return sign_changes(values);
   };

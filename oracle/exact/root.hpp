@@ -33,7 +33,7 @@ class OnInterval {
   [[nodiscard]] double guess_extremum() const;
 
  private:
-  std::vector<Number> c_;
+  Numbers c_;
 };
 
 /// A real root of a polynomial: either an explicit number, or the only root in an open interval.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fuzz/random.hpp"
@@ -14,7 +15,7 @@ namespace nearmiss::exact {
 namespace {
 
 Polynomial polynomial(const std::vector<double>& coefficients) {
-  return Polynomial(std::vector<Number>(coefficients.begin(), coefficients.end()));
+  return Polynomial(Numbers(coefficients.begin(), coefficients.end()));
 }
 
 TEST(Number, DividesWhatItCanWithoutRemainder) {
@@ -199,14 +200,14 @@ class Integers {
 
  private:
   Both factor(int degree) {
-    std::vector<Number> here;
+    Numbers here;
     std::vector<CGAL::Gmpz> there;
     for (int i = 0; i <= degree; ++i) {
       const int c = i == degree ? between(1, 9) : between(-9, 9);
       here.emplace_back(c);
       there.emplace_back(c);
     }
-    return {Polynomial(here), Reference(there.begin(), there.end())};
+    return {Polynomial(std::move(here)), Reference(there.begin(), there.end())};
   }
 
   Random random_;
