@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace nearmiss::exact {
 
@@ -76,21 +77,30 @@ namespace {
 
 /// The remainder of c p by q, where c is |the leading coefficient of q|^(1 + the difference of degrees).
 Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
-  const Division division = divide(p, q);
-  const Polynomial factor({sign(q.leading()) > 0 ? q.leading() : -q.leading()});
-  Polynomial remainder = division.remainder;
-  for (int i = division.steps; i <= p.degree() - q.degree(); ++i) remainder = factor * remainder;
-  return remainder;
+  const int side = sign(q.leading());
+  const Number lead = side > 0 ? q.leading() : -q.leading();
+  Numbers rest = p.coefficients();
+  const Numbers& b = q.coefficients();
+  while (rest.size() >= b.size()) {
+    const Number top = side > 0 ? rest.back() : -rest.back();
+    rest.pop_back();
+    const std::size_t shift = rest.size() + 1 - b.size();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      rest[i] = lead * rest[i];
+      if (i >= shift) rest[i] = rest[i] - top * b[i - shift];
+    }
+  }
+  return Polynomial(std::move(rest));
 }
 
 }  // namespace
 
 Division divide(const Polynomial& p, const Polynomial& q) {
-  Division division{{}, p, 0};
-  auto& [quotient, remainder, steps] = division;
+  Division division{{}, p};
+  auto& [quotient, remainder] = division;
   const int side = sign(q.leading());
   const Polynomial factor({side > 0 ? q.leading() : -q.leading()});
-  for (; remainder.degree() >= q.degree(); ++steps) {
+  while (remainder.degree() >= q.degree()) {
     Numbers term(static_cast<std::size_t>(remainder.degree() - q.degree()) + 1);
     term.back() = side > 0 ? remainder.leading() : -remainder.leading();
     const Polynomial step(std::move(term));
@@ -133,10 +143,12 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
   return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
 }
 
-Polynomial square_free(const Polynomial& p) {
-  if (p.degree() < 2) return p;
-  const Polynomial common = greatest_common_divisor(p, p.derivative());
-  return common.degree() < 1 ? p : divide(p, common).quotient;
+SquareFree square_free(const Polynomial& p) {
+  std::vector<Polynomial> sequence = remainders(p, p.derivative());
+  const Polynomial& common = sequence.back();
+  if (common.degree() < 1) return {p, std::move(sequence)};
+  Polynomial rest = divide(p, common).quotient;
+  return {rest, remainders(rest, rest.derivative())};
 }
 
 int sign_changes(const Numbers& numbers) {

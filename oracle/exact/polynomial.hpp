@@ -46,11 +46,9 @@ class Polynomial {
 /// Whether one polynomial is a constant times the other; neither may be zero.
 bool are_proportional(const Polynomial& p, const Polynomial& q);
 
-/// The quotient and the remainder of c p divided by q, for c = |leading coefficient of q|^steps; q must not
-/// be zero.
+/// The quotient and the remainder of a positive multiple of p, divided by q; q must not be zero.
 struct Division {
   Polynomial quotient, remainder;
-  int steps;
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
@@ -62,8 +60,14 @@ std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
 Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
-/// p, which must not be zero, without its multiple factors.
-Polynomial square_free(const Polynomial& p);
+/// A polynomial without multiple roots, and its Sturm sequence: the remainders of it and its derivative.
+struct SquareFree {
+  Polynomial p;
+  std::vector<Polynomial> sequence;
+};
+
+/// p, of a degree of at least 1, without its multiple factors.
+SquareFree square_free(const Polynomial& p);
 
 /// The number of sign changes along the numbers, with zeros left out.
 int sign_changes(const Numbers& numbers);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -72,13 +73,11 @@ double simplest_between(const Number& lower, const Number& higher) {
   return std::ldexp(static_cast<double>(b & kept), unit);
 }
 
-/// The number of real roots in (0, 1) of a polynomial without multiple roots, by Sturm's theorem; it must not
-/// be zero at 0 or 1.
-int count_roots_inside(const Polynomial& p) {
-  const std::vector<Polynomial> chain = remainders(p, p.derivative());
+/// The number of real roots in (0, 1) of a polynomial with this Sturm sequence, which must not be zero at 0 or 1.
+int count_roots_inside(const std::vector<Polynomial>& sequence) {
   const auto changes_at = [&](const Number& t) {
     Numbers values;
-    for (const Polynomial& each : chain) values.push_back(each(t));
+    for (const Polynomial& each : sequence) values.push_back(each(t));
     return sign_changes(values);
   };
   return changes_at(0) - changes_at(1);
@@ -92,16 +91,54 @@ struct Isolated {
   bool found = true;
 };
 
-/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near a
-/// guessed extremum, since two close roots have one between them, and in the middle. It gives up after
-/// `most_cuts` cuts. If the number of roots is known, it does not search for roots that do not exist, such as
+/// The number of bits from the highest one of any coefficient to the lowest one of any.
+std::size_t bits_of(const Polynomial& p) {
+  std::ptrdiff_t above = 0;
+  std::ptrdiff_t below = 0;
+  for (const Number& c : p.coefficients()) {
+    if (CGAL::is_zero(c)) continue;
+    const CGAL::Gmpq fraction(c);
+    const auto size = [](const CGAL::Gmpz& n) { return static_cast<std::ptrdiff_t>(n.bit_size()); };
+    above = std::max(above, size(fraction.numerator()) - size(fraction.denominator()) + 1);
+    below = std::max(below, size(fraction.denominator()) - 1);
+  }
+  return static_cast<std::size_t>(above + below);
+}
+
+/// The only extremum of a polynomial in an interval, as a root of the derivative.
+struct Extremum {
+  Root root;
+  int refinements = 0;
+};
+
+std::shared_ptr<Extremum> only_extremum(const Polynomial& p, const Number& lo, const Number& hi) {
+  const auto slope = std::make_shared<const Polynomial>(p.derivative());
+  if (OnInterval(*slope, lo, hi).changes() != 1 || slope->sign_at(lo) == 0 || slope->sign_at(hi) == 0)
+    return nullptr;
+  return std::make_shared<Extremum>(Extremum{Root(slope, lo, hi)});
+}
+
+/// The number of refinements of an extremum after which a pair of roots beside it is probably a double root: each doubles its
+/// bits, and different roots are hardly ever nearer than twice the bits of the coefficients.
+int worthwhile_refinements(const Polynomial& p) {
+  constexpr std::size_t first_bits = 41;
+  return static_cast<int>(std::bit_width(2 * bits_of(p) / first_bits + 1));
+}
+
+/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an
+/// extremum, since two close roots have one between them, and in the middle. The extremum is guessed at first; if that does not
+/// help, it is enclosed, in an interval whose bits double. It gives up after `most_cuts` cuts, or when there probably is a
+/// double root. If the number of roots is known, it does not give up, and does not search for roots that do not exist, such as
 /// a pair of close complex roots.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
                  std::optional<std::size_t> missing) {
   struct Subinterval {
     Number lo, hi;
     bool guess;
+    std::shared_ptr<Extremum> extremum = nullptr;
   };
+  constexpr int guesses = 2;
+  int most_refinements = 0;
   Isolated isolated;
   std::vector<Subinterval> parts{{0, 1, true}};  // a stack with the lowest part on top
   for (int cuts = 0; !parts.empty() && missing != 0;) {
@@ -115,18 +152,32 @@ Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
     }
     if (changes < 2) continue;
     if (++cuts > most_cuts) return {{}, {}, false};
-    const double extremum = part.guess ? on.guess_extremum() : 0.5;
-    const double around_it = part.guess ? around : 0;
+    std::shared_ptr<Extremum> extremum = part.extremum;
+    if (!extremum && part.guess && cuts > guesses) extremum = only_extremum(*p, part.lo, part.hi);
+    Numbers at;
+    if (extremum) {
+      if (most_refinements == 0) most_refinements = worthwhile_refinements(*p);
+      if (!missing && ++extremum->refinements > most_refinements) return {{}, {}, false};
+      extremum->root.refine();
+      at = {extremum->root.hi(), extremum->root.lo()};
+    } else {
+      const double guess = part.guess ? on.guess_extremum() : 0.5;
+      const double around_it = part.guess ? around : 0;
+      at = {between(part.lo, part.hi, guess + around_it), between(part.lo, part.hi, guess - around_it)};
+    }
+    const auto of_part = [&](const Number& lo, const Number& hi) {
+      const bool is_inside = extremum && extremum->root.lo() < extremum->root.hi() &&
+                             lo <= extremum->root.lo() && extremum->root.hi() <= hi;
+      return is_inside ? extremum : nullptr;
+    };
     Number hi = part.hi;
-    for (const double at : {extremum + around_it, extremum - around_it}) {
-      if (!(at > 0 && at < 1)) continue;
-      const Number lo = between(part.lo, part.hi, at);
-      if (hi <= lo) continue;
+    for (const Number& lo : at) {
+      if (!(part.lo < lo && lo < hi)) continue;
       if (p->sign_at(lo) == 0) return {{}, lo};
-      parts.push_back({lo, hi, !part.guess});
+      parts.push_back({lo, hi, !part.guess, of_part(lo, hi)});
       hi = lo;
     }
-    parts.push_back({part.lo, hi, !part.guess});
+    parts.push_back({part.lo, hi, !part.guess, of_part(part.lo, hi)});
   }
   return isolated;
 }
@@ -307,17 +358,21 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   // Tries a few cuts first. If these do not separate the roots, some may be multiple roots.
   constexpr int few = 12;
   std::vector<Root> roots;
-  for (bool is_simple = false; rest->degree() > 0;) {
-    Isolated isolated = is_simple ? isolate(rest, std::numeric_limits<int>::max(), count_roots_inside(*rest))
-                                  : isolate(rest, few, std::nullopt);
+  std::vector<Polynomial> sequence;  // of `rest`, if it has no multiple roots
+  while (rest->degree() > 0) {
+    Isolated isolated = sequence.empty()
+                            ? isolate(rest, few, std::nullopt)
+                            : isolate(rest, std::numeric_limits<int>::max(), count_roots_inside(sequence));
     if (isolated.number) {
       take_out(*isolated.number);
+      if (!sequence.empty() && rest->degree() > 0) sequence = remainders(*rest, rest->derivative());
     } else if (isolated.found) {
       roots = std::move(isolated.roots);
       break;
     } else {
-      rest = std::make_shared<const Polynomial>(square_free(*rest));
-      is_simple = true;
+      SquareFree simple = square_free(*rest);
+      rest = std::make_shared<const Polynomial>(std::move(simple.p));
+      sequence = std::move(simple.sequence);
     }
   }
   for (Root& number : numbers)
