@@ -25,16 +25,32 @@ using certified::Conversion;
 /// Whether the primitives touch, whatever the query's separation is.
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
-/// Halves an enclosure by an exact comparison. The halves contain equally many doubles, so the ratio of the
-/// ends shrinks evenly. Returns false if no double is left between the ends.
-bool halve(const Query& query, Enclosure& distance) {
-  const auto lo = std::bit_cast<std::uint64_t>(distance.lo);
-  const auto hi = std::bit_cast<std::uint64_t>(distance.hi);
-  if (hi - lo <= 1) return false;
-  const auto middle = std::bit_cast<double>(lo + (hi - lo) / 2);
-  (comes_within(query, middle) ? distance.hi : distance.lo) = middle;
-  return true;
-}
+/// Narrows an enclosure by exact comparisons.
+class Narrowing {
+ public:
+  Narrowing(const Query& query, const Enclosure& distance) : query_(query), distance_(distance) {}
+
+  [[nodiscard]] const Enclosure& distance() const { return distance_; }
+
+  /// Compares once; false if no double is left between the ends. Most distances are hardly below the upper end, so the first
+  /// numbers are not far from it; the next ones halve the number of doubles in between.
+  bool compare() {
+    const auto lo = std::bit_cast<std::uint64_t>(distance_.lo);
+    const auto hi = std::bit_cast<std::uint64_t>(distance_.hi);
+    if (hi - lo <= 1) return false;
+    const std::uint64_t step = std::min(step_, (hi - lo) / 2);
+    const auto number = std::bit_cast<double>(hi - step);
+    const bool is_below = comes_within(query_, number);
+    (is_below ? distance_.hi : distance_.lo) = number;
+    if (is_below && step == step_) step_ *= 256;
+    return true;
+  }
+
+ private:
+  const Query& query_;
+  Enclosure distance_;
+  std::uint64_t step_ = 64;  ///< in doubles
+};
 
 }  // namespace
 
@@ -51,12 +67,13 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
   if (touches(query)) return {0, 0};
 
   const Conversion to_distance(1, differences.exponent());
-  Enclosure distance{0, to_distance.upper(approach.upper)};
+  Narrowing exact(query, {0, to_distance.upper(approach.upper)});
   const Conversion exact_ratio(unit, 0);
   const auto in_units = [&] {
+    const Enclosure& distance = exact.distance();
     return unit == 1 ? distance : Enclosure{exact_ratio.lower(distance.lo), exact_ratio.upper(distance.hi)};
   };
-  while (in_units().lo < needed(in_units().hi) && halve(query, distance)) {
+  while (in_units().lo < needed(in_units().hi) && exact.compare()) {
   }
   return in_units();
 }

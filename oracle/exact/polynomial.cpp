@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "oracle/exact/residues.hpp"
+
 namespace nearmiss::exact {
 
 int sign(const Number& x) { return static_cast<int>(CGAL::sign(x)); }
@@ -143,12 +145,11 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
   return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
 }
 
-SquareFree square_free(const Polynomial& p) {
-  std::vector<Polynomial> sequence = remainders(p, p.derivative());
-  const Polynomial& common = sequence.back();
-  if (common.degree() < 1) return {p, std::move(sequence)};
-  Polynomial rest = divide(p, common).quotient;
-  return {rest, remainders(rest, rest.derivative())};
+Polynomial square_free(const Polynomial& p) {
+  const Polynomial slope = p.derivative();
+  if (are_coprime_by_residues(p, slope)) return p;
+  const Polynomial common = greatest_common_divisor(p, slope);
+  return common.degree() < 1 ? p : divide(p, common).quotient;
 }
 
 int sign_changes(const Numbers& numbers) {

@@ -60,14 +60,8 @@ std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
 Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
-/// A polynomial without multiple roots, and its Sturm sequence: the remainders of it and its derivative.
-struct SquareFree {
-  Polynomial p;
-  std::vector<Polynomial> sequence;
-};
-
 /// p, of a degree of at least 1, without its multiple factors.
-SquareFree square_free(const Polynomial& p);
+Polynomial square_free(const Polynomial& p);
 
 /// The number of sign changes along the numbers, with zeros left out.
 int sign_changes(const Numbers& numbers);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
+#include <utility>
+
+#include "oracle/exact/residues.hpp"
 
 namespace nearmiss::exact {
 
@@ -73,16 +75,6 @@ double simplest_between(const Number& lower, const Number& higher) {
   return std::ldexp(static_cast<double>(b & kept), unit);
 }
 
-/// The number of real roots in (0, 1) of a polynomial with this Sturm sequence, which must not be zero at 0 or 1.
-int count_roots_inside(const std::vector<Polynomial>& sequence) {
-  const auto changes_at = [&](const Number& t) {
-    Numbers values;
-    for (const Polynomial& each : sequence) values.push_back(each(t));
-    return sign_changes(values);
-  };
-  return changes_at(0) - changes_at(1);
-}
-
 /// The roots in (0, 1) of a polynomial that is not zero at 0 or 1, in ascending order; or one root that was
 /// found as a number; or neither, if the search gave up.
 struct Isolated {
@@ -125,39 +117,35 @@ int worthwhile_refinements(const Polynomial& p) {
   return static_cast<int>(std::bit_width(2 * bits_of(p) / first_bits + 1));
 }
 
-/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an
-/// extremum, since two close roots have one between them, and in the middle. The extremum is guessed at first; if that does not
-/// help, it is enclosed, in an interval whose bits double. It gives up after `most_cuts` cuts, or when there probably is a
-/// double root. If the number of roots is known, it does not give up, and does not search for roots that do not exist, such as
-/// a pair of close complex roots.
-Isolated isolate(const std::shared_ptr<const Polynomial>& p, int most_cuts,
-                 std::optional<std::size_t> missing) {
+/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an extremum, since two
+/// close roots have one between them, and in the middle. The extremum is guessed at first; if that does not help, it is
+/// enclosed, in an interval whose bits double. Unless the polynomial is known to have no multiple roots, it gives up after a few
+/// cuts, or when there probably is a double root.
+Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   struct Subinterval {
     Number lo, hi;
     bool guess;
     std::shared_ptr<Extremum> extremum = nullptr;
   };
+  constexpr int few = 12;
   constexpr int guesses = 2;
   int most_refinements = 0;
   Isolated isolated;
   std::vector<Subinterval> parts{{0, 1, true}};  // a stack with the lowest part on top
-  for (int cuts = 0; !parts.empty() && missing != 0;) {
+  for (int cuts = 0; !parts.empty();) {
     const Subinterval part = std::move(parts.back());
     parts.pop_back();
     const OnInterval on(*p, part.lo, part.hi);
     const int changes = on.changes();
-    if (changes == 1) {
-      isolated.roots.emplace_back(p, part.lo, part.hi);
-      if (missing) --*missing;
-    }
+    if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi);
     if (changes < 2) continue;
-    if (++cuts > most_cuts) return {{}, {}, false};
+    if (++cuts > few && !is_simple) return {{}, {}, false};
     std::shared_ptr<Extremum> extremum = part.extremum;
     if (!extremum && part.guess && cuts > guesses) extremum = only_extremum(*p, part.lo, part.hi);
     Numbers at;
     if (extremum) {
       if (most_refinements == 0) most_refinements = worthwhile_refinements(*p);
-      if (!missing && ++extremum->refinements > most_refinements) return {{}, {}, false};
+      if (++extremum->refinements > most_refinements && !is_simple) return {{}, {}, false};
       extremum->root.refine();
       at = {extremum->root.hi(), extremum->root.lo()};
     } else {
@@ -276,9 +264,20 @@ void Root::refine() {
   if (Number(2) * (hi_ - lo_) > width) cut(between(lo_, hi_, 0.5));
 }
 
+namespace {
+
+/// Whether residues show this; for short polynomials, a divisor takes less time.
+bool have_no_common_root(const Polynomial& p, const Polynomial& q) {
+  constexpr int short_degree = 3;
+  return std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q);
+}
+
+}  // namespace
+
 /// p has only one root here, and it is simple; a divisor of p has the same root if and only if its sign
 /// changes there.
 bool Root::is_root_of(const Polynomial& q) const {
+  if (have_no_common_root(*p_, q)) return false;
   const Polynomial common = greatest_common_divisor(*p_, q);
   return common.degree() > 0 && common.sign_at(lo_) != common.sign_at(hi_);
 }
@@ -334,7 +333,7 @@ bool Root::is_same(const Root& other) const {
   // own interval.
   const Number& lo = std::max(lo_, other.lo_);
   const Number& hi = std::min(hi_, other.hi_);
-  if (hi <= lo) return false;
+  if (hi <= lo || have_no_common_root(*p_, *other.p_)) return false;
   const Polynomial common = greatest_common_divisor(*p_, *other.p_);
   return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
 }
@@ -356,23 +355,17 @@ std::vector<Root> roots_in_step(const Polynomial& p) {
   for (const Number& end : {Number(0), Number(1)})
     if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
   // Tries a few cuts first. If these do not separate the roots, some may be multiple roots.
-  constexpr int few = 12;
   std::vector<Root> roots;
-  std::vector<Polynomial> sequence;  // of `rest`, if it has no multiple roots
-  while (rest->degree() > 0) {
-    Isolated isolated = sequence.empty()
-                            ? isolate(rest, few, std::nullopt)
-                            : isolate(rest, std::numeric_limits<int>::max(), count_roots_inside(sequence));
+  for (bool is_simple = false; rest->degree() > 0;) {
+    Isolated isolated = isolate(rest, is_simple);
     if (isolated.number) {
       take_out(*isolated.number);
-      if (!sequence.empty() && rest->degree() > 0) sequence = remainders(*rest, rest->derivative());
     } else if (isolated.found) {
       roots = std::move(isolated.roots);
       break;
     } else {
-      SquareFree simple = square_free(*rest);
-      rest = std::make_shared<const Polynomial>(std::move(simple.p));
-      sequence = std::move(simple.sequence);
+      rest = std::make_shared<const Polynomial>(square_free(*rest));
+      is_simple = true;
     }
   }
   for (Root& number : numbers)

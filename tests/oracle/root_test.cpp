@@ -52,8 +52,8 @@ TEST(Polynomial, DividesWithARemainder) {
 TEST(Polynomial, WithoutMultipleFactorsHasTheSameRoots) {
   const Polynomial p = polynomial({-1, 2});
   const Polynomial q = polynomial({-1, 3});
-  EXPECT_EQ(square_free(p * p * q).p.degree(), 2);
-  EXPECT_EQ(square_free(p * p * q).p.sign_at(Number(0.5)), 0);
+  EXPECT_EQ(square_free(p * p * q).degree(), 2);
+  EXPECT_EQ(square_free(p * p * q).sign_at(Number(0.5)), 0);
 }
 
 TEST(Root, FindsRootsOfEverySort) {

@@ -1,0 +1,16 @@
+// Polynomials modulo a prime, which show that exact polynomials have no common factor.
+#pragma once
+
+#include "oracle/exact/polynomial.hpp"
+
+namespace nearmiss::exact {
+
+/// Whether two polynomials that are not zero certainly have no common root; false if the residues of their coefficients do not
+/// show it. That takes far less time than a remainder sequence of polynomials with long coefficients.
+///
+/// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest common divisor over
+/// the integers. Its leading coefficient divides that of p. If the prime does not divide that of p, g modulo the prime has the
+/// same degree as g. It divides both polynomials modulo the prime. So if these have no common factor, g is a constant.
+bool are_coprime_by_residues(const Polynomial& p, const Polynomial& q);
+
+}  // namespace nearmiss::exact

@@ -1,0 +1,61 @@
+// Tests what residues modulo a prime show about the roots of two polynomials.
+#include "oracle/exact/residues.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "fuzz/random.hpp"
+
+namespace nearmiss::exact {
+namespace {
+
+constexpr std::uint64_t seed = 1;
+
+Polynomial random_polynomial(Random& random, int degree) {
+  Numbers coefficients;
+  for (int i = 0; i < degree; ++i) coefficients.push_back(Number(random.uniform(-1, 1)));
+  coefficients.push_back(Number(random.uniform(1, 2)));
+  return Polynomial(std::move(coefficients));
+}
+
+TEST(Residues, ShowThatRandomPolynomialsAreCoprime) {
+  int shown = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(seed, 0, i);
+    const Polynomial p = random_polynomial(random, random.integer(1, 6));
+    shown += are_coprime_by_residues(p, random_polynomial(random, random.integer(0, 6))) ? 1 : 0;
+  }
+  EXPECT_EQ(shown, 200);
+}
+
+TEST(Residues, NeverShowItIfThereIsACommonFactor) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(seed, 1, i);
+    const Polynomial common = random_polynomial(random, random.integer(1, 3));
+    const Polynomial p = common * random_polynomial(random, random.integer(0, 3));
+    EXPECT_FALSE(are_coprime_by_residues(p, common * random_polynomial(random, random.integer(0, 3)))) << i;
+  }
+}
+
+TEST(Residues, DoNotDependOnPowersOfTwo) {
+  const Number small(0x1p-1000);
+  const Polynomial p({Number(3) * small, Number(5)});
+  EXPECT_TRUE(are_coprime_by_residues(p, Polynomial({Number(3) * small, Number(7)})));
+  EXPECT_FALSE(are_coprime_by_residues(p, Polynomial({Number(9) * small * small, Number(15) * small})));
+}
+
+TEST(Residues, ShowNothingIfThePrimeDividesALeadingCoefficient) {
+  const Number prime(2147483647.0);
+  const Polynomial factor({Number(1), prime});  // modulo the prime, the constant 1
+  EXPECT_FALSE(are_coprime_by_residues(factor, factor * factor));
+}
+
+TEST(Residues, OfADerivativeShowThatAllRootsAreSimple) {
+  const Polynomial p({Number(-1), Number(0), Number(1)});
+  EXPECT_TRUE(are_coprime_by_residues(p, p.derivative()));
+  EXPECT_FALSE(are_coprime_by_residues(p * p, (p * p).derivative()));
+}
+
+}  // namespace
+}  // namespace nearmiss::exact
