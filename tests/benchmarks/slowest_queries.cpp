@@ -164,7 +164,9 @@ void run(const std::vector<std::string>& arguments) {
   const PlainArithmetic guard;
   Search search(parse<double>(arguments[0]), parse<std::uint64_t>(arguments[1]));
   for (std::size_t i = 3; i < arguments.size(); ++i)
-    read_cases(arguments[i], [&](const Case& each) { search.offer(each.query, each.name); });
+    read_cases(arguments[i], [&](const Case& each) {
+      search.offer(each.query, each.provenance.empty() ? each.name : each.provenance);
+    });
   search.run();
   const std::filesystem::path folder(arguments[2]);
   std::filesystem::create_directories(folder);
@@ -178,8 +180,7 @@ void run(const std::vector<std::string>& arguments) {
         {.name = name,
          .query = query,
          .truth = collides(query),
-         .why = fmt::format("The slowest query found for one part of the oracle: {}. It took {:.2f} ms.",
-                            slowest.part().about, ms),
+         .why = fmt::format("The slowest query found for one part of the oracle:\n{}.", slowest.part().about),
          .provenance = provenance},
         folder / (name + ".case"));
   }
