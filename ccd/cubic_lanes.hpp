@@ -69,7 +69,7 @@ struct Bracket {
   Real lo, hi, f_lo, f_hi;
 };
 
-/// What an interval between two nodes contributes to the roots, as `solve_cubic` says.
+/// Each interval between two nodes contributes one of these to the roots (see `solve_cubic`).
 enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
 
 /// The contribution of an interval, as a number; nothing where it does not exist.

@@ -15,7 +15,7 @@ namespace exact {
 struct FirstApproach;
 }
 
-/// What a decision shows of the earliest time.
+/// Results of a decision from which the search for the earliest time can start.
 struct KnownTimes {
   std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show
   std::shared_ptr<const exact::FirstApproach>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -13,9 +12,6 @@
 namespace nearmiss::exact {
 
 namespace {
-
-/// The relative accuracy with which double locates a well-conditioned place in an interval.
-constexpr double around = 0x1p-44;
 
 /// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
 std::vector<double> in_proportion(const Numbers& numbers) {
@@ -59,9 +55,6 @@ double ratio(const Number& x, const Number& y) {
   return std::clamp(both[0] / both[1], -0x1p60, 0x1p60);
 }
 
-/// lo + part (hi - lo).
-Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
-
 /// Guesses the number with the fewest bits between two positive numbers: the higher number, truncated after
 /// the first of 53 bits in which the two differ. If none of the 53 differs, the result is the higher number.
 double simplest_between(const Number& lower, const Number& higher) {
@@ -75,102 +68,9 @@ double simplest_between(const Number& lower, const Number& higher) {
   return std::ldexp(static_cast<double>(b & kept), unit);
 }
 
-/// The roots in (0, 1) of a polynomial that is not zero at 0 or 1, in ascending order; or one root that was
-/// found as a number; or neither, if the search gave up.
-struct Isolated {
-  std::vector<Root> roots;
-  std::optional<Number> number;
-  bool found = true;
-};
-
-/// The number of bits from the highest one of any coefficient to the lowest one of any.
-std::size_t bits_of(const Polynomial& p) {
-  std::ptrdiff_t above = 0;
-  std::ptrdiff_t below = 0;
-  for (const Number& c : p.coefficients()) {
-    if (CGAL::is_zero(c)) continue;
-    const CGAL::Gmpq fraction(c);
-    const auto size = [](const CGAL::Gmpz& n) { return static_cast<std::ptrdiff_t>(n.bit_size()); };
-    above = std::max(above, size(fraction.numerator()) - size(fraction.denominator()) + 1);
-    below = std::max(below, size(fraction.denominator()) - 1);
-  }
-  return static_cast<std::size_t>(above + below);
-}
-
-/// The only extremum of a polynomial in an interval, as a root of the derivative.
-struct Extremum {
-  Root root;
-  int refinements = 0;
-};
-
-std::shared_ptr<Extremum> only_extremum(const Polynomial& p, const Number& lo, const Number& hi) {
-  const auto slope = std::make_shared<const Polynomial>(p.derivative());
-  if (OnInterval(*slope, lo, hi).changes() != 1 || slope->sign_at(lo) == 0 || slope->sign_at(hi) == 0)
-    return nullptr;
-  return std::make_shared<Extremum>(Extremum{Root(slope, lo, hi)});
-}
-
-/// The number of refinements of an extremum after which a pair of roots beside it is probably a double root: each doubles its
-/// bits, and different roots are hardly ever nearer than twice the bits of the coefficients.
-int worthwhile_refinements(const Polynomial& p) {
-  constexpr std::size_t first_bits = 41;
-  return static_cast<int>(std::bit_width(2 * bits_of(p) / first_bits + 1));
-}
-
-/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an extremum, since two
-/// close roots have one between them, and in the middle. The extremum is guessed at first; if that does not help, it is
-/// enclosed, in an interval whose bits double. Unless the polynomial is known to have no multiple roots, it gives up after a few
-/// cuts, or when there probably is a double root.
-Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
-  struct Subinterval {
-    Number lo, hi;
-    bool guess;
-    std::shared_ptr<Extremum> extremum = nullptr;
-  };
-  constexpr int few = 12;
-  constexpr int guesses = 2;
-  int most_refinements = 0;
-  Isolated isolated;
-  std::vector<Subinterval> parts{{0, 1, true}};  // a stack with the lowest part on top
-  for (int cuts = 0; !parts.empty();) {
-    const Subinterval part = std::move(parts.back());
-    parts.pop_back();
-    const OnInterval on(*p, part.lo, part.hi);
-    const int changes = on.changes();
-    if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi);
-    if (changes < 2) continue;
-    if (++cuts > few && !is_simple) return {{}, {}, false};
-    std::shared_ptr<Extremum> extremum = part.extremum;
-    if (!extremum && part.guess && cuts > guesses) extremum = only_extremum(*p, part.lo, part.hi);
-    Numbers at;
-    if (extremum) {
-      if (most_refinements == 0) most_refinements = worthwhile_refinements(*p);
-      if (++extremum->refinements > most_refinements && !is_simple) return {{}, {}, false};
-      extremum->root.refine();
-      at = {extremum->root.hi(), extremum->root.lo()};
-    } else {
-      const double guess = part.guess ? on.guess_extremum() : 0.5;
-      const double around_it = part.guess ? around : 0;
-      at = {between(part.lo, part.hi, guess + around_it), between(part.lo, part.hi, guess - around_it)};
-    }
-    const auto of_part = [&](const Number& lo, const Number& hi) {
-      const bool is_inside = extremum && extremum->root.lo() < extremum->root.hi() &&
-                             lo <= extremum->root.lo() && extremum->root.hi() <= hi;
-      return is_inside ? extremum : nullptr;
-    };
-    Number hi = part.hi;
-    for (const Number& lo : at) {
-      if (!(part.lo < lo && lo < hi)) continue;
-      if (p->sign_at(lo) == 0) return {{}, lo};
-      parts.push_back({lo, hi, !part.guess, of_part(lo, hi)});
-      hi = lo;
-    }
-    parts.push_back({part.lo, hi, !part.guess, of_part(part.lo, hi)});
-  }
-  return isolated;
-}
-
 }  // namespace
+
+Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
 
 OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
   // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
@@ -266,21 +166,16 @@ void Root::refine() {
 
 namespace {
 
-/// Whether residues show this; for short polynomials, a divisor takes less time.
-bool have_no_common_root(const Polynomial& p, const Polynomial& q) {
-  constexpr int short_degree = 3;
-  return std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q);
+/// Whether q has the root of p between two numbers. p has at most one root there, a simple one, and the two polynomials are not
+/// both zero at one of the numbers. So a common divisor has the root if and only if its sign changes.
+bool have_common_root(const Polynomial& p, const Polynomial& q, const Number& lo, const Number& hi) {
+  constexpr int short_degree = 3;  // up to this, a divisor takes less time than residues
+  if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return false;
+  const Polynomial common = greatest_common_divisor(p, q);
+  return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
 }
 
 }  // namespace
-
-/// p has only one root here, and it is simple; a divisor of p has the same root if and only if its sign
-/// changes there.
-bool Root::is_root_of(const Polynomial& q) const {
-  if (have_no_common_root(*p_, q)) return false;
-  const Polynomial common = greatest_common_divisor(*p_, q);
-  return common.degree() > 0 && common.sign_at(lo_) != common.sign_at(hi_);
-}
 
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
@@ -290,7 +185,7 @@ int Root::sign_of(const Polynomial& q) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;
     if (can_be_zero && refinements_ >= patience) {
-      if (is_root_of(q)) return 0;
+      if (have_common_root(*p_, q, lo_, hi_)) return 0;
       can_be_zero = false;
     }
     refine();
@@ -333,45 +228,13 @@ bool Root::is_same(const Root& other) const {
   // own interval.
   const Number& lo = std::max(lo_, other.lo_);
   const Number& hi = std::min(hi_, other.hi_);
-  if (hi <= lo || have_no_common_root(*p_, *other.p_)) return false;
-  const Polynomial common = greatest_common_divisor(*p_, *other.p_);
-  return common.degree() > 0 && common.sign_at(lo) != common.sign_at(hi);
+  return lo < hi && have_common_root(*p_, *other.p_, lo, hi);
 }
 
 bool Root::is_below(Root& other) {
   if (is_same(other)) return false;
   while (hi_ > other.lo_ && other.hi_ > lo_) (other.hi_ - other.lo_ < hi_ - lo_ ? *this : other).refine();
   return hi_ <= other.lo_;
-}
-
-std::vector<Root> roots_in_step(const Polynomial& p) {
-  auto rest = std::make_shared<const Polynomial>(p);
-  std::vector<Root> numbers;
-  const auto take_out = [&](const Number& root) {
-    numbers.emplace_back(root);
-    while (rest->degree() > 0 && rest->sign_at(root) == 0)
-      rest = std::make_shared<const Polynomial>(divide(*rest, Polynomial({-root, Number(1)})).quotient);
-  };
-  for (const Number& end : {Number(0), Number(1)})
-    if (rest->degree() > 0 && rest->sign_at(end) == 0) take_out(end);
-  // Tries a few cuts first. If these do not separate the roots, some may be multiple roots.
-  std::vector<Root> roots;
-  for (bool is_simple = false; rest->degree() > 0;) {
-    Isolated isolated = isolate(rest, is_simple);
-    if (isolated.number) {
-      take_out(*isolated.number);
-    } else if (isolated.found) {
-      roots = std::move(isolated.roots);
-      break;
-    } else {
-      rest = std::make_shared<const Polynomial>(square_free(*rest));
-      is_simple = true;
-    }
-  }
-  for (Root& number : numbers)
-    roots.insert(std::find_if(roots.begin(), roots.end(), [&](Root& root) { return number.is_below(root); }),
-                 number);
-  return roots;
 }
 
 }  // namespace nearmiss::exact

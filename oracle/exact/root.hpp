@@ -13,6 +13,12 @@
 
 namespace nearmiss::exact {
 
+/// The relative accuracy with which double locates a well-conditioned place in an interval.
+inline constexpr double around = 0x1p-44;
+
+/// lo + part (hi - lo).
+Number between(const Number& lo, const Number& hi, double part);
+
 /// A polynomial on an interval, given by its Bernstein coefficients times binomial coefficients. The number
 /// of roots in the open interval is the number of sign changes of these, or smaller by an even number.
 class OnInterval {
@@ -62,7 +68,6 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  [[nodiscard]] bool is_root_of(const Polynomial& q) const;
   [[nodiscard]] bool is_same(const Root& other) const;
   void cut(const Number& at);
 

@@ -101,7 +101,7 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
   const auto F = coplanarity(whole.a, whole.b, whole.c);
   if (common_sign(F.b, F.error) != 0) return std::nullopt;
   if (!(std::abs(F.b[0]) > F.error) && touch_at_end(query, 0)) return KnownTime{{0, 0}};
-  if (width > 0) {
+  if (width > 0) {  // an enclosure in double is always wider than 0
     const auto time = search_for_time(query, F, whole, Asked::when);
     if (!time || time->time.hi - time->time.lo <= width) return time;
   }

@@ -6,19 +6,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <chrono>
+#include <cstdint>
 #include <ctime>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/stopwatch.hpp"
+#include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/families/mutation.hpp"
@@ -29,11 +31,11 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work. The truth is known before it begins.
+/// A part of the oracle's work. The decision is known before it begins.
 struct Part {
   std::string_view name;
   std::string_view about;
-  bool (*concerns)(Truth& truth);
+  bool (*concerns)(const Decision& decision);
   void (*work)(const Query& query, const Decision& decision);
 };
 
@@ -46,17 +48,18 @@ void judge_report(const Query& query, const Decision& decision) {
 }
 
 constexpr Part parts[] = {
-    {"decision", "whether there is a collision", [](Truth& /*truth*/) { return true; },
+    {"decision", "whether there is a collision", [](const Decision& /*decision*/) { return true; },
      [](const Query& query, const Decision& /*decision*/) { decide(query); }},
     {"time", "the earliest time as narrowly as doubles allow, and whether a time equal to it is late",
-     [](Truth& truth) { return truth.has_time(); },
+     [](const Decision& decision) { return decision.collision || decision.is_tie; },
      [](const Query& query, const Decision& decision) {
        Truth truth(query, decision);
        (void)truth.time().makes_late(truth.time().enclosure(0).lo);
      }},
     {"distance", "the smallest distance in units of wang's bound, to 1/1000",
-     [](Truth& truth) { return !truth.collision() && !truth.is_tie(); }, judge_report},
-    {"agreement", "the answers and times of all exact methods", [](Truth& /*truth*/) { return true; },
+     [](const Decision& decision) { return !decision.collision && !decision.is_tie; }, judge_report},
+    {"agreement", "the answers and times of all exact methods",
+     [](const Decision& /*decision*/) { return true; },
      [](const Query& query, const Decision& decision) {
        const Truth truth(query, decision);
        (void)truth.disagreement(truth.ask_methods());
@@ -75,17 +78,16 @@ class Slowest {
  public:
   explicit Slowest(const Part& part) : part_(part) {}
 
-  void offer(const Query& query, const std::string& provenance) {
-    Truth truth(query);
-    if (!part_.concerns(truth)) return;
-    const auto work = [&] { part_.work(query, truth.decision()); };
+  void offer(const Query& query, const Decision& decision, std::string provenance) {
+    if (!part_.concerns(decision)) return;
+    const auto work = [&] { part_.work(query, decision); };
     if (!is_slow(time_of(CLOCK_THREAD_CPUTIME_ID, work))) return;
     const std::uint64_t best = best_time_of(CLOCK_THREAD_CPUTIME_ID, work);
     if (!is_slow(best)) return;
     if (kept_.size() == most) kept_.pop_back();
     const auto place =
         std::find_if(kept_.begin(), kept_.end(), [&](const Timed& each) { return each.nanoseconds < best; });
-    kept_.insert(place, {best, query, provenance});
+    kept_.insert(place, {best, query, std::move(provenance)});
   }
 
   [[nodiscard]] const Part& part() const { return part_; }
@@ -110,7 +112,8 @@ class Search {
   }
 
   void offer(const Query& query, const std::string& provenance) {
-    for (Slowest& slowest : slowest_) slowest.offer(query, provenance);
+    const Decision decision = decide(query);
+    for (Slowest& slowest : slowest_) slowest.offer(query, decision, provenance);
   }
 
   void run() {
@@ -136,8 +139,7 @@ class Search {
     const Query& other = any().query;
     const bool crosses = other.kind == parent.query.kind && random.one_in(4);
     const Query child = crosses ? crossed(random, parent.query, other) : mutated(random, parent.query);
-    const std::string provenance = parent.provenance;
-    if (is_finite(child)) slowest.offer(child, provenance);
+    if (is_finite(child)) slowest.offer(child, decide(child), parent.provenance);
   }
 
   [[nodiscard]] double elapsed() const {
@@ -150,19 +152,12 @@ class Search {
   std::vector<Slowest> slowest_;
 };
 
-template <class Number>
-Number parse(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw Error(fmt::format("found '{}', expected a number", text));
-  return number;
-}
-
 void run(const std::vector<std::string>& arguments) {
   if (arguments.size() < 3) throw Error("expected SECONDS SEED FOLDER [PATH...]");
   const PlainArithmetic guard;
-  Search search(parse<double>(arguments[0]), parse<std::uint64_t>(arguments[1]));
+  const auto seed = parse_integer<std::uint64_t>(arguments[1]);
+  if (!seed) throw Error(fmt::format("SEED: found '{}', expected an integer", arguments[1]));
+  Search search(parse_number(arguments[0], "SECONDS"), *seed);
   for (std::size_t i = 3; i < arguments.size(); ++i)
     read_cases(arguments[i], [&](const Case& each) {
       search.offer(each.query, each.provenance.empty() ? each.name : each.provenance);
