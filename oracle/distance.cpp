@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "ccd/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
@@ -20,42 +21,47 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using certified::above;
+using certified::below;
 using certified::Conversion;
 
 /// Whether the primitives touch, whatever the query's separation is.
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
-/// Narrows an enclosure by exact comparisons.
+/// Narrows an enclosure of a distance above a base by exact comparisons.
 class Narrowing {
  public:
-  Narrowing(const Query& query, const Enclosure& distance) : query_(query), distance_(distance) {}
+  Narrowing(const Query& query, double base, const Enclosure& distance)
+      : query_(query), base_(base), distance_(distance) {}
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
   /// Compares once; false if no double is left between the ends. Most distances are hardly below the upper end, so the first
-  /// numbers are not far from it; the next ones halve the number of doubles in between.
+  /// numbers are not far from it; the next ones halve the number of doubles in between, counted from the base.
   bool compare() {
-    const auto lo = std::bit_cast<std::uint64_t>(distance_.lo);
-    const auto hi = std::bit_cast<std::uint64_t>(distance_.hi);
-    if (hi - lo <= 1) return false;
-    const std::uint64_t step = std::min(step_, (hi - lo) / 2);
-    const auto number = std::bit_cast<double>(hi - step);
+    const double least = above(distance_.lo);
+    const double most = below(distance_.hi);
+    if (least > most) return false;
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    const double middle =
+        base_ + std::bit_cast<double>(std::midpoint(bits(least - base_), bits(most - base_)));
+    const double near_upper = std::bit_cast<double>(bits(distance_.hi) - step_);
+    const bool is_near = step_ < bits(distance_.hi) - bits(distance_.lo) && near_upper > middle;
+    const double number = std::clamp(is_near ? near_upper : middle, least, most);
     const bool is_below = comes_within(query_, number);
     (is_below ? distance_.hi : distance_.lo) = number;
-    if (is_below && step == step_) step_ *= 256;
+    if (is_below && is_near) step_ *= 256;
     return true;
   }
 
  private:
   const Query& query_;
+  double base_;
   Enclosure distance_;
-  std::uint64_t step_ = 64;  ///< in doubles
+  std::uint64_t step_ = 64;  ///< from the upper end, in doubles
 };
 
-}  // namespace
-
-Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed_of) {
-  const PlainArithmetic guard;
+/// distance_in_units for distances of which only the part above `base` is needed: needed(hi) <= base / unit if hi is so, too.
+Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // The largest double is as near to infinity as a double can be.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };
   const certified::VertexDifferences differences(query);
@@ -67,8 +73,10 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
   if (touches(query)) return {0, 0};
 
   const Conversion to_distance(1, differences.exponent());
-  Narrowing exact(query, {0, to_distance.upper(approach.upper)});
   const Conversion exact_ratio(unit, 0);
+  const double upper = to_distance.upper(approach.upper);
+  if (base > 0 && comes_within(query, base)) return {0, exact_ratio.upper(base)};
+  Narrowing exact(query, base, {std::max(base, to_distance.lower(approach.lower)), upper});
   const auto in_units = [&] {
     const Enclosure& distance = exact.distance();
     return unit == 1 ? distance : Enclosure{exact_ratio.lower(distance.lo), exact_ratio.upper(distance.hi)};
@@ -76,6 +84,13 @@ Enclosure distance_in_units(const Query& query, double unit, const NeededDistanc
   while (in_units().lo < needed(in_units().hi) && exact.compare()) {
   }
   return in_units();
+}
+
+}  // namespace
+
+Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed) {
+  const PlainArithmetic guard;
+  return distance_above(0, query, unit, needed);
 }
 
 Enclosure minimum_distance(const Query& query, double relative_width) {
@@ -88,8 +103,9 @@ Enclosure minimum_distance(const Query& query, double relative_width) {
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed) {
   const PlainArithmetic guard;
   const double h = std::min(query.separation / unit, std::numeric_limits<double>::max());
-  const Enclosure all = distance_in_units(
-      query, unit, [&](double hi) { return hi > h ? std::min(h + needed(hi - h), hi) : 0; });
+  const Enclosure all = distance_above(query.separation, query, unit, [&](double hi) {
+    return hi > h ? std::min(h + needed(hi - h), hi) : 0;
+  });
   return {std::max(all.lo - h, 0.0), std::max(all.hi - h, 0.0)};
 }
 

@@ -1,5 +1,7 @@
 #include "oracle/exact/polynomial.hpp"
 
+#include <CGAL/Gmpq.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -145,11 +147,24 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q) {
   return (p.degree() < q.degree() ? remainders(q, p) : remainders(p, q)).back();
 }
 
+namespace {
+
+/// The polynomial divided by the largest integer that divides all numerators of its coefficients.
+Polynomial primitive(const Polynomial& p) {
+  CGAL::Gmpz content = 0;
+  for (const Number& c : p.coefficients()) content = CGAL::gcd(content, CGAL::Gmpq(c).numerator());
+  Numbers coefficients = p.coefficients();
+  for (Number& c : coefficients) c = c / Number(content);
+  return Polynomial(std::move(coefficients));
+}
+
+}  // namespace
+
 Polynomial square_free(const Polynomial& p) {
   const Polynomial slope = p.derivative();
   if (are_coprime_by_residues(p, slope)) return p;
   const Polynomial common = greatest_common_divisor(p, slope);
-  return common.degree() < 1 ? p : divide(p, common).quotient;
+  return common.degree() < 1 ? p : primitive(divide(p, primitive(common)).quotient);
 }
 
 int sign_changes(const Numbers& numbers) {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -12,6 +15,13 @@
 namespace nearmiss::exact {
 
 namespace {
+
+/// An exponent of a power of two that is greater than |x| by a factor of 4 at most, for x not zero.
+std::ptrdiff_t exponent_above(const Number& x) {
+  const CGAL::Gmpq fraction(x);
+  return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) -
+         static_cast<std::ptrdiff_t>(fraction.denominator().bit_size()) + 1;
+}
 
 /// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
 std::vector<double> in_proportion(const Numbers& numbers) {
@@ -23,9 +33,26 @@ std::vector<double> in_proportion(const Numbers& numbers) {
     largest = std::max(largest, std::abs(result.back()));
   }
   if (largest > 0x1p-500 && largest < 0x1p500) return result;
-  Numbers scaled;
-  for (const Number& x : numbers) scaled.push_back(x * Number(largest < 1 ? 0x1p800 : 0x1p-800));
-  return in_proportion(scaled);
+  std::ptrdiff_t exponent = std::numeric_limits<std::ptrdiff_t>::min();  // all are below 2^exponent
+  for (const Number& x : numbers)
+    if (!CGAL::is_zero(x)) exponent = std::max(exponent, exponent_above(x));
+  const Number power(CGAL::Gmpz(1) << std::abs(exponent));
+  std::transform(numbers.begin(), numbers.end(), result.begin(),
+                 [&](const Number& x) { return CGAL::to_double(exponent < 0 ? x * power : x / power); });
+  return result;
+}
+
+std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
+  return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
+}
+
+/// x / y rounded towards 0.
+CGAL::Gmpz integer_quotient(const Number& x, const Number& y) {
+  const CGAL::Gmpq a(x);
+  const CGAL::Gmpq b(y);
+  const std::ptrdiff_t shift = exponent_of_denominator(b) - exponent_of_denominator(a);
+  return (a.numerator() << std::max<std::ptrdiff_t>(shift, 0)) /
+         (b.numerator() << std::max<std::ptrdiff_t>(-shift, 0));
 }
 
 // The functions below represent a polynomial in double as OnInterval does: by the c_i of s^i (1 - s)^(n - i),
@@ -71,6 +98,8 @@ double simplest_between(const Number& lower, const Number& higher) {
 }  // namespace
 
 Number between(const Number& lo, const Number& hi, double part) { return lo + Number(part) * (hi - lo); }
+
+Number power_of_half(unsigned bits) { return Number(1) / Number(CGAL::Gmpz(1) << bits); }
 
 OnInterval::OnInterval(const Polynomial& p, const Number& lo, const Number& hi) {
   // The coefficients of (1 + x)^n p((lo + hi x) / (1 + x)), by Horner's scheme: c becomes c (lo + hi x) + a_i
@@ -124,6 +153,20 @@ double OnInterval::guess_extremum() const {
     if (stands) break;
   }
   return s;
+}
+
+std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
+  const int n = static_cast<int>(c_.size()) - 1;
+  // The value and two derivatives at the lower end. Schröder's method is Newton's for f / f'.
+  const Number& f0 = c_[0];
+  const Number f1 = c_[1] - Number(n) * f0;
+  const Number f2 = Number(2) * (c_[2] - Number(n - 1) * c_[1]) + Number(n * (n - 1)) * f0;
+  const Number denominator = f1 * f1 - f0 * f2;
+  if (CGAL::is_zero(denominator)) return std::nullopt;
+  const Number unit = power_of_half(bits);
+  const Number guess = unit * Number(integer_quotient(-f0 * f1, denominator * unit));
+  if (guess < 0 || guess > 1) return std::nullopt;
+  return guess;
 }
 
 Root::Root(std::shared_ptr<const Polynomial> p, const Number& lo, const Number& hi)

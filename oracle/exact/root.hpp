@@ -19,6 +19,9 @@ inline constexpr double around = 0x1p-44;
 /// lo + part (hi - lo).
 Number between(const Number& lo, const Number& hi, double part);
 
+/// 2^-bits.
+Number power_of_half(unsigned bits);
+
 /// A polynomial on an interval, given by its Bernstein coefficients times binomial coefficients. The number
 /// of roots in the open interval is the number of sign changes of these, or smaller by an even number.
 class OnInterval {
@@ -37,6 +40,9 @@ class OnInterval {
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where an extremum may be, as a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
+  /// Guesses where a cluster of roots may be, as a fraction of the interval that is a multiple of 2^-bits; nothing if the guess
+  /// is outside.
+  [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
  private:
   Numbers c_;

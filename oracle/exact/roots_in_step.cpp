@@ -1,7 +1,5 @@
 // Finds the real roots of a polynomial in [0, 1].
 #include <algorithm>
-#include <bit>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -21,87 +19,65 @@ struct Isolated {
   bool found = true;
 };
 
-/// The number of bits from the highest one of any coefficient to the lowest one of any.
-std::size_t bits_of(const Polynomial& p) {
-  std::ptrdiff_t above = 0;
-  std::ptrdiff_t below = 0;
-  for (const Number& c : p.coefficients()) {
-    if (CGAL::is_zero(c)) continue;
-    const CGAL::Gmpq fraction(c);
-    const auto size = [](const CGAL::Gmpz& n) { return static_cast<std::ptrdiff_t>(n.bit_size()); };
-    above = std::max(above, size(fraction.numerator()) - size(fraction.denominator()) + 1);
-    below = std::max(below, size(fraction.denominator()) - 1);
-  }
-  return static_cast<std::size_t>(above + below);
-}
+/// A part of the step, and how it is cut next.
+struct Part {
+  Number lo, hi;
+  OnInterval on;
+  bool at_extremum = true;  ///< if not, it is cut in the middle
+  unsigned bits = 44;       ///< see shrink()
 
-/// The only extremum of a polynomial in an interval, as a root of the derivative.
-struct Extremum {
-  Root root;
-  int refinements = 0;
+  Part(const Polynomial& p, const Number& from, const Number& to) : lo(from), hi(to), on(p, from, to) {}
 
-  /// Whether it is known to lie in an open interval, and that is within [lo, hi].
-  [[nodiscard]] bool is_enclosed_in(const Number& lo, const Number& hi) const {
-    return root.lo() < root.hi() && lo <= root.lo() && root.hi() <= hi;
+  [[nodiscard]] Number at(const Number& fraction) const { return lo + fraction * (hi - lo); }
+
+  /// Shrinks to the neighbourhood of a multiple of 2^-bits where a cluster of roots may be, if that has all changes of sign: then
+  /// there is no root elsewhere. In this case the bits double, so a part shrinks quadratically; they halve if not.
+  bool shrink(const Polynomial& p) {
+    constexpr unsigned least_bits = 11;
+    if (const auto cluster = on.guess_cluster(bits)) {
+      const Number unit = power_of_half(bits);
+      const Number below = std::max(lo, at(*cluster - unit));
+      const Number above = std::min(hi, at(*cluster + unit));
+      OnInterval near_cluster(p, below, above);
+      if (near_cluster.changes() == on.changes()) {
+        lo = below;
+        hi = above;
+        on = std::move(near_cluster);
+        bits *= 2;
+        return true;
+      }
+    }
+    bits = std::max(least_bits, bits / 2);
+    return false;
   }
 };
 
-std::shared_ptr<Extremum> only_extremum(const Polynomial& p, const Number& lo, const Number& hi) {
-  const auto slope = std::make_shared<const Polynomial>(p.derivative());
-  if (OnInterval(*slope, lo, hi).changes() != 1 || slope->sign_at(lo) == 0 || slope->sign_at(hi) == 0)
-    return nullptr;
-  return std::make_shared<Extremum>(Extremum{Root(slope, lo, hi)});
-}
-
-/// The number of refinements of an extremum after which a pair of roots beside it is probably a double root: each doubles its
-/// bits, and different roots are hardly ever nearer than twice the bits of the coefficients.
-int worthwhile_refinements(const Polynomial& p) {
-  constexpr std::size_t first_bits = 41;
-  return static_cast<int>(std::bit_width(2 * bits_of(p) / first_bits + 1));
-}
-
 /// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an extremum, since two
-/// close roots have one between them, and in the middle. The extremum is guessed at first; if that does not help, it is
-/// enclosed, in an interval whose bits double. Unless the polynomial is known to have no multiple roots, it gives up after a few
-/// cuts, or when there probably is a double root.
+/// close roots have one between them, and in the middle. If a few cuts do not help, it gives up unless the polynomial is known to
+/// have no multiple roots; if so, it looks for clusters of roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
-  struct Subinterval {
-    Number lo, hi;
-    bool guess;
-    std::shared_ptr<Extremum> extremum = nullptr;
-  };
-  constexpr int few = 12;
-  constexpr int guesses = 2;
-  int most_refinements = 0;
+  constexpr int few = 4;
   Isolated isolated;
-  std::vector<Subinterval> parts{{0, 1, true}};  // a stack with the lowest part on top
+  std::vector<Part> parts{Part(*p, 0, 1)};  // a stack with the lowest part on top
   for (int cuts = 0; !parts.empty();) {
-    const Subinterval part = std::move(parts.back());
+    Part part = std::move(parts.back());
     parts.pop_back();
-    const OnInterval on(*p, part.lo, part.hi);
-    const int changes = on.changes();
+    const int changes = part.on.changes();
     if (changes == 1) isolated.roots.emplace_back(p, part.lo, part.hi);
     if (changes < 2) continue;
-    if (++cuts > few && !is_simple) return {{}, {}, false};
-    std::shared_ptr<Extremum> extremum = part.extremum;
-    if (!extremum && part.guess && cuts > guesses) extremum = only_extremum(*p, part.lo, part.hi);
-    Numbers at;
-    if (extremum) {
-      if (most_refinements == 0) most_refinements = worthwhile_refinements(*p);
-      if (++extremum->refinements > most_refinements && !is_simple) return {{}, {}, false};
-      extremum->root.refine();
-      at = {extremum->root.hi(), extremum->root.lo()};
-    } else {
-      const double guess = part.guess ? on.guess_extremum() : 0.5;
-      const double around_it = part.guess ? around : 0;
-      at = {between(part.lo, part.hi, guess + around_it), between(part.lo, part.hi, guess - around_it)};
+    if (++cuts > few) {
+      if (!is_simple) return {{}, {}, false};
+      while (part.shrink(*p)) continue;
     }
+    const double guess = part.at_extremum ? part.on.guess_extremum() : 0.5;
+    const double around_it = part.at_extremum ? around : 0;
     const auto add_part = [&](const Number& lo, const Number& hi) {
-      const bool keeps = extremum && extremum->is_enclosed_in(lo, hi);
-      parts.push_back({lo, hi, !part.guess, keeps ? extremum : nullptr});
+      parts.emplace_back(*p, lo, hi);
+      parts.back().at_extremum = !part.at_extremum;
+      parts.back().bits = part.bits;
     };
     Number hi = part.hi;
-    for (const Number& lo : at) {
+    for (const Number& lo : {part.at(guess + around_it), part.at(guess - around_it)}) {
       if (!(part.lo < lo && lo < hi)) continue;
       if (p->sign_at(lo) == 0) return {{}, lo};
       add_part(lo, hi);

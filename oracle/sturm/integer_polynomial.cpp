@@ -1,6 +1,8 @@
 #include "oracle/sturm/integer_polynomial.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 namespace nearmiss::sturm {
 
@@ -31,14 +33,14 @@ IntegerPolynomial::IntegerPolynomial(std::vector<Integer> coefficients) : c_(std
   while (!c_.empty() && c_.back() == 0) c_.pop_back();
 }
 
-int IntegerPolynomial::sign_at(const Dyadic& t) const {
-  Integer value = 0;  // the value times 2^(exponent × degree)
+Integer IntegerPolynomial::scaled_value(const Dyadic& t) const {
+  Integer value = 0;
   unsigned shift = 0;
   for (auto c = c_.rbegin(); c != c_.rend(); ++c) {
     value = value * t.numerator + (*c << shift);
     shift += t.exponent;
   }
-  return value.sign();
+  return value;
 }
 
 int IntegerPolynomial::sign_on(const Dyadic& lo, const Dyadic& hi) const {
@@ -150,7 +152,49 @@ IntegerPolynomial IntegerPolynomial::quotient(const IntegerPolynomial& other) co
 
 namespace {
 
-/// The signed remainder sequence of f and g, each up to a positive factor.
+constexpr std::uint64_t prime = 4294967291;  // 2^32 - 5, so that products of residues have 64 bits
+
+/// Coefficients modulo the prime, the constant first and without trailing zeros.
+using Residues = std::vector<std::uint64_t>;
+
+void trim(Residues& residues) {
+  while (!residues.empty() && residues.back() == 0) residues.pop_back();
+}
+
+Residues residues(const IntegerPolynomial& f) {
+  Residues all;
+  for (const Integer& c : f.coefficients()) all.push_back(mpz_fdiv_ui(c.backend().data(), prime));
+  trim(all);
+  return all;
+}
+
+/// Subtracts multiples of g from a multiple of f until its degree is less than that of g.
+void reduce(Residues& f, const Residues& g) {
+  while (f.size() >= g.size()) {
+    const std::uint64_t top = f.back();
+    const std::size_t shift = f.size() - g.size();
+    for (std::uint64_t& c : f) c = c * g.back() % prime;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      f[i + shift] = (f[i + shift] + (prime - top) * g[i] % prime) % prime;
+    trim(f);
+  }
+}
+
+}  // namespace
+
+// A common factor with integer coefficients has the same degree modulo the prime if this does not divide its leading
+// coefficient, and so if it does not divide that of f.
+bool are_surely_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g) {
+  Residues a = residues(f);
+  Residues b = residues(g);
+  if (a.size() != f.coefficients().size()) return false;
+  while (!b.empty()) {
+    reduce(a, b);
+    std::swap(a, b);
+  }
+  return a.size() == 1;
+}
+
 std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, const IntegerPolynomial& g) {
   std::vector<IntegerPolynomial> sequence{f, g};
   while (!sequence.back().is_zero())
@@ -161,132 +205,6 @@ std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, co
 
 int sign_variations(const std::vector<IntegerPolynomial>& sequence, const Dyadic& t) {
   return variations(sequence, [&](const IntegerPolynomial& p) { return p.sign_at(t); });
-}
-
-/// Tarski's query: the sum over the distinct roots of f in (lo, hi) of the sign of g there; f is not zero at
-/// the ends. The result depends on g only modulo f.
-int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const Dyadic& lo, const Dyadic& hi) {
-  const auto sequence =
-      remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
-  return sign_variations(sequence, lo) - sign_variations(sequence, hi);
-}
-
-/// f divided by the factor of its simple root t.
-IntegerPolynomial without_root(const IntegerPolynomial& f, const Dyadic& t) {
-  return f.quotient(IntegerPolynomial({-t.numerator, Integer(1) << t.exponent}));
-}
-
-/// The integer e with 2^e <= x < 2^(e + 1), for x > 0.
-int magnitude(const Dyadic& x) { return static_cast<int>(msb(x.numerator)) - static_cast<int>(x.exponent); }
-
-Dyadic power_of_half(int exponent) { return {1, static_cast<unsigned>(exponent)}; }
-
-/// A number between a and b, for 0 <= a < b <= 1. If their magnitudes are far apart, it is in the middle of
-/// these, so that roots close to 0 are reached fast; otherwise it is in the middle of the numbers.
-Dyadic between(const Dyadic& a, const Dyadic& b) {
-  const int high = magnitude(b);
-  if (a.numerator == 0) return power_of_half(high > -1 ? 1 : -2 * high);
-  const int low = magnitude(a);
-  if (high - low > 1) return power_of_half(-(low + high) / 2);  // rounded up, so it is below b and above a
-  const unsigned exponent = std::max(a.exponent, b.exponent);
-  return {(a.numerator << (exponent - a.exponent)) + (b.numerator << (exponent - b.exponent)), exponent + 1};
-}
-
-/// A square-free polynomial with its Sturm sequence.
-struct SturmSequence {
-  IntegerPolynomial f;
-  std::vector<IntegerPolynomial> sturm;
-
-  /// The sequence of the polynomial that has the same roots, each of them simple.
-  explicit SturmSequence(IntegerPolynomial polynomial)
-      : f(std::move(polynomial)), sturm(remainder_sequence(f, f.derivative())) {
-    const IntegerPolynomial& common = sturm.back();  // of f and its derivative
-    if (common.degree() > 0) *this = SturmSequence(f.quotient(common));
-  }
-};
-
-/// A place in (0, 1) that is no root, or an end, with the number of sign changes there.
-struct Place {
-  Dyadic t;
-  int variations;
-
-  Place(const SturmSequence& sequence, Dyadic place)
-      : t(std::move(place)), variations(sign_variations(sequence.sturm, t)) {}
-};
-
-/// Adds the roots of f between two places.
-void isolate(const SturmSequence& sequence, const Place& lo, const Place& hi, std::vector<SturmRoot>& roots) {
-  const IntegerPolynomial& f = sequence.f;
-  const int count = lo.variations - hi.variations;
-  if (count == 0) return;
-  if (count == 1) {
-    roots.emplace_back(f, lo.t, hi.t);
-    return;
-  }
-  const Dyadic division = between(lo.t, hi.t);
-  if (f.sign_at(division) == 0) {
-    roots.emplace_back(division);
-    const SturmSequence rest(without_root(f, division));
-    const Place middle(rest, division);
-    isolate(rest, Place(rest, lo.t), middle, roots);
-    isolate(rest, middle, Place(rest, hi.t), roots);
-  } else {
-    const Place middle(sequence, division);
-    isolate(sequence, lo, middle, roots);
-    isolate(sequence, middle, hi, roots);
-  }
-}
-
-}  // namespace
-
-SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
-    : f_(std::move(f)), lo_(std::move(lo)), hi_(std::move(hi)), sign_at_lo_(f_.sign_at(lo_)) {}
-
-void SturmRoot::halve() {
-  ++halvings_;
-  Dyadic middle = between(lo_, hi_);
-  const int sign = f_.sign_at(middle);
-  is_dyadic_ = sign == 0;
-  (is_dyadic_ || sign == sign_at_lo_ ? lo_ : hi_) = std::move(middle);
-}
-
-int SturmRoot::sign(const IntegerPolynomial& g) {
-  if (g.is_zero()) return 0;
-  constexpr int most_halvings = 24;  // interval arithmetic shows most signs by then
-  for (;;) {
-    if (is_dyadic_) return g.sign_at(lo_);
-    if (const int sign = g.sign_on(lo_, hi_); sign != 0) return sign;
-    if (halvings_ == most_halvings) return tarski_query(f_, g, lo_, hi_);
-    constexpr int at_once = 6;
-    for (int i = 0; i < at_once && !is_dyadic_; ++i) halve();
-  }
-}
-
-bool SturmRoot::is_below(const Dyadic& number) const {
-  if (is_dyadic_) return lo_ < number;
-  if (!(lo_ < number)) return false;
-  if (!(number < hi_)) return true;
-  const int sign = f_.sign_at(number);
-  return sign != 0 && sign != sign_at_lo_;
-}
-
-std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f) {
-  std::vector<SturmRoot> roots;
-  IntegerPolynomial rest = f;
-  const Dyadic zero{0, 0};
-  const Dyadic one{1, 0};
-  for (const Dyadic& end : {zero, one}) {
-    if (rest.sign_at(end) != 0) continue;
-    roots.emplace_back(end);
-    while (rest.sign_at(end) == 0) rest = without_root(rest, end);
-  }
-  const int most = rest.most_roots_inside();
-  if (most == 1) roots.emplace_back(rest, zero, one);
-  if (most > 1) {
-    const SturmSequence sequence(rest);
-    isolate(sequence, Place(sequence, zero), Place(sequence, one), roots);
-  }
-  return roots;
 }
 
 }  // namespace nearmiss::sturm

@@ -1,4 +1,4 @@
-// Polynomials with integer coefficients, and the signs of polynomials at each other's roots.
+// Polynomials with integer coefficients.
 #pragma once
 
 #include <boost/multiprecision/gmp.hpp>
@@ -25,7 +25,10 @@ class IntegerPolynomial {
 
   [[nodiscard]] bool is_zero() const { return c_.empty(); }
   [[nodiscard]] int degree() const { return static_cast<int>(c_.size()) - 1; }
-  [[nodiscard]] int sign_at(const Dyadic& t) const;
+  [[nodiscard]] const std::vector<Integer>& coefficients() const { return c_; }
+  /// The value at t times 2^(exponent of t × degree).
+  [[nodiscard]] Integer scaled_value(const Dyadic& t) const;
+  [[nodiscard]] int sign_at(const Dyadic& t) const { return scaled_value(t).sign(); }
   /// The sign on all of [lo, hi], for 0 <= lo < hi, if interval arithmetic shows it; else 0.
   [[nodiscard]] int sign_on(const Dyadic& lo, const Dyadic& hi) const;
   /// The number of roots in (0, 1), counted with multiplicity, or more than that by an even number (Descartes' rule of
@@ -52,32 +55,14 @@ class IntegerPolynomial {
   std::vector<Integer> c_;
 };
 
-/// A real root in [0, 1]: a dyadic number, or the only root, a simple one, of a polynomial in an open interval at whose ends
-/// it is not zero. Questions may narrow the interval.
-class SturmRoot {
- public:
-  explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_(std::move(value)) {}
-  SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi);
+/// Whether two polynomials that are not zero certainly have no common root; false if their residues modulo a prime do not show
+/// it.
+bool are_surely_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g);
 
-  /// The sign of g at this root. If the root is not dyadic, and interval arithmetic does not show the sign, Tarski's query
-  /// finds it.
-  [[nodiscard]] int sign(const IntegerPolynomial& g);
-  /// Whether the root is less than a number.
-  [[nodiscard]] bool is_below(const Dyadic& number) const;
-  /// Whether the root is t = 0 or t = 1.
-  [[nodiscard]] bool is_end() const { return is_dyadic_ && lo_.exponent == 0; }
+/// The signed remainder sequence of f and g, which must not be zero, each up to a positive factor.
+std::vector<IntegerPolynomial> remainder_sequence(const IntegerPolynomial& f, const IntegerPolynomial& g);
 
- private:
-  void halve();
-
-  bool is_dyadic_ = false;
-  IntegerPolynomial f_;
-  Dyadic lo_, hi_;  ///< the ends of the interval; for a dyadic root, lo_ is its value
-  int sign_at_lo_ = 0;
-  int halvings_ = 0;
-};
-
-/// The distinct roots of f in [0, 1], in no particular order; f must not be zero.
-std::vector<SturmRoot> roots_in_unit_interval(const IntegerPolynomial& f);
+/// The number of changes of sign along the sequence at t, zeros left out.
+int sign_variations(const std::vector<IntegerPolynomial>& sequence, const Dyadic& t);
 
 }  // namespace nearmiss::sturm

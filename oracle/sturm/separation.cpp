@@ -17,6 +17,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "oracle/sturm/primitives.hpp"
+#include "oracle/sturm/root.hpp"
 
 namespace nearmiss {
 

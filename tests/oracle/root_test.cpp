@@ -92,6 +92,23 @@ TEST(Root, PartsCloseRoots) {
   }
 }
 
+TEST(Root, PartsClustersOfRoots) {
+  for (const int exponent : {-40, -400, -1000}) {
+    const Number gap(std::ldexp(1.0, exponent));
+    const auto times_3 = [](const Number& a) { return Polynomial({-a, Number(3)}); };  // its root is a / 3
+    const Polynomial inside = times_3(1) * times_3(Number(1) + gap) * times_3(Number(1) - Number(3) * gap);
+    EXPECT_EQ(roots_in_step(inside * times_3(2)).size(), 4) << exponent;
+    // Two of these are outside.
+    const Polynomial at_end = times_3(Number(3) - gap) * times_3(Number(3) - Number(2) * gap) *
+                              times_3(Number(3) + gap) * times_3(Number(3) + Number(7) * gap);
+    EXPECT_EQ(roots_in_step(at_end * times_3(2)).size(), 3) << exponent;
+    // These have two complex roots near the real ones.
+    const Polynomial complex = times_3(1) * times_3(1) + Polynomial({gap * gap});
+    EXPECT_EQ(roots_in_step(inside * complex).size(), 3) << exponent;
+    EXPECT_EQ(roots_in_step(inside * inside * complex).size(), 3) << exponent;
+  }
+}
+
 TEST(Root, KnowsWhetherItIsRational) {
   auto roots = roots_in_step(polynomial({-1, 7}) * polynomial({-2, 3}) * polynomial({-0.5, 0, 1}) *
                              polynomial({-1, 4}));

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
 
 #include "oracle/oracle.hpp"
-#include "oracle/sturm/integer_polynomial.hpp"
 #include "oracle/sturm/primitives.hpp"
+#include "oracle/sturm/root.hpp"
 #include "tests/queries.hpp"
 #include "tests/random_queries.hpp"
 
@@ -38,6 +42,48 @@ TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
   auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({scale / 4 - 4, -scale, scale}));
   ASSERT_EQ(roots.size(), 2);
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({-1, 2})) * roots[1].sign(IntegerPolynomial({-1, 2})), -1);
+}
+
+/// A polynomial with the roots numerator / denominator.
+IntegerPolynomial with_roots(std::initializer_list<std::pair<Integer, Integer>> roots) {
+  IntegerPolynomial f({1});
+  for (const auto& [numerator, denominator] : roots) f = f * IntegerPolynomial({-numerator, denominator});
+  return f;
+}
+
+TEST(IntegerPolynomial, SeparatesClustersOfRoots) {
+  const Integer large = Integer(1) << 900;
+  // Near 1/3, near 0 and near 1; of the last cluster, two roots are outside.
+  const IntegerPolynomial clusters[] = {
+      with_roots({{large, 3 * large}, {large + 1, 3 * large}, {large + 5, 3 * large}, {3, 5}}),
+      with_roots({{1, large}, {2, large}, {1, large * large}, {-1, large}, {1, 2}}),
+      with_roots({{large - 1, large},
+                  {large - 2, large},
+                  {large - 5, large},
+                  {large + 1, large},
+                  {large + 7, large}})};
+  const std::size_t inside[] = {4, 4, 3};
+  for (std::size_t i = 0; i < std::size(clusters); ++i) {
+    auto roots = sturm::roots_in_unit_interval(clusters[i]);
+    ASSERT_EQ(roots.size(), inside[i]);
+    for (auto& root : roots) EXPECT_EQ(root.sign(clusters[i]), 0);
+  }
+  // Between its neighbours, each root has a sign of its own.
+  auto roots = sturm::roots_in_unit_interval(clusters[0]);
+  const IntegerPolynomial between_first_two = with_roots({{2 * large + 1, 6 * large}});
+  EXPECT_EQ(
+      std::count_if(roots.begin(), roots.end(), [&](auto& root) { return root.sign(between_first_two) < 0; }),
+      1);
+}
+
+TEST(IntegerPolynomial, KnowsPolynomialsWithoutCommonRoot) {
+  const IntegerPolynomial f = with_roots({{1, 3}, {2, 3}, {5, 7}});
+  EXPECT_TRUE(sturm::are_surely_coprime(f, with_roots({{1, 2}, {3, 4}})));
+  EXPECT_FALSE(sturm::are_surely_coprime(f, with_roots({{1, 2}, {2, 3}})));
+  EXPECT_FALSE(sturm::are_surely_coprime(f, f));
+  // The prime divides the leading coefficient, so residues have no root where the polynomials have one.
+  const IntegerPolynomial special({1, 4294967291});
+  EXPECT_FALSE(sturm::are_surely_coprime(special, special * f));
 }
 
 TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
