@@ -27,6 +27,13 @@ using certified::Conversion;
 /// Whether the primitives touch, whatever the query's separation is.
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
+/// A number in the middle of two positive ones, or of their magnitudes if these are far apart.
+double middle_of(double lo, double hi) {
+  const int low = std::ilogb(lo);
+  const int high = std::ilogb(hi);
+  return high - low > 1 ? std::ldexp(1.0, std::midpoint(low, high)) : std::midpoint(lo, hi);
+}
+
 /// Narrows an enclosure of a distance above a base by exact comparisons.
 class Narrowing {
  public:
@@ -36,20 +43,19 @@ class Narrowing {
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
   /// Compares once; false if no double is left between the ends. Most distances are hardly below the upper end, so the first
-  /// numbers are not far from it; the next ones halve the number of doubles in between, counted from the base.
+  /// numbers are not far from it; the next ones are in the middle between the ends, counted from the base.
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);
     if (least > most) return false;
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    const double middle =
-        base_ + std::bit_cast<double>(std::midpoint(bits(least - base_), bits(most - base_)));
-    const double near_upper = std::bit_cast<double>(bits(distance_.hi) - step_);
-    const bool is_near = step_ < bits(distance_.hi) - bits(distance_.lo) && near_upper > middle;
+    const auto doubles = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    const double middle = base_ + middle_of(least - base_, most - base_);
+    const double near_upper = std::bit_cast<double>(doubles(distance_.hi) - step_);
+    const bool is_near = step_ < doubles(distance_.hi) - doubles(distance_.lo) && near_upper > middle;
     const double number = std::clamp(is_near ? near_upper : middle, least, most);
     const bool is_below = comes_within(query_, number);
     (is_below ? distance_.hi : distance_.lo) = number;
-    if (is_below && is_near) step_ *= 256;
+    if (is_below && is_near) step_ = std::min(step_, ~std::uint64_t{0} >> 16) << 16;
     return true;
   }
 
