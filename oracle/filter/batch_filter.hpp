@@ -18,8 +18,8 @@
 
 namespace nearmiss::certified {
 
-/// Processes the queries stage by stage, with the undecided ones side by side in n lanes: moving planes; F of
-/// one sign; then parts of the step. The last stage is a simpler version of ContactSearch, which leaves
+/// Processes the queries stage by stage, with the undecided ones side by side in n lanes: boxes and moving
+/// planes; F of one sign; then parts of the step. The last stage is a simpler version of ContactSearch, which leaves
 /// difficult queries undecided. The results of a lane depend only on its query, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
@@ -106,6 +106,27 @@ class BatchFilter {
     __builtin_prefetch(bytes + sizeof(Query) - 1);
   }
 
+  /// The lanes in which the swept boxes do not meet; box.hpp says why that is exact.
+  static Mask boxes_apart(const PointLanes& x) {
+    constexpr std::size_t middle = split(kind);
+    Mask apart{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto range = [&](std::size_t first, std::size_t last) {
+        Real lo = min(x(0, first, k), x(1, first, k));
+        Real hi = max(x(0, first, k), x(1, first, k));
+        for (std::size_t v = first + 1; v < last; ++v) {
+          lo = min(lo, min(x(0, v, k), x(1, v, k)));
+          hi = max(hi, max(x(0, v, k), x(1, v, k)));
+        }
+        return std::pair{lo, hi};
+      };
+      const auto [lo_a, hi_a] = range(0, middle);
+      const auto [lo_b, hi_b] = range(middle, 4);
+      apart = apart | (lo_a > hi_b) | (lo_b > hi_a);
+    }
+    return apart;
+  }
+
   Rows cull_by_planes(const Rows& rows, FilterStage* stages) const {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
@@ -118,12 +139,14 @@ class BatchFilter {
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
-      constexpr int separated = 1;
-      constexpr int unsure = 2;
-      for_lanes((finite & apart).as(separated) | (finite & (!apart)).as(unsure), rows.size() - i,
+      // By code: not finite, not separated, and separated by a plane, by the boxes, or by both.
+      constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
+                                    FilterStage::boxes, FilterStage::boxes};
+      constexpr int unsure = 1;
+      for_lanes(finite.as(unsure) + (finite & apart).as(1) + (finite & boxes_apart(x)).as(2), rows.size() - i,
                 [&](std::size_t l, std::int64_t code) {
                   const std::size_t row = rows[i + l];
-                  stages[row] = code == separated ? FilterStage::planes : FilterStage::undecided;
+                  stages[row] = stage_of[static_cast<std::size_t>(code)];
                   left.add_if(code == unsure, row);
                 });
     }

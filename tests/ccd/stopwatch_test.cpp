@@ -35,6 +35,16 @@ TEST(Stopwatch, CountsComputing) {
   }
 }
 
+TEST(Stopwatch, CountsShortComputing) {
+  constexpr std::uint64_t short_time = 1000;
+  const auto compute_shortly = [] {
+    const std::uint64_t start = now(CLOCK_MONOTONIC);
+    while (now(CLOCK_MONOTONIC) < start + short_time) {
+    }
+  };
+  EXPECT_GE(best_time_of(CLOCK_THREAD_CPUTIME_ID, compute_shortly), short_time);
+}
+
 /// Keeps the calling thread, and another one that computes all the time, on one processor.
 class Shared {
  public:

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "oracle/filter/box.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/oracle/hard_queries.hpp"
 #include "tests/queries.hpp"
@@ -85,6 +86,22 @@ TEST(BatchFilter, AnswersAsTheFilterOfOneQuery) {
     ASSERT_EQ(is_collision(stages[i]), is_collision(alone)) << testing::repeat(i, queries[i]);
   }
   EXPECT_GT(decided, queries.size() / 2);
+}
+
+TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
+  std::vector<Query> queries = hard_queries(9, 20000);
+  for (std::size_t i = 0; i < 20000; ++i) {
+    Random random(10, 0, i);  // boxes of small integers often touch
+    queries.push_back(testing::integer_query(random, testing::kind_of_case(i), 2));
+  }
+  const auto stages = filter_all(queries, widest_instructions());
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    ASSERT_EQ(stages[i] == FilterStage::boxes, !boxes_meet(queries[i])) << testing::repeat(i, queries[i]);
+    apart += stages[i] == FilterStage::boxes ? 1 : 0;
+  }
+  EXPECT_GT(apart, queries.size() / 20);
+  EXPECT_LT(apart, queries.size() / 2);
 }
 
 // A worse guess of where to look is still right, but it leaves more queries to exact arithmetic, which is slow.
