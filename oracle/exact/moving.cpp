@@ -24,31 +24,45 @@ PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
   return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
 }
 
-int unit_exponent(const Query& query) {
+Unit::Unit(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
-  return largest == 0 ? 0 : -3 - std::ilogb(largest);
+  exponent_ = largest == 0 ? 0 : -3 - std::ilogb(largest);
+  factor_ = std::ldexp(1.0, exponent_);
 }
 
-Number scaled(double x, int exponent) {
+Number Unit::scaled(double x) const {
   // A product that is a normal number is exact.
-  if (const double product = std::ldexp(x, exponent); std::isnormal(product) || x == 0) return product;
-  // 2^exponent need not be a double.
-  return Number(x) * Number(std::ldexp(1.0, exponent / 2)) * Number(std::ldexp(1.0, exponent - exponent / 2));
+  if (const double product = x * factor_; std::isnormal(product)) return product;
+  if (x == 0) return 0;
+  return Number(x) * Number(std::ldexp(1.0, exponent_ / 2)) *
+         Number(std::ldexp(1.0, exponent_ - exponent_ / 2));
 }
 
-std::array<PolynomialVector, 4> moving_points(const Query& query, int exponent) {
-  std::array<PolynomialVector, 4> points;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Number start = scaled(query.x[3 * i + k], exponent);
-      const Number end = scaled(query.x[12 + 3 * i + k], exponent);
-      Numbers coefficients;
-      coefficients.push_back(start);
-      coefficients.push_back(end - start);
-      points[i][k] = Polynomial(std::move(coefficients));
-    }
-  return points;
+namespace {
+
+/// A vector whose component k moves from at(k) at t = 0 to at(12 + k) at t = 1.
+template <class At>
+PolynomialVector moving(const At& at) {
+  PolynomialVector vector;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Numbers coefficients;
+    coefficients.push_back(at(k));
+    coefficients.push_back(at(12 + k) - coefficients[0]);
+    vector[k] = Polynomial(std::move(coefficients));
+  }
+  return vector;
+}
+
+}  // namespace
+
+PolynomialVector moving_point(const Query& query, std::size_t i, const Unit& unit) {
+  return moving([&](std::size_t k) { return unit.scaled(query.x[3 * i + k]); });
+}
+
+PolynomialVector moving_difference(const Query& query, std::size_t i, std::size_t j, const Unit& unit) {
+  return moving(
+      [&](std::size_t k) { return unit.scaled(query.x[3 * i + k]) - unit.scaled(query.x[3 * j + k]); });
 }
 
 }  // namespace nearmiss::exact

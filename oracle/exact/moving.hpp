@@ -18,14 +18,23 @@ Polynomial dot(const PolynomialVector& a, const PolynomialVector& b);
 Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k);
 PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
 
-/// The exponent of a power of two that scales all coordinates below 1/4. Differences of four coordinates are then below 1,
-/// and these and most products have no more limbs than necessary.
-int unit_exponent(const Query& query);
+/// A power of two that scales all coordinates of a query below 1/4. Differences of four coordinates are then below 1, and these
+/// and most products have no more limbs than necessary.
+class Unit {
+ public:
+  explicit Unit(const Query& query);
 
-/// x 2^exponent.
-Number scaled(double x, int exponent);
+  /// x times the power of two.
+  [[nodiscard]] Number scaled(double x) const;
 
-/// The points x0 to x3, x(0) + t (x(1) - x(0)), multiplied by 2^exponent.
-std::array<PolynomialVector, 4> moving_points(const Query& query, int exponent);
+ private:
+  int exponent_;
+  double factor_;  ///< the power of two; infinite if it is too large for a double
+};
+
+/// Vertex i, moving on a line, in a unit.
+PolynomialVector moving_point(const Query& query, std::size_t i, const Unit& unit);
+/// Vertex i minus vertex j.
+PolynomialVector moving_difference(const Query& query, std::size_t i, std::size_t j, const Unit& unit);
 
 }  // namespace nearmiss::exact

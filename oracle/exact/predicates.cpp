@@ -12,12 +12,12 @@ OnSegment on_segment(const PolynomialVector& x, const PolynomialVector& a, const
 
 }  // namespace
 
-Predicates::Predicates(const Query& query)
-    : kind_(query.kind), x_(moving_points(query, unit_exponent(query))) {
-  const bool is_triangle = kind_ == Kind::vertex_triangle;
-  p_ = is_triangle ? x_[0] - x_[1] : x_[2] - x_[0];
-  q_ = is_triangle ? x_[2] - x_[1] : x_[1] - x_[0];
-  r_ = is_triangle ? x_[3] - x_[1] : x_[3] - x_[2];
+Predicates::Predicates(const Query& query) : query_(query), unit_(query) {
+  const bool is_triangle = query.kind == Kind::vertex_triangle;
+  const auto difference = [&](std::size_t i, std::size_t j) { return moving_difference(query, i, j, unit_); };
+  p_ = is_triangle ? difference(0, 1) : difference(2, 0);
+  q_ = is_triangle ? difference(2, 1) : difference(1, 0);
+  r_ = is_triangle ? difference(3, 1) : difference(3, 2);
 }
 
 const Polynomial& Predicates::F() {
@@ -43,7 +43,7 @@ const std::vector<OnSegment>& Predicates::segments() {
 std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
   const Polynomial& normal = N()[k];
   const Polynomial of_q = cross(p_, r_, k);
-  if (kind_ == Kind::vertex_triangle) {
+  if (query_.kind == Kind::vertex_triangle) {
     const Polynomial of_r = cross(q_, p_, k);
     return {normal - of_q - of_r, of_q, of_r};
   }
@@ -52,8 +52,10 @@ std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
 }
 
 std::vector<OnSegment> Predicates::make_segments() const {
-  const auto& [x0, x1, x2, x3] = x_;
-  if (kind_ == Kind::vertex_triangle)
+  std::array<PolynomialVector, 4> x;
+  for (std::size_t i = 0; i < 4; ++i) x[i] = moving_point(query_, i, unit_);
+  const auto& [x0, x1, x2, x3] = x;
+  if (query_.kind == Kind::vertex_triangle)
     return {on_segment(x0, x1, x2), on_segment(x0, x2, x3), on_segment(x0, x3, x1)};
   return {on_segment(x0, x2, x3), on_segment(x1, x2, x3), on_segment(x2, x0, x1), on_segment(x3, x0, x1)};
 }

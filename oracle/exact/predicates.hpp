@@ -19,7 +19,7 @@ struct OnSegment {
 };
 
 /// The polynomials that decide a query (degree 3 for F, 2 for the others), computed on first use. The
-/// coordinates are those of the query times a power of two (`unit_exponent`). The vectors p, q, r are the paper's: x0 - x1,
+/// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are the paper's: x0 - x1,
 /// x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
@@ -42,8 +42,8 @@ class Predicates {
   [[nodiscard]] std::vector<Polynomial> make_weights(std::size_t k);
   [[nodiscard]] std::vector<OnSegment> make_segments() const;
 
-  Kind kind_;
-  std::array<PolynomialVector, 4> x_;
+  Query query_;
+  Unit unit_;
   PolynomialVector p_, q_, r_;
   std::optional<Polynomial> F_;
   std::optional<PolynomialVector> N_;
