@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace nearmiss::exact {
@@ -32,8 +33,11 @@ Unit::Unit(const Query& query) {
 }
 
 Number Unit::scaled(double x) const {
-  // A product that is a normal number is exact.
-  if (const double product = x * factor_; std::isnormal(product)) return product;
+  // A finite product above the smallest normal number is exact; one that is equal to it may be rounded upward.
+  using Limits = std::numeric_limits<double>;
+  if (const double product = x * factor_;
+      std::abs(product) > Limits::min() && std::abs(product) <= Limits::max())
+    return product;
   if (x == 0) return 0;
   return Number(x) * Number(std::ldexp(1.0, exponent_ / 2)) *
          Number(std::ldexp(1.0, exponent_ - exponent_ / 2));

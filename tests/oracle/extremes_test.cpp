@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oracle/agreement.hpp"
+#include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/sturm.hpp"
 #include "tests/queries.hpp"
@@ -167,6 +168,24 @@ TEST(Extremes, AllCoordinatesEqual) {
       expect_collision(query, true);
       EXPECT_EQ(earliest_time(query)->enclosure().hi, 0);
     }
+}
+
+// Multiplied by a power of two, such coordinates lie between the largest subnormal number and the smallest normal one.
+TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
+  for (int exponent = -1026; exponent <= -1014; ++exponent) {
+    const double z = std::ldexp(1.0, exponent);
+    const double below = std::nextafter(z, 0.0);
+    const auto at_height = [&](double height) {
+      const testing::Points points{{0, 0, height}, {1, 0, 0}, {-1, 1, 2 * z}, {-1, -1, 2 * z}};
+      return make_query(Kind::vertex_triangle, points, points);
+    };
+    expect_collision(at_height(z), true);  // the triangle has the height z at x = y = 0
+    expect_collision(at_height(below), false);
+    expect_collision(at_height(-below), false);
+    const Enclosure distance = minimum_distance(at_height(below));
+    EXPECT_LE(distance.lo, z - below);
+    EXPECT_GE(distance.hi, std::nextafter(z - below, 0.0));
+  }
 }
 
 TEST(Extremes, RootsOfEveryMultiplicity) {
