@@ -133,7 +133,10 @@ class ContactSearch {
       if (!(left > F_.error && right > F_.error)) continue;
       const int agreement = agree ? 1 : weights.agreement_near(root, h);
       if (agreement > 0) return found(near, interval);
-      if (agreement < 0) return go_on_beside(interval, widest_opposed(interval, root, near, weights));
+      if (agreement < 0) {
+        if (is_only_root(near, interval)) return FilterStage::weights;
+        return go_on_beside(interval, widest_opposed(interval, root, near, weights));
+      }
       const FilterStage closer = zoom(near);
       if (closer == FilterStage::sign_change) return look_before(near, interval);
       return closer == FilterStage::weights ? go_on_beside(interval, near) : closer;
@@ -170,6 +173,11 @@ class ContactSearch {
     count_ = 0;
     push({interval.lo, near.lo});
     return FilterStage::weights;
+  }
+
+  /// Whether F certainly has no root in an interval outside `near`.
+  [[nodiscard]] bool is_only_root(const Enclosure& near, const Enclosure& interval) const {
+    return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
 
   /// The widest of some intervals around a root in which two weights certainly have opposite signs, as in
