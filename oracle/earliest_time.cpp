@@ -60,15 +60,25 @@ bool is_below(Root t, double time) {
 namespace {
 
 exact::FirstApproach first_approach(const Query& query) {
-  if (query.separation > 0) {
-    auto approach = exact::first_approach(query);
-    if (!approach) refuse();
-    return *std::move(approach);
-  }
+  auto approach = exact::first_approach(query);
+  if (!approach) refuse();
+  return *std::move(approach);
+}
+
+/// The first contact, as a root of F. Certified bounds know that F changes its sign in an enclosure of it and that every root
+/// there is a contact: if F has only one, that is the first contact.
+Root first_root(const Query& query, const KnownTime& known) {
   exact::Predicates predicates(query);
+  if (known.is_between) {
+    const Number lo = known.time.lo;
+    const Number hi = known.time.hi;
+    const exact::Polynomial& F = predicates.F();
+    if (exact::OnInterval(F, lo, hi).changes() == 1 && F.sign_at(lo) != 0 && F.sign_at(hi) != 0)
+      return Root(std::make_shared<const exact::Polynomial>(F), lo, hi);
+  }
   auto contact = exact::first_contact(predicates);
   if (!contact) refuse();
-  return {contact->time, contact->time};
+  return contact->time;
 }
 
 /// Certified bounds show that the distance is above h right at the beginning of the enclosure, unless that is 0, and below h at
@@ -107,7 +117,7 @@ int comparison(const Enclosure& known, double time) {
 bool EarliestTime::is_before(double time) {
   const PlainArithmetic guard;
   int before = comparison(rough_.time, time);
-  if (before < 0) before = comparison(narrow().time, time);
+  if (before < 0 && !exact_) before = comparison(narrow().time, time);
   if (before >= 0) return before == 1;
   return is_below(exact().time, time);
 }
@@ -132,7 +142,8 @@ Enclosure EarliestTime::enclosure(double width) {
     return hi - lo <= width || (known.is_between && std::nextafter(lo, 2.0) == hi);
   };
   if (is_narrow(rough_)) return rough_.time;
-  if (is_narrow(narrow())) return narrow().time;
+  const bool is_unique = width == 0;  // so a known exact time gives the same
+  if (!(is_unique && exact_) && is_narrow(narrow())) return narrow().time;
   return enclose(exact().time, width);
 }
 
@@ -154,7 +165,12 @@ const KnownTime& EarliestTime::narrow() {
 }
 
 const exact::FirstApproach& EarliestTime::exact() {
-  if (!exact_) exact_ = std::make_shared<exact::FirstApproach>(first_approach(query_));
+  if (!exact_ && query_.separation > 0) {
+    exact_ = std::make_shared<exact::FirstApproach>(first_approach(query_));
+  } else if (!exact_) {
+    const Root t = first_root(query_, narrow());
+    exact_ = std::make_shared<exact::FirstApproach>(exact::FirstApproach{t, t});
+  }
   return *exact_;
 }
 

@@ -57,10 +57,7 @@ void decide(std::span<const Query> queries, std::span<Decision> decisions) {
   }
   std::vector<FilterStage> stages(queries.size());
   filter(queries, stages);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const bool is_open = stages[i] == FilterStage::undecided;  // coordinates may be infinite
-    decisions[i] = settle(queries[i], is_open && !boxes_meet(queries[i]) ? FilterStage::boxes : stages[i]);
-  }
+  for (std::size_t i = 0; i < queries.size(); ++i) decisions[i] = settle(queries[i], stages[i]);
 }
 
 bool collides(const Query& query) { return decide(query).collision; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ccd/arithmetic.hpp"
+#include "oracle/filter/box.hpp"
 #include "oracle/filter/end_contact.hpp"
 #include "oracle/filter/instruction_sets.hpp"
 #include "oracle/filter/planes.hpp"
@@ -113,7 +114,8 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
 void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instructions instructions) {
   certified::filter_all(queries, 1, stages, instructions);
   for (std::size_t i = 0; i < queries.size(); ++i)
-    if (stages[i] == FilterStage::undecided) stages[i] = filter(queries[i]);
+    if (stages[i] == FilterStage::undecided)
+      stages[i] = boxes_meet(queries[i]) ? filter(queries[i]) : FilterStage::boxes;
 }
 
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {

@@ -10,6 +10,7 @@
 #include "oracle/features.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/primitives.hpp"
+#include "oracle/sturm/root.hpp"
 #include "oracle/sturm/sturm.hpp"
 #include "tests/fuzz/family_queries.hpp"
 

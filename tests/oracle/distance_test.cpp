@@ -60,6 +60,24 @@ TEST(Distance, ScalesFromTinyToHuge) {
                     std::ldexp(0.5, exponent));
 }
 
+TEST(Distance, BeyondASeparationIsKnownNextToIt) {
+  const auto needed = [](double hi) { return 0.999 * hi; };
+  // x1 is (1, 2, 2), whose distance from the origin is 3.
+  const testing::Points points{{0, 0, 0}, {1, 2, 2}, {2, 4, 5}, {2, 5, 4}};
+  const Query query = make_query(Kind::vertex_triangle, points, points);
+  for (const double unit : {1.0, 0.25}) {
+    const Enclosure tie = distance_beyond_separation(with_separation(query, 3), unit, needed);
+    EXPECT_EQ(tie.lo, 0);
+    EXPECT_LE(tie.hi, unit == 1 ? 0 : 0x1p-48);
+    EXPECT_EQ(distance_beyond_separation(with_separation(query, 4), unit, needed).hi, 0);
+    const double h = std::nextafter(3.0, 0.0);
+    const Enclosure beyond = distance_beyond_separation(with_separation(query, h), unit, needed);
+    EXPECT_LE(beyond.lo, (3 - h) / unit);
+    EXPECT_GE(beyond.hi, (3 - h) / unit);
+    EXPECT_LE(beyond.hi, 4 * (3 - h) / unit);
+  }
+}
+
 TEST(Distance, NothingExceedsAnInfiniteBound) {
   EXPECT_FALSE(distance_exceeds(falling_vertex(0.25, 0.25, 3, 2), std::numeric_limits<double>::infinity()));
 }
