@@ -60,15 +60,15 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
 }
 
 /// The shortest time of three tries, since a disturbance seldom affects all three. Reading the CPU clock takes longer than most
-/// decisions, and is too inaccurate for them. So the wall clock alone times work that is over before the CPU clock could say
-/// anything else.
+/// decisions, and is too inaccurate for them. So the wall clock alone times short work; long work is tried once more for that.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns
   const auto by_wall = [&] {
     const auto start = std::chrono::steady_clock::now();
     work();
-    return static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1));
+    return static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start) /
+                                      std::chrono::nanoseconds(1));
   };
   const std::uint64_t first = by_wall();
   if (first < short_time) return std::min({first, by_wall(), by_wall()});

@@ -66,7 +66,7 @@ class Narrowing {
   std::uint64_t step_ = 64;  ///< from the upper end, in doubles
 };
 
-/// distance_in_units for distances of which only the part above `base` is needed: needed(hi) <= base / unit if hi is so, too.
+/// distance_in_units for distances of which only the part above `base` is needed: if hi <= base / unit, so is needed(hi).
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // The largest double is as near to infinity as a double can be.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };

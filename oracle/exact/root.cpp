@@ -16,7 +16,7 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// An exponent of a power of two that is greater than |x| by a factor of 4 at most, for x not zero.
+/// An exponent of a power of two that is greater than |x| by a factor of 2 at most, for x not zero.
 std::ptrdiff_t exponent_above(const Number& x) {
   const CGAL::Gmpq fraction(x);
   return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) -
@@ -46,13 +46,14 @@ std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
   return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
 }
 
-/// x / y rounded towards 0.
-CGAL::Gmpz integer_quotient(const Number& x, const Number& y) {
+/// |x / y| rounded down; y must not be 0. CGAL's conversion of an integer to a Number is right for positive integers only.
+Number integer_quotient(const Number& x, const Number& y) {
   const CGAL::Gmpq a(x);
   const CGAL::Gmpq b(y);
   const std::ptrdiff_t shift = exponent_of_denominator(b) - exponent_of_denominator(a);
-  return (a.numerator() << std::max<std::ptrdiff_t>(shift, 0)) /
-         (b.numerator() << std::max<std::ptrdiff_t>(-shift, 0));
+  const CGAL::Gmpz quotient = CGAL::abs((a.numerator() << std::max<std::ptrdiff_t>(shift, 0)) /
+                                        (b.numerator() << std::max<std::ptrdiff_t>(-shift, 0)));
+  return CGAL::is_zero(quotient) ? Number(0) : Number(quotient);
 }
 
 // The functions below represent a polynomial in double as OnInterval does: by the c_i of s^i (1 - s)^(n - i),
@@ -162,10 +163,11 @@ std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
   const Number f1 = c_[1] - Number(n) * f0;
   const Number f2 = Number(2) * (c_[2] - Number(n - 1) * c_[1]) + Number(n * (n - 1)) * f0;
   const Number denominator = f1 * f1 - f0 * f2;
-  if (CGAL::is_zero(denominator)) return std::nullopt;
+  const Number numerator = -f0 * f1;
+  if (sign(numerator) * sign(denominator) <= 0) return std::nullopt;
   const Number unit = power_of_half(bits);
-  const Number guess = unit * Number(integer_quotient(-f0 * f1, denominator * unit));
-  if (guess < 0 || guess > 1) return std::nullopt;
+  const Number guess = unit * integer_quotient(numerator, denominator * unit);
+  if (guess > 1) return std::nullopt;
   return guess;
 }
 

@@ -41,7 +41,7 @@ class OnInterval {
   /// Guesses where an extremum may be, as a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
   /// Guesses where a cluster of roots may be, as a fraction of the interval that is a multiple of 2^-bits; nothing if the guess
-  /// is outside.
+  /// is outside or at the lower end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
  private:

@@ -101,7 +101,7 @@ Integer border_near_cluster(const IntegerPolynomial& f, const Dyadic& lo, const 
   return border > Integer(1) << bits ? -1 : border;
 }
 
-/// The part of an interval that a guess shows to have all its roots; nothing if the guess is wrong.
+/// The part of an interval that a guess shows to have all its roots; nothing if it does not show that.
 std::optional<std::pair<Place, Place>> narrowed(const SturmSequence& sequence, const Place& lo,
                                                 const Place& hi, unsigned bits) {
   const IntegerPolynomial& f = sequence.f;

@@ -8,7 +8,7 @@
 namespace nearmiss {
 
 /// How near two primitives come in a part of the step. It is exact for every finite query with h > 0, and shares no code with
-/// the first method: roots are isolated by Sturm's theorem, Tarski's queries give signs there, and derivatives give signs right
+/// the first method: roots are isolated by Sturm's theorem, `SturmRoot` gives signs there, and derivatives give signs right
 /// behind them. They are isolated when a question needs them, and kept for the next.
 class SturmApproach {
  public:

@@ -37,7 +37,8 @@ Filtered ask_filters(std::span<const Query> queries) {
   Filtered filtered{Stages(queries.size()), Stages(queries.size()), Stages(queries.size())};
   filter_with_caution(queries, 1, filtered.batch);
   filter_with_caution(queries, caution, filtered.cautious);
-  for (std::size_t i = 0; i < queries.size(); ++i) filtered.scalar[i] = filter(queries[i]);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    filtered.scalar[i] = boxes_meet(queries[i]) ? filter(queries[i]) : FilterStage::boxes;
   return filtered;
 }
 

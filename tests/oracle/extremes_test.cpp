@@ -185,6 +185,8 @@ TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
     const Enclosure distance = minimum_distance(at_height(below));
     EXPECT_LE(distance.lo, z - below);
     EXPECT_GE(distance.hi, std::nextafter(z - below, 0.0));
+    const testing::Points flat{{0, 0, below}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+    expect_collision(with_separation(make_query(Kind::vertex_triangle, flat, flat), z), true);
   }
 }
 

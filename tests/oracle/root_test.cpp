@@ -92,6 +92,17 @@ TEST(Root, PartsCloseRoots) {
   }
 }
 
+TEST(OnInterval, GuessesWhereAClusterIs) {
+  const auto guess = [](const Polynomial& p) { return OnInterval(p, 0, 1).guess_cluster(11); };
+  const auto squared = [](double constant, double slope) {
+    return polynomial({constant, slope}) * polynomial({constant, slope});
+  };
+  EXPECT_EQ(guess(squared(-3, 4)), Number(0.75));
+  EXPECT_EQ(guess(squared(-1, 0x1p300)), Number(0));
+  EXPECT_EQ(guess(squared(-5, 4)), std::nullopt);  // 5/4
+  EXPECT_EQ(guess(squared(1, 8)), std::nullopt);   // -1/8
+}
+
 TEST(Root, PartsClustersOfRoots) {
   for (const int exponent : {-40, -400, -1000}) {
     const Number gap(std::ldexp(1.0, exponent));

@@ -21,7 +21,7 @@ namespace {
 using sturm::Integer;
 using sturm::IntegerPolynomial;
 
-TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
+TEST(SturmRoot, FindsEveryRootInTheUnitInterval) {
   // t (t - 1) (2t - 1) (t - 2) (9t² - 2): roots 0, 1, 1/2 and √2/3 in [0, 1].
   const IntegerPolynomial t({0, 1});
   const IntegerPolynomial f = t * (t - IntegerPolynomial({1})) * IntegerPolynomial({-1, 2}) *
@@ -36,7 +36,7 @@ TEST(IntegerPolynomial, FindsEveryRootInTheUnitInterval) {
   EXPECT_EQ(below_half, 2);
 }
 
-TEST(IntegerPolynomial, SeparatesRootsThatAreCloserThanAnyDouble) {
+TEST(SturmRoot, SeparatesRootsThatAreCloserThanAnyDouble) {
   // 2^602 ((t - 1/2)² - 2^-600)
   const Integer scale = Integer(1) << 602;
   auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({scale / 4 - 4, -scale, scale}));
@@ -51,7 +51,7 @@ IntegerPolynomial with_roots(std::initializer_list<std::pair<Integer, Integer>> 
   return f;
 }
 
-TEST(IntegerPolynomial, SeparatesClustersOfRoots) {
+TEST(SturmRoot, SeparatesClustersOfRoots) {
   const Integer large = Integer(1) << 900;
   // Near 1/3, near 0 and near 1; of the last cluster, two roots are outside.
   const IntegerPolynomial clusters[] = {
@@ -68,7 +68,7 @@ TEST(IntegerPolynomial, SeparatesClustersOfRoots) {
     ASSERT_EQ(roots.size(), inside[i]);
     for (auto& root : roots) EXPECT_EQ(root.sign(clusters[i]), 0);
   }
-  // Between its neighbours, each root has a sign of its own.
+  // Only one of them is below a number between the first two.
   auto roots = sturm::roots_in_unit_interval(clusters[0]);
   const IntegerPolynomial between_first_two = with_roots({{2 * large + 1, 6 * large}});
   EXPECT_EQ(
@@ -86,7 +86,7 @@ TEST(IntegerPolynomial, KnowsPolynomialsWithoutCommonRoot) {
   EXPECT_FALSE(sturm::are_surely_coprime(special, special * f));
 }
 
-TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
+TEST(SturmRoot, SignsSurviveNegativeLeadingCoefficients) {
   // f = -(3t - 1)(t - 3): one root, 1/3, in [0, 1]; 1 - 4t is negative there.
   const IntegerPolynomial f({-3, 10, -3});
   auto roots = sturm::roots_in_unit_interval(f);
@@ -96,7 +96,7 @@ TEST(IntegerPolynomial, SignsSurviveNegativeLeadingCoefficients) {
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({0, 0, 0, 0, 1})), 1);
 }
 
-TEST(IntegerPolynomial, ComparesRootsWithNumbers) {
+TEST(SturmRoot, ComparesRootsWithNumbers) {
   // (2t - 1) (9t² - 2): the roots are 1/2 and √2/3 = 0.4714..., of which a double is nearest to the second.
   auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({-1, 2}) * IntegerPolynomial({-2, 0, 9}));
   ASSERT_EQ(roots.size(), 2);
