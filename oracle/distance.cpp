@@ -85,7 +85,7 @@ Enclosure distance_above(double base, const Query& query, double unit, const Nee
     return unit == 1 ? distance : Enclosure{exact_ratio.lower(distance.lo), exact_ratio.upper(distance.hi)};
   };
   if (base > 0 && comes_within(query, base)) return in_units({0, base});
-  Narrowing exact(query, base, {std::max(base, to_distance.lower(approach.lower)), upper});
+  Narrowing exact(query, base, {base, upper});
   while (in_units(exact.distance()).lo < needed(in_units(exact.distance()).hi) && exact.compare()) {
   }
   return in_units(exact.distance());
