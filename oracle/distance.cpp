@@ -80,12 +80,11 @@ Enclosure distance_above(double base, const Query& query, double unit, const Nee
 
   const Conversion to_distance(1, differences.exponent());
   const Conversion exact_ratio(unit, 0);
-  const double upper = to_distance.upper(approach.upper);
   const auto in_units = [&](const Enclosure& distance) {
     return unit == 1 ? distance : Enclosure{exact_ratio.lower(distance.lo), exact_ratio.upper(distance.hi)};
   };
   if (base > 0 && comes_within(query, base)) return in_units({0, base});
-  Narrowing exact(query, base, {base, upper});
+  Narrowing exact(query, base, {base, to_distance.upper(approach.upper)});
   while (in_units(exact.distance()).lo < needed(in_units(exact.distance()).hi) && exact.compare()) {
   }
   return in_units(exact.distance());

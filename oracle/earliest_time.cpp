@@ -165,12 +165,12 @@ const KnownTime& EarliestTime::narrow() {
 }
 
 const exact::FirstApproach& EarliestTime::exact() {
-  if (!exact_ && query_.separation > 0) {
-    exact_ = std::make_shared<exact::FirstApproach>(first_approach(query_));
-  } else if (!exact_) {
+  const auto find = [&]() -> exact::FirstApproach {
+    if (query_.separation > 0) return first_approach(query_);
     const Root t = first_root(query_, narrow());
-    exact_ = std::make_shared<exact::FirstApproach>(exact::FirstApproach{t, t});
-  }
+    return {t, t};
+  };
+  if (!exact_) exact_ = std::make_shared<exact::FirstApproach>(find());
   return *exact_;
 }
 

@@ -60,8 +60,11 @@ PolynomialVector moving(const At& at) {
 
 }  // namespace
 
-PolynomialVector moving_point(const Query& query, std::size_t i, const Unit& unit) {
-  return moving([&](std::size_t k) { return unit.scaled(query.x[3 * i + k]); });
+std::array<PolynomialVector, 4> moving_points(const Query& query, const Unit& unit) {
+  std::array<PolynomialVector, 4> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    points[i] = moving([&](std::size_t k) { return unit.scaled(query.x[3 * i + k]); });
+  return points;
 }
 
 PolynomialVector moving_difference(const Query& query, std::size_t i, std::size_t j, const Unit& unit) {

@@ -32,9 +32,9 @@ class Unit {
   double factor_;  ///< the power of two; infinite if it is too large for a double
 };
 
-/// Vertex i, moving on a line, in a unit.
-PolynomialVector moving_point(const Query& query, std::size_t i, const Unit& unit);
-/// Vertex i minus vertex j.
+/// The points x0 to x3, x(0) + t (x(1) - x(0)), in a unit.
+std::array<PolynomialVector, 4> moving_points(const Query& query, const Unit& unit);
+/// Point i minus point j.
 PolynomialVector moving_difference(const Query& query, std::size_t i, std::size_t j, const Unit& unit);
 
 }  // namespace nearmiss::exact

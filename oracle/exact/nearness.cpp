@@ -30,8 +30,7 @@ Nearness::Nearness(const Query& query, double b) {
   const Unit unit(query);
   const Number scaled_b = unit.scaled(b);
   squared_b_ = Polynomial({scaled_b * scaled_b});
-  std::array<PolynomialVector, 4> x;
-  for (std::size_t i = 0; i < 4; ++i) x[i] = moving_point(query, i, unit);
+  const auto x = moving_points(query, unit);
   if (query.kind == Kind::vertex_triangle) {
     for (std::size_t i = 1; i < 4; ++i) {
       add_vertices(x[0], x[i]);

@@ -52,9 +52,7 @@ std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
 }
 
 std::vector<OnSegment> Predicates::make_segments() const {
-  std::array<PolynomialVector, 4> x;
-  for (std::size_t i = 0; i < 4; ++i) x[i] = moving_point(query_, i, unit_);
-  const auto& [x0, x1, x2, x3] = x;
+  const auto [x0, x1, x2, x3] = moving_points(query_, unit_);
   if (query_.kind == Kind::vertex_triangle)
     return {on_segment(x0, x1, x2), on_segment(x0, x2, x3), on_segment(x0, x3, x1)};
   return {on_segment(x0, x2, x3), on_segment(x1, x2, x3), on_segment(x2, x0, x1), on_segment(x3, x0, x1)};

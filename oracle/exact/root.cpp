@@ -16,11 +16,15 @@ namespace nearmiss::exact {
 
 namespace {
 
+/// k, for a denominator of 2^k.
+std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
+  return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
+}
+
 /// An exponent of a power of two that is greater than |x| by a factor of 2 at most, for x not zero.
 std::ptrdiff_t exponent_above(const Number& x) {
   const CGAL::Gmpq fraction(x);
-  return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) -
-         static_cast<std::ptrdiff_t>(fraction.denominator().bit_size()) + 1;
+  return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) - exponent_of_denominator(fraction);
 }
 
 /// The numbers in double, scaled by a power of two that brings the largest near 1; not all may be zero.
@@ -40,10 +44,6 @@ std::vector<double> in_proportion(const Numbers& numbers) {
   std::transform(numbers.begin(), numbers.end(), result.begin(),
                  [&](const Number& x) { return CGAL::to_double(exponent < 0 ? x * power : x / power); });
   return result;
-}
-
-std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
-  return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
 }
 
 /// |x / y| rounded down; y must not be 0. CGAL's conversion of an integer to a Number is right for positive integers only.
