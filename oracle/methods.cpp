@@ -49,7 +49,7 @@ std::string_view name(Claim claim) { return claim == Claim::complete ? "complete
 std::span<const Method> methods() {
   static const std::array<Method, 3> all{{
       {"exact", "signs of polynomials at the roots of F, as algebraic numbers", Claim::complete, by_exact},
-      {"sturm", "roots counted by Sturm sequences over the integers, signs by Tarski's queries",
+      {"sturm", "roots counted by Sturm sequences over the integers, signs by intervals and common factors",
        Claim::complete, by_sturm},
       {"parity", "root parity of Brochu and Bridson: rays against the boundary's image, in integers",
        Claim::parity, by_parity},

@@ -8,12 +8,9 @@ namespace nearmiss::sturm {
 
 namespace {
 
-/// Tarski's query: the sum over the distinct roots of f in (lo, hi) of the sign of g there; f is not zero at
-/// the ends. The result depends on g only modulo f.
-int tarski_query(const IntegerPolynomial& f, const IntegerPolynomial& g, const Dyadic& lo, const Dyadic& hi) {
-  const auto sequence =
-      remainder_sequence(f, f.derivative() * (g.degree() < f.degree() ? g : g.remainder(f)));
-  return sign_variations(sequence, lo) - sign_variations(sequence, hi);
+/// The common factor of f and g that has the highest degree.
+IntegerPolynomial common_factor(const IntegerPolynomial& f, const IntegerPolynomial& g) {
+  return remainder_sequence(f, g.degree() < f.degree() ? g : g.remainder(f)).back();
 }
 
 /// f divided by the factor of its simple root t.
@@ -188,6 +185,21 @@ void SturmRoot::refine() {
   if (!good_guess) cut(between(lo_.t, hi_.t));
 }
 
+void SturmRoot::set_polynomial(IntegerPolynomial f) {
+  f_ = std::move(f);
+  lo_.value = f_.scaled_value(lo_.t);
+  hi_.value = f_.scaled_value(hi_.t);
+}
+
+bool SturmRoot::is_common_root(const IntegerPolynomial& g) {
+  IntegerPolynomial common = common_factor(f_, g);
+  if (common.degree() == 0) return false;
+  // A factor of f has at most this root, a simple one, between the ends, and is not zero at these.
+  const bool is_root = common.sign_at(lo_.t) != common.sign_at(hi_.t);
+  set_polynomial(is_root ? std::move(common) : f_.quotient(common));
+  return is_root;
+}
+
 int SturmRoot::sign(const IntegerPolynomial& g) {
   if (g.is_zero()) return 0;
   constexpr int patience = 5;  // interval arithmetic shows most signs after so many refinements
@@ -195,7 +207,7 @@ int SturmRoot::sign(const IntegerPolynomial& g) {
     if (is_dyadic_) return g.sign_at(lo_.t);
     if (const int sign = g.sign_on(lo_.t, hi_.t); sign != 0) return sign;
     if (may_be_zero && refinements_ >= patience) {
-      if (!are_surely_coprime(f_, g)) return tarski_query(f_, g, lo_.t, hi_.t);
+      if (!are_surely_coprime(f_, g) && is_common_root(g)) return 0;
       may_be_zero = false;
     }
     refine();

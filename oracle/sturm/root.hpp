@@ -28,8 +28,8 @@ class SturmRoot {
   explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_{std::move(value), 0} {}
   SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi);
 
-  /// The sign of g at this root. If the root is not dyadic, and neither interval arithmetic nor residues help, Tarski's query
-  /// finds it.
+  /// The sign of g at this root. If interval arithmetic does not show it, and residues do not show that the root is no common
+  /// root, a common factor does. Of the polynomial, only the factor with this root is kept then.
   [[nodiscard]] int sign(const IntegerPolynomial& g);
   /// Whether the root is less than a number.
   [[nodiscard]] bool is_below(const Dyadic& number) const;
@@ -43,6 +43,8 @@ class SturmRoot {
     Integer value;
   };
 
+  void set_polynomial(IntegerPolynomial f);
+  [[nodiscard]] bool is_common_root(const IntegerPolynomial& g);
   void refine();
   void cut(Dyadic at);
   [[nodiscard]] Integer border_by_chord() const;

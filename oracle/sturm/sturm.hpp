@@ -19,8 +19,8 @@ struct RootCount {
   [[nodiscard]] bool odd() const { return with_multiplicity % 2 == 1; }
 };
 
-/// Isolates the roots of F in [0, 1] by Sturm's theorem and determines the signs of the barycentric weights
-/// there by Tarski's queries. It is complete for every finite query, and shares no code with the first
+/// Isolates the roots of F in [0, 1] by Sturm's theorem, and determines the signs of the barycentric weights there by interval
+/// arithmetic, or by common factors if they are 0. It is complete for every finite query, and shares no code with the first
 /// method.
 RootCount count_roots(const Query& query);
 

@@ -96,6 +96,27 @@ TEST(SturmRoot, SignsSurviveNegativeLeadingCoefficients) {
   EXPECT_EQ(roots[0].sign(IntegerPolynomial({0, 0, 0, 0, 1})), 1);
 }
 
+TEST(SturmRoot, KeepsTheFactorThatItIsARootOf) {
+  // (2t² - 1) (3t² - 1) (3t - 2) has the roots √1/2, √1/3 and 2/3 in [0, 1].
+  const IntegerPolynomial half({-1, 0, 2});
+  const IntegerPolynomial third({-1, 0, 3});
+  auto roots = sturm::roots_in_unit_interval(half * third * IntegerPolynomial({-2, 3}));
+  ASSERT_EQ(roots.size(), 3);
+  // Almost 2t² - 1, times a factor that is 0 at another root: positive at √1/2, zero at √1/3, negative at 2/3.
+  const Integer large = Integer(1) << 400;
+  const IntegerPolynomial nearly = third * IntegerPolynomial({1 - large, 0, 2 * large});
+  for (auto& root : roots) {
+    const int side = root.sign(IntegerPolynomial({-2, 3}));  // √1/3 < 2/3 < √1/2
+    for (int repeated = 0; repeated < 2; ++repeated) {
+      EXPECT_EQ(root.sign(nearly), side > 0 ? 1 : side < 0 ? 0 : -1);
+      EXPECT_EQ(root.sign(third), side < 0 ? 0 : 1);
+      EXPECT_EQ(root.sign(half), side > 0 ? 0 : -1);
+      EXPECT_EQ(root.is_below({5, 3}), side < 0);    // 0.625
+      EXPECT_EQ(root.is_below({11, 4}), side <= 0);  // 0.6875
+    }
+  }
+}
+
 TEST(SturmRoot, ComparesRootsWithNumbers) {
   // (2t - 1) (9t² - 2): the roots are 1/2 and √2/3 = 0.4714..., of which a double is nearest to the second.
   auto roots = sturm::roots_in_unit_interval(IntegerPolynomial({-1, 2}) * IntegerPolynomial({-2, 0, 9}));
