@@ -20,6 +20,7 @@
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/headline.hpp"
 #include "reports/sections/ladder.hpp"
+#include "reports/sections/scorecard.hpp"
 #include "reports/sections/shown.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/sections/trade_off.hpp"
@@ -112,20 +113,6 @@ ordered_json before_and_now(const Statistics& now, const Statistics& before) {
   return json;
 }
 
-ordered_json verdicts_json(const Statistics& statistics) {
-  ordered_json json = ordered_json::array();
-  for (const SubjectVerdict& each : subject_verdicts(statistics)) {
-    const LadderPlace place = place_of(each.subject);
-    json.push_back({{"subject", each.subject},
-                    {"clean", each.clean},
-                    {"text", each.text},
-                    {"algorithm", place.algorithm},
-                    {"scalar", place.scalar},
-                    {"epsilon", std::exp2(place.epsilon_exponent)}});
-  }
-  return json;
-}
-
 /// The lower borders of all bins; the last bin has no upper border.
 ordered_json borders_json() {
   ordered_json json = ordered_json::array();
@@ -141,9 +128,10 @@ ordered_json stages_json() {
   return json;
 }
 
-ordered_json findings_json(const Campaign& campaign, const std::optional<Changes>& since) {
+ordered_json findings_json(const Campaign& campaign, const std::vector<ShownFinding>& findings,
+                           const std::optional<Changes>& since) {
   ordered_json json = ordered_json::array();
-  for (const ShownFinding& each : shown_findings(campaign)) {
+  for (const ShownFinding& each : findings) {
     const bool is_new = since && std::binary_search(since->new_signatures.begin(),
                                                     since->new_signatures.end(), signature_of(each.finding));
     json.push_back(finding_json(campaign, each, is_new));
@@ -181,13 +169,14 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   if (!context.baseline.empty()) since = changes(campaign, context.baseline);
   const Headline line = headline(statistics, since);
   json["headline"] = {{"clean", line.clean}, {"text", line.text}};
-  json["verdicts"] = verdicts_json(statistics);
+  const std::vector<ShownFinding> findings = shown_findings(campaign);
+  json["verdicts"] = scorecard_json(statistics, findings, since);
   json["oracle"]["complaint"] = oracle_complaint(statistics);
   json["error_against_time"] = trade_offs_json(statistics);
   json["histogram_borders"] = borders_json();
   json["stages"] = stages_json();
   json["findings_total"] = campaign.findings().size();
-  json["findings"] = findings_json(campaign, since);
+  json["findings"] = findings_json(campaign, findings, since);
   json["farthest"] = ordered_json::array();
   for (const ShownFarthest& each : farthest_cases(statistics))
     json["farthest"].push_back(farthest_json(each));

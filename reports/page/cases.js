@@ -1,21 +1,91 @@
 // Draws single queries: findings, the farthest false positives, and the earliest and latest times.
 "use strict";
 
-/** Shows the failure, the number of times that it was seen, and the origin of its query. */
-function drawFailure(finding) {
-  const what = `${finding.what} of ${finding.subject || "the oracle"}` +
-    (finding.late_by ? `, by ${short(finding.late_by)} of the step` : finding.ratio ? `, ${timesTheBound(finding.ratio, finding)}` : "");
-  return made("div", [
-    ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
-    made("strong", what), made("div", finding.signature), made("div", finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`, { class: "seen" }),
-    made("div", `from ${finding.provenance}`), made("div", `the simplest query: ${finding.explanation}`),
-  ]);
+const isMiss = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer" };
+
+/** "missed collision of basic" and so on. */
+function failureTitle(finding) {
+  const what = `${isMiss[finding.what] ?? finding.what} of ${finding.subject || "the oracle"}`;
+  if (finding.late_by) return `${what}, by ${short(finding.late_by)} of the step`;
+  return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** Shows the command that replays the finding, the shrunk query, and a fold-out with the original query. */
-function drawShrunk(finding) {
-  const original = made("details", [made("summary", finding.original_file), queryText(finding.original), copyQuery(finding.original)]);
-  return made("div", [command(finding.again), queryText(finding.shrunk), copyQuery(finding.shrunk), original]);
+/** A finding: its picture, what failed and how often, the command that replays it, and the query on demand. */
+function card(finding, index) {
+  const fold = (title, query, file) => made("details", [made("summary", title), made("a", file, { href: file }), queryText(query), copyQuery(query)]);
+  return made("article", [
+    drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi),
+    made("div", [
+      ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
+      made("h3", failureTitle(finding)),
+      made("div", `${finding.signature}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
+      made("div", finding.explanation),
+      made("div", `${kindTitles[finding.kind]}, from ${finding.provenance}`, { class: "small" }),
+      command(finding.again),
+      fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
+    ]),
+  ], { class: "card", id: `finding-${index}` });
+}
+
+// --- findings -------------------------------------------------------------------------------------
+
+/** The findings with their indices, new ones first, and the text in which a filter looks for words. */
+const findings = report.findings.map((finding, index) => ({ finding, index,
+  words: [finding.what, finding.subject, finding.signature, finding.kind, finding.family, finding.provenance, finding.explanation].join(" ").toLowerCase() }))
+  .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
+const findingsAtOnce = 24;
+/** The chosen value of each field, "" for all; the words that must occur; and how many findings are shown at most. */
+const filter = { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce };
+
+const filteredFindings = () => {
+  const words = filter.words.toLowerCase().split(/\s+/).filter(Boolean);
+  return findings.filter((each) => ["subject", "what", "kind", "family"].every((field) => filter[field] === "" || each.finding[field] === filter[field]) &&
+    words.every((word) => each.words.includes(word)));
+};
+
+function drawCards() {
+  const some = filteredFindings();
+  element("findings").replaceChildren(...some.slice(0, filter.most).map(({ finding, index }) => card(finding, index)));
+  element("findings-count").textContent = `${integer(Math.min(some.length, filter.most))} of ${integer(some.length)} shown` +
+    (some.length < findings.length ? `, out of ${integer(findings.length)}` : "");
+  element("more-findings").toggleAttribute("hidden", some.length <= filter.most);
+}
+
+/** Shows only the findings with these values. */
+function filterFindings(values) {
+  Object.assign(filter, { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce }, values);
+  for (const input of document.querySelectorAll("#findings-filter [name]")) input.value = filter[input.name];
+  drawCards();
+}
+
+/** Shows one finding, above the others of its subject. */
+function showFinding(index) {
+  filterFindings({ subject: report.findings[index].subject });
+  const place = filteredFindings().findIndex((each) => each.index === index);
+  filter.most = Math.max(filter.most, place + 1);
+  drawCards();
+  setTimeout(() => element(`finding-${index}`).scrollIntoView({ block: "center" }));
+}
+
+/** The controls of the filter. */
+function drawFilter() {
+  const values = (field) => [...new Set(report.findings.map((each) => each[field]))].sort();
+  const titles = { what: isMiss, kind: kindTitles, subject: { "": "the oracle" } };
+  const choice = (field, title) => {
+    const select = made("select", [made("option", "all", { value: "" }),
+      ...values(field).filter(Boolean).map((value) => made("option", titles[field]?.[value] ?? value, { value }))], { name: field });
+    return made("label", [`${title} `, select]);
+  };
+  element("findings-filter").append(choice("subject", "subject"), choice("what", "failure"), choice("kind", "kind"), choice("family", "family"),
+    made("label", ["with the words ", made("input", [], { name: "words", type: "search" })]));
+  element("findings-filter").addEventListener("input", ({ target }) => {
+    Object.assign(filter, { [target.name]: target.value, most: findingsAtOnce });
+    drawCards();
+  });
+  element("more-findings").addEventListener("click", () => {
+    filter.most += findingsAtOnce;
+    drawCards();
+  });
 }
 
 const picture = (query, title = "t = 0, t* or closest, t = 1") => ({
@@ -25,22 +95,18 @@ const picture = (query, title = "t = 0, t* or closest, t = 1") => ({
 function drawFindings() {
   show("findings-section");
   const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
-  element("findings-note").textContent = seen === 0
-    ? "None: no false negative, no late time, no bound refuted, no disagreement."
-    : `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way are kept and shrunk to the ` +
-      "simplest query that fails in the same way. findings.csv lists them, and cases/ has a case file for each shrunk query and for " +
-      "each original query. The commands work in this report's folder; copied queries are lines for nearmiss oracle and verdict. " +
-      "Pictures show both primitives at t*, when they first touch or come within the separation h, or when they are closest if they never " +
-      "do. They are pale at t = 0, and pale and dashed at t = 1. If a time is late, they are also shown at that time, toi. Mouse and arrow " +
-      "keys turn the pictures.";
-  if (seen === 0) return;
+  if (seen === 0) {
+    element("findings-part").remove();
+    element("findings-note").textContent = "None: no missed collision, no late time, no bound refuted, no disagreement of the oracle's methods.";
+    return;
+  }
+  element("findings-note").textContent = `${integer(seen)} failures in ${integer(report.signatures.length)} ways. The first few of each way ` +
+    "are kept, and shrunk to the simplest query that fails in the same way.";
+  if (report.common_factors) show("common-factors-part");
   for (const each of report.common_factors ?? [])
     element("common-factors").append(made("li", `${each.subject} ${each.kind}, ${each.family}: ${each.text}.`));
-  const newFirst = [...report.findings].sort((a, b) => Number(b.new) - Number(a.new));
-  fillTable(element("findings"), [
-    picture("shrunk"),
-    { title: "what", text: drawFailure }, { title: "the simplest query that fails in the same way", text: drawShrunk },
-  ], newFirst);
+  drawFilter();
+  drawCards();
 }
 
 function drawFarthest() {

@@ -18,6 +18,8 @@ async function draw(id, description, spec) {
   drawn[id] = await vegaEmbed(node, { $schema: "https://vega.github.io/schema/vega-lite/v6.json", config: look, description, ...spec },
     { renderer: "svg", ast: true, actions: { export: true, source: false, compiled: false, editor: false } });
   node.style.minHeight = "";
+  node.querySelector("summary").setAttribute("aria-label", "save this chart");
+  for (const nameless of node.querySelectorAll("[role=graphics-symbol]:not([aria-label])")) nameless.removeAttribute("role");
 }
 
 /** The width of each of two panels side by side, with room for their labels. */
@@ -101,6 +103,48 @@ function drawRates() {
   });
   return draw("rates", "For each family and subject, the rate of false positives with its confidence interval.",
     { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
+}
+
+/** The subjects' misses in each family with collisions; sweeps have charts of their own. */
+const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !Object.keys(report.sweeps ?? {}).some((name) => row.family.startsWith(`${name}@`)));
+
+/** The misses of both kinds together, by subject and family, with a text for each kind. */
+function missedByFamily() {
+  const cells = new Map();
+  for (const row of missRows()) {
+    const key = `${row.subject}\n${row.family}`;
+    const cell = cells.get(key) ?? { subject: row.subject, family: row.family, class: row.class, collisions: 0, missed: 0, vt: "–", ee: "–" };
+    cell.collisions += row.collisions;
+    cell.missed += row.false_negatives;
+    cell[row.kind] = missedText(row) + (row.false_negatives > 0 ? `, ${rateText(row.false_negative_rate, row.false_negative_rate_interval_95)}` : "");
+    cells.set(key, cell);
+  }
+  return [...cells.values()].map((cell) => ({ ...cell, rate: cell.missed / cell.collisions }));
+}
+
+/** Draws a cell for each family and subject that missed anything. */
+function drawMisses() {
+  const cells = missedByFamily();
+  const failed = inOrder(report.verdicts).map(({ subject }) => subject).filter((name) => cells.some((cell) => cell.subject === name && cell.missed > 0));
+  const shown = cells.filter((cell) => failed.includes(cell.subject));
+  const lowest = Math.min(...shown.filter((cell) => cell.missed > 0).map((cell) => cell.rate));
+  const isAny = new Set(shown.filter((cell) => cell.missed > 0).map((cell) => cell.family));
+  const x = { field: "subject", type: "nominal", title: null, sort: failed, axis: { orient: "top", labelAngle: -40, labelLimit: 0 } };
+  const y = { field: "family", type: "nominal", title: null, axis: { labelLimit: 0 } };
+  const tooltip = [{ field: "subject" }, { field: "family" }, { field: "class" }, { field: "vt", title: kindTitles.vt }, { field: "ee", title: kindTitles.ee }];
+  const classes = ["ordinary", "degenerate", "extreme", "unclassified"].filter((name) => shown.some((cell) => cell.class === name && isAny.has(cell.family)));
+  const panel = (name, i) => ({
+    title: { text: name, anchor: "start" }, width: { step: Math.max(24, Math.min(70, panelWidth(600) * 2 / failed.length)) }, height: { step: 15 },
+    transform: [{ filter: { and: [{ field: "class", equal: name }, { field: "family", oneOf: [...isAny] }] } }],
+    layer: [
+      { mark: { type: "rect", color: color("--ground"), stroke: color("--line") }, encoding: { x: i === 0 ? x : { ...x, axis: null }, y, tooltip } },
+      { transform: [{ filter: "datum.missed > 0" }], mark: { type: "rect", stroke: color("--line") }, encoding: { x: i === 0 ? x : { ...x, axis: null }, y, tooltip,
+        color: { field: "rate", type: "quantitative", title: "missed, among collisions",
+          scale: { type: "log", scheme: "reds", reverse: isDark, domain: [lowest, 1] }, legend: { orient: "bottom", format: ".1~%", gradientLength: 280, tickCount: 4 } } } },
+    ],
+  });
+  return draw("misses", "The rate of missed collisions of each subject that missed any, family by family.",
+    { data: { values: shown }, spacing: 12, vconcat: classes.map(panel) });
 }
 
 function drawDistances() {

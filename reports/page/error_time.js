@@ -7,15 +7,43 @@ const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: 
 
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
-/** Draws a mark for each subject; only chosen subjects have their own colour and shape. */
+/** The share of an axis between its ends, both logarithmic, at which a value is. */
+const partOfAxis = (value, [from, to]) => Math.log(value / from) / Math.log(to / from);
+const atPartOfAxis = (part, [from, to]) => from * (to / from) ** part;
+
+/**
+ * Layers with the names of points in a chart with logarithmic axes; a line leads to a name that is not right beside its point.
+ * @param rows [{subject, x, y, rank}]
+ * @param x, y the channels of the chart
+ */
+function nameLayers(rows, x, y, [width, height]) {
+  const [xs, ys] = [x.scale.domain, y.scale.domain];
+  const points = rows.map((row) => ({ ...row, label: row.subject, at: [width * partOfAxis(row.x, xs), height * (1 - partOfAxis(row.y, ys))] }));
+  const names = placedLabels(points, [width, height], 120).map(({ place: [px, py], ...row }) =>
+    ({ ...row, nameX: atPartOfAxis(px / width, xs), nameY: atPartOfAxis(1 - py / height, ys) }));
+  const text = (mark) => ({ data: { values: names }, mark: { type: "text", fontSize: labelSize, ...mark },
+    encoding: { x: { ...x, field: "nameX" }, y: { ...y, field: "nameY" }, text: { field: "subject" } } });
+  const lines = { data: { values: names.filter(({ isFar }) => isFar) }, mark: { type: "rule", color: color("--soft"), strokeWidth: 0.6 },
+    encoding: { x: { ...x, field: "x" }, y: { ...y, field: "y" }, x2: { field: "nameX" }, y2: { field: "nameY" } } };
+  return [lines, text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") })];
+}
+
+/** Draws a mark with a name for each subject; only chosen subjects have their own colours. */
 function drawErrorTimeOfEach() {
-  const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
-  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, name: isChosen({ subject }) ? subject : "others", ...each,
+  const { subjects, front_by_distance, front_by_rate, left_out } = report.error_against_time;
+  const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each,
     median: each.median_fp_distance_over_bound[1], q99: each.q99_fp_distance_over_bound[1] }))
     .sort((a, b) => isChosen(a) - isChosen(b));
+  if (left_out.length > 0) {
+    element("error-time-others").textContent = `Not shown, because they were asked about other families: ${left_out.join(", ")}.`;
+    show("error-time-others");
+  }
   const hue = chosenColor(color("--soft"));
+  const times = rows.map((row) => row.ns_per_query);
+  const ends = [0.6 * Math.min(...times), 1.7 * Math.max(...times)];
+  const size = [panelWidth(700), 320];
   const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
-    scale: { type: "log", nice: false, padding: 30 }, axis: { grid: true, tickCount: 6, format: "~s" } };
+    scale: { type: "log", nice: false, domain: ends }, axis: { grid: true, tickCount: 6, format: "~s" } };
   const tooltip = [...errorTimeTooltip,
     { field: "median", title: "median distance / bound, at most", format: ".3~g" },
     { field: "q99", title: "99 %, at most", format: ".3~g" },
@@ -29,8 +57,9 @@ function drawErrorTimeOfEach() {
     });
     const y = (field) => ({ field, type: "quantitative", title: null, scale: axis.scale, axis: axis.axis });
     const own = { x, color: hue, tooltip };
+    const names = shown.map((row) => ({ subject: row.subject, x: row.ns_per_query, y: row.top, rank: row.sound ? 0 : 1 }));
     return {
-      width: panelWidth(420), height: 280, title, data: { values: shown },
+      width: size[0], height: size[1], title, data: { values: shown },
       layer: [
         ...(front.length === 0 ? [] : [{ transform: [{ filter: { field: "subject", oneOf: front } }],
           mark: { type: "line", interpolate: "step-after", strokeDash: [5, 4], color: color("--soft") }, encoding: { x, y: y("top") } }]),
@@ -38,18 +67,17 @@ function drawErrorTimeOfEach() {
           { mark: { type: "rule", strokeWidth: 2 }, encoding: { ...own, y: y("mark0"), y2: { field: "top" } } },
           ...marks.map((_, i) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width: i === 0 ? 8 : 14 },
             encoding: { ...own, y: y(`mark${i}`) } }))]),
-        { mark: { type: "point", filled: true, size: 130, opacity: 0.9 },
-          encoding: { ...own, y: y("top"), shape: { ...hue, scale: { domain: hue.scale.domain } } } },
-        ...(rows.every((row) => row.false_negatives === 0) ? [] : [{ transform: [{ filter: "datum.false_negatives > 0" }],
-          mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper") },
+        { mark: { type: "point", filled: true, size: 130, opacity: 0.9 }, encoding: { ...own, y: y("top") } },
+        ...(rows.every((row) => row.sound) ? [] : [{ transform: [{ filter: "!datum.sound" }],
+          mark: { type: "point", shape: "cross", angle: 45, size: 60, filled: true, opacity: 1, color: color("--bad"), stroke: color("--paper"), strokeWidth: 0.7 },
           encoding: { x, y: y("top"), tooltip } }]),
+        ...nameLayers(names, x, y("top"), size),
       ],
     };
   };
   return draw("error-time", "For each subject, the run time of a query, and the distances and the rate of its false positives.", {
     hconcat: [
-      panel("distance / bound of false positives", "max_fp_distance_over_bound",
-        ["median", "q99"], front_by_distance),
+      panel("farthest false positive / bound", "max_fp_distance_over_bound", ["median", "q99"], front_by_distance),
       panel("false positives, among non-collisions", "false_positive_rate", [], front_by_rate),
     ],
   });
@@ -71,11 +99,22 @@ function makeStrands(rows) {
   }
 }
 
+/** Places around a point for a label of this size, in the order in which they are tried: beside it, then up to `reach` pixels away. */
+function* placesAround([w, h], reach) {
+  yield* [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]];
+  for (let radius = 22; radius <= reach; radius += 8)
+    for (let i = 0; i < 16; ++i) {
+      const [dx, dy] = [Math.cos((i * Math.PI) / 8), Math.sin((i * Math.PI) / 8)];
+      yield [radius * dx + (dx < 0 ? -w : 0), radius * dy - h / 2];
+    }
+}
+
 /**
- * Finds places for labels beside their points, without overlaps among labels and points; a label without a place is left out.
+ * Finds places for labels near their points, without overlaps among labels and points; a label without a place is left out.
  * @param points [{at: [x, y] in pixels, label, rank: lower ranks choose first; an infinite rank means no label}]
+ * @param reach how far from its point a label may be, in pixels; 0 means right beside it
  */
-function placedLabels(points, [width, height]) {
+function placedLabels(points, [width, height], reach = 0) {
   const pen = made("canvas").getContext("2d");
   pen.font = `${labelSize}px ${look.font}`;
   const taken = points.map(({ at: [x, y] }) => [x - 4, y - 4, x + 4, y + 4]);
@@ -85,11 +124,12 @@ function placedLabels(points, [width, height]) {
   for (const point of points.filter(({ rank }) => rank < Infinity).sort((a, b) => a.rank - b.rank)) {
     const [x, y] = point.at;
     const [w, h] = [pen.measureText(point.label).width + 2, labelSize + 1];
-    for (const [dx, dy] of [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]]) {
+    for (const [dx, dy] of placesAround([w, h], reach)) {
       const box = [x + dx, y + dy, x + dx + w, y + dy + h];
       if (!isFree(box)) continue;
       taken.push(box);
-      placed.push({ ...point, place: [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2] });
+      const isFar = Math.hypot(Math.max(dx, 0, -dx - w), Math.max(dy, 0, -dy - h)) > 12;
+      placed.push({ ...point, isFar, place: [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2] });
       break;
     }
   }

@@ -19,18 +19,6 @@ function drawHead() {
     .map((run) => [run.command, run.seed && `seed ${run.seed}`, run.separation && `separation ${run.separation}`, run.started, run.seconds >= 1 && duration(run.seconds),
       run.missing && `INCOMPLETE: ${run.missing}`].filter(Boolean).join(", "))
     .join(" · ");
-  const lines = report.verdicts.map((v) => ({ name: v.subject, bad: !v.clean, text: v.text }));
-  if (report.oracle.complaint) lines.unshift({ name: "oracle", bad: true, text: report.oracle.complaint });
-  const verdict = (line) => made("div", [["mark", line.bad ? "FAIL" : "ok"], ["subject", line.name], ["text", line.text]]
-    .map(([name, content]) => made("span", content, { class: name })), { class: line.bad ? "verdict bad" : "verdict" });
-  const [bad, good] = [true, false].map((are) => lines.filter((line) => line.bad === are));
-  if (good.length <= fewSubjects) {
-    element("verdicts").append(...lines.map(verdict));
-    return;
-  }
-  const summary = made("summary", [made("span", "ok", { class: "mark" }), made("span", `${good.length} subjects`, { class: "subject" }),
-    made("span", "did not fail", { class: "text" })], { class: "verdict" });
-  element("verdicts").append(...bad.map(verdict), made("details", [summary, ...good.map(verdict)]));
 }
 
 /** Links to the sections that are shown. */
@@ -44,18 +32,25 @@ function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
   show("baseline");
-  const ways = (list) => list.map((each) => `${each.what} of ${each.subject || "the oracle"}, ${each.signature}` +
-    (each.first_seen ? ` (first seen ${each.first_seen}, last seen ${each.last_seen})` : ""));
-  const worse = baseline.changed_rates.filter((each) => each.worse).length;
+  const way = (each) => `${each.what}, ${each.signature}` + (each.first_seen ? ` (first seen ${each.first_seen}, last seen ${each.last_seen})` : "");
+  const groups = [
+    ["new_signatures", "new way to fail", "new ways to fail", true], ["lasting_signatures", "way to fail as before", "ways to fail as before", true],
+    ["unseen_signatures", "not in the baseline, as chance explains", "not in the baseline, as chance explains", false],
+    ["gone_signatures", "no longer seen", "no longer seen", false],
+  ];
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
-  for (const way of ways(baseline.new_signatures)) say(`New: ${way}.`, true);
-  for (const way of ways(baseline.lasting_signatures)) say(`As before: ${way}.`, true);
-  for (const subject of baseline.absent_subjects) say(`Not in the baseline: ${subject}.`);
+  const subjects = new Set(groups.flatMap(([field]) => baseline[field].map((each) => each.subject)));
+  for (const subject of subjects) {
+    const some = groups.map(([field, one, many, bad]) => ({ list: baseline[field].filter((each) => each.subject === subject), one, many, bad }))
+      .filter(({ list }) => list.length > 0);
+    const summary = made("summary", [made("strong", subject || "the oracle"), ": ", ...some.flatMap(({ list, one, many, bad }, i) =>
+      [i > 0 ? ", " : "", made("span", counted(list.length, one, many), bad && one.startsWith("new") ? { class: "bad" } : {})])]);
+    say(made("details", [summary, ...some.map(({ list, many }) => made("div", [made("h3", many), made("ul", list.map((each) => made("li", way(each))))]))]));
+  }
+  for (const subject of baseline.absent_subjects) say(`${subject} is not in the baseline.`);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
-  if (baseline.unseen_signatures.length > 0)
-    say(`${integer(baseline.unseen_signatures.length)} not in the baseline, but no more frequent than chance explains ` +
-      `(about ${short(Math.round(baseline.expected_unseen))} were expected): ${ways(baseline.unseen_signatures).join("; ")}.`);
-  for (const way of ways(baseline.gone_signatures)) say(`No longer seen: ${way}.`);
+  if (baseline.unseen_signatures.length > 0) say(`By chance, about ${short(Math.round(baseline.expected_unseen))} ways that are not in the baseline were expected.`);
+  const worse = baseline.changed_rates.filter((each) => each.worse).length;
   say(baseline.changed_rates.length === 0
     ? `None of ${integer(baseline.compared_rates)} rates differs by more than chance explains (exact tests, ` +
       `level ${baseline.level} for all together).`
@@ -107,11 +102,13 @@ const noAnswer = {
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
+/** The farthest of some false positives; undefined without any. */
+const farthestAmong = (some) => some.reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
+const farthestOfSubject = (subject) => farthestAmong(report.farthest.filter((far) => far.subject === subject));
 /** The farthest false positive of a subject and kind, in one family, in one class or in all. */
-const farthestOf = ({ subject, kind, family, class: own }) => report.farthest
+const farthestOf = ({ subject, kind, family, class: own }) => farthestAmong(report.farthest
   .filter((far) => far.subject === subject && far.kind === kind && (family === "" || far.shown_family === family) &&
-    (own === undefined || far.class === own))
-  .reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
+    (own === undefined || far.class === own)));
 
 function drawCounts() {
   const [byClass, byFamily] = ["by-class", "by-family"].map((id) => element(id).checked);
@@ -122,7 +119,7 @@ function drawCounts() {
   const columns = [
     text("subject", "subject"), text("kind", "kind"), ...(byClass ? [text("class", "class")] : []), ...(byFamily ? [text("family", "family")] : []),
     count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
-    { title: "missed below", number: (r) => r.false_negative_rate_upper_95 ?? -1,
+    { title: "rate of misses below", number: (r) => r.false_negative_rate_upper_95 ?? -1,
       text: (r) => (r.false_negative_rate_upper_95 === null ? "–" : percent(r.false_negative_rate_upper_95)) },
     count("false positives", "false_positives"),
     { title: "rate (95 %)", number: (r) => r.false_positive_rate,
@@ -138,13 +135,16 @@ function drawCounts() {
 }
 
 function drawSlowest() {
-  const rows = countRows(false).flatMap((r) => (r.times.slowest ?? []).slice(0, 2).map((slow) => ({ subject: r.subject, kind: r.kind, ...slow })));
+  const most = 5;
+  const rows = Object.entries(report.subjects).flatMap(([subject, ofKind]) =>
+    Object.entries(ofKind).flatMap(([kind, { times }]) => (times.slowest ?? []).map((slow) => ({ subject, kind, ...slow })))
+      .sort((a, b) => b.ns - a.ns).slice(0, most));
   if (rows.length === 0) return;
   show("slowest-section");
   fillTable(element("slowest"), [
     text("subject", "subject"), text("kind", "kind"), count("ns", "ns"), text("from", "provenance"),
     { title: "query", text: (r) => copyButton(r.query) },
-  ], rows);
+  ], rows, true);
 }
 
 /** Draws which stage decided, for subjects that pass queries on. */
@@ -241,6 +241,7 @@ function drawHow() {
 }
 
 drawHead();
+drawScorecard();
 drawBaseline();
 drawUnits();
 drawCounts();
@@ -265,6 +266,7 @@ drawHow();
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
   ["earliness", drawEarliness, earlinessRows().length > 0],
+  ["misses-section", drawMisses, missRows().some((row) => row.false_negatives > 0)],
   ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],
   ["time-errors-section", drawTimeErrors, timedRows().length > 0],
@@ -276,6 +278,12 @@ const charts = [
 ].filter(([, , there]) => there);
 for (const [id] of charts) show(id);
 drawNavigation();
+
+// The keyboard reaches every box that scrolls.
+for (const box of document.querySelectorAll("main .scroll, main .chart")) {
+  const title = box.closest("section").querySelector("h2")?.textContent ?? box.closest("section").getAttribute("aria-label");
+  for (const [name, value] of Object.entries({ tabindex: "0", role: "group", "aria-label": title })) box.setAttribute(name, value);
+}
 
 /** Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn. */
 let calls = 0;

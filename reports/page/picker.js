@@ -19,14 +19,16 @@ if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.a
 const evenly = (list, many) => (list.length <= many ? list
   : Array.from({ length: many }, (_, i) => list[Math.round(many === 1 ? (list.length - 1) / 2 : (i * (list.length - 1)) / (many - 1))]));
 
-/** The failed subjects; the Pareto fronts of error and of earliness against run time; subjects over double; and some of the others. */
+/** As many subjects as there are colours: those of the Pareto fronts; the clean ones; the failed ones. */
 function firstChoice() {
   const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;
   const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate, ...front_by_earliness]);
-  const named = (test) => places.filter(test).map((place) => place.subject);
-  const choice = new Set(evenly(named((place) => !place.clean), 12));
-  for (const group of [named((place) => fronts.has(place.subject)), named((place) => place.algorithm === place.subject), named(() => true)])
-    for (const subject of evenly(group.filter((each) => !choice.has(each)), Math.max(0, fewSubjects - choice.size))) choice.add(subject);
+  const choice = new Set();
+  const groups = [(place) => fronts.has(place.subject), (place) => place.clean && place.algorithm === place.subject, (place) => place.clean, () => true];
+  for (const group of groups) {
+    const names = places.filter((place) => group(place) && !choice.has(place.subject)).map((place) => place.subject);
+    for (const name of evenly(names, palette.length - choice.size)) choice.add(name);
+  }
   return choice;
 }
 
@@ -52,16 +54,13 @@ const paletteColor = (index) => palette[index % palette.length];
 const subjectColor = { field: "subject", type: "nominal", title: "subject",
   scale: { domain: subjectNames, range: subjectNames.map((_, i) => paletteColor(i)) } };
 
-/** Colours of the chosen subjects, with a legend. @param others the colour of all others together, in a field "name" */
+/** Colours of the chosen subjects, with a legend. @param others the colour of all others, if they are drawn */
 function chosenColor(others) {
   const names = chosenNames();
   const colors = names.map((name) => paletteColor(chosenColors.get(name)));
-  if (others && names.length < subjectNames.length) {
-    names.push("others");
-    colors.push(others);
-  }
+  const rest = others ? subjectNames.filter((name) => !chosenColors.has(name)) : [];
   const columns = Math.floor(element("how").clientWidth / (45 + 6 * Math.max(...names.map((name) => name.length))));
-  return { field: others ? "name" : "subject", type: "nominal", title: "subject", scale: { domain: names, range: colors },
+  return { field: "subject", type: "nominal", title: "subject", scale: { domain: [...names, ...rest], range: [...colors, ...rest.map(() => others)] },
     legend: { columns: Math.max(1, Math.min(8, columns)) } };
 }
 

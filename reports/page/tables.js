@@ -2,8 +2,12 @@
 "use strict";
 
 const integer = (n) => n.toLocaleString("en-US");
+/** Three digits; an exponent below a thousandth. */
+const rounded = (x, digits) => (x !== 0 && Math.abs(x) < 1e-3 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e") : Number(x.toPrecision(digits)).toString());
 const short = (x) =>
-  x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : Number(x.toPrecision(3)).toString();
+  x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : rounded(x, 3);
+/** "1 query", "1,234 queries" */
+const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
  * Formats a ratio with three digits, or with more if a number below 1 would be rounded to 1. Only an upper bound is known of a
  * ratio below all borders.
@@ -18,13 +22,14 @@ function fraction(x) {
 /** How far a false positive is; `row` says whose bound is the unit. */
 function timesTheBound(x, row) {
   const isClaim = row.bound_of_distances === undefined || isOfClaim(row); // only bounds that are claimed are refuted
-  const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : `at ${fraction(x)} of ${isClaim ? "the" : "wang's"} bound`;
-  return isClaim ? text : `${text} (${row.subject} claims none)`;
+  const whose = isClaim ? "its" : "wang's";
+  const text = x === Infinity ? `beyond ${isClaim ? "a" : "wang's"} bound of 0` : x > 1 ? `${fraction(x)} times ${whose} bound` : `at ${fraction(x)} of ${whose} bound`;
+  return isClaim ? text : `${text} (it claims none)`;
 }
 const percent = (x) => (x === 0 ? "0" : `${short(100 * x)} %`);
 /** A column of ranges that contain a number. */
 const range = (title, field) => ({ title, number: (r) => r[field][1],
-  text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? Number(x.toPrecision(2)) : "∞")).join("–") + unitMark(r) : "–") });
+  text: (r) => (r[field][1] > 0 ? r[field].map((x) => (Number.isFinite(x) ? rounded(x, 2) : "∞")).join("–") + unitMark(r) : "–") });
 const percentRange = ([lo, hi]) => `${short(100 * lo)}–${short(100 * hi)} %`;
 
 /** A new element; `content` is text, a node, or a list of texts and nodes. */
@@ -81,8 +86,8 @@ const number = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: 
 const text = (title, field) => ({ title, text: (r) => r[field] });
 
 /** A button that copies text. */
-function copyButton(content) {
-  const button = made("button", "copy", { type: "button", class: "copy" });
+function copyButton(content, title = "copy") {
+  const button = made("button", title, { type: "button", class: "copy" });
   button.addEventListener("click", async () => {
     await navigator.clipboard.writeText(content);
     button.textContent = "copied";

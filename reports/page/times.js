@@ -15,17 +15,8 @@ const timedRows = () => countRows(false).filter((row) => row.times_given > 0)
 /** The subjects of the picture; the fields of their errors are upper ends of bins. */
 const earlinessRows = () => Object.entries(report.error_against_time.subjects)
   .filter(([, { time_sort }]) => time_sort !== "none")
-  .map(([subject, row]) => ({ ...row, subject, name: isChosen({ subject }) ? subject : "others", sort: sortsOfTime[row.time_sort],
+  .map(([subject, row]) => ({ ...row, subject, sort: sortsOfTime[row.time_sort],
     median: row.median_time_error[1], q99: row.q99_time_error[1] }));
-
-/** The names beside the medians. */
-function earlinessLabels(rows, [left, right], [bottom, top], [width, height]) {
-  const part = (value, from, to) => Math.log(value / from) / Math.log(to / from);
-  const points = rows.map((row) => ({ ...row, label: row.subject, rank: row.sort === sortsOfTime.estimate ? 1 : 0,
-    at: [width * part(row.ns_per_query, left, right), height * (1 - part(row.y.median, bottom, top))] }));
-  return placedLabels(points, [width, height]).map(({ place: [x, y], subject }) =>
-    ({ subject, ns_per_query: left * (right / left) ** (x / width), y: { median: bottom * (top / bottom) ** (1 - y / height) } }));
-}
 
 /** Draws a mark for each subject; only chosen subjects have their own colour. */
 function drawEarliness() {
@@ -48,9 +39,7 @@ function drawEarliness() {
   const own = { x, color: hue, tooltip };
   const tick = (field, width) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width }, encoding: { ...own, y: y(field) } });
   const late = rows.filter((row) => row.late > 0);
-  const labels = earlinessLabels(rows, ends, axis.scale.domain, size);
-  const text = (mark) => ({ data: { values: labels }, mark: { type: "text", fontSize: labelSize, ...mark },
-    encoding: { x, y: y("median"), text: { field: "subject" } } });
+  const names = rows.map((row) => ({ subject: row.subject, x: row.ns_per_query, y: row.y.median, rank: row.sort === sortsOfTime.estimate ? 1 : 0 }));
   return draw("earliness", "For each subject that gives times, the run time of a query, and how far its times are from the exact ones.", {
     width: size[0], height: size[1], data: { values: rows },
     layer: [
@@ -62,7 +51,7 @@ function drawEarliness() {
         encoding: { ...own, y: y("median"), shape: bySort(["circle", "diamond"]) } },
       { data: { values: late }, mark: { type: "point", shape: "cross", angle: 45, size: 110, filled: true, opacity: 1,
         color: color("--bad"), stroke: color("--paper") }, encoding: { x, y: y("median"), tooltip } },
-      text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") }),
+      ...nameLayers(names, x, y("median"), size),
     ],
   });
 }

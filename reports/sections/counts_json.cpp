@@ -74,6 +74,13 @@ void add_counters(ordered_json& json, const Owner& owner) {
   for_each_counter<Owner>([&](const auto& counter) { add_counter(json, owner, counter); });
 }
 
+/// The 95 % confidence interval of a rate; null unless the queries are a random sample.
+ordered_json interval_json(std::uint64_t count, std::uint64_t total, bool is_sample) {
+  if (!is_sample) return nullptr;
+  const ConfidenceInterval interval = clopper_pearson(count, total);
+  return ordered_json::array({interval.lo, interval.hi});
+}
+
 /// Adds the rates that are computed from this counter.
 void add_computed(ordered_json& json, const Counts& counts, std::uint64_t Counts::*counter, bool is_sample) {
   if (counter == &Counts::false_negatives) {
@@ -81,14 +88,13 @@ void add_computed(ordered_json& json, const Counts& counts, std::uint64_t Counts
     json["false_negative_rate_upper_95"] = nullptr;
     if (is_sample)
       json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
+    json["false_negative_rate_interval_95"] =
+        interval_json(counts.false_negatives, counts.collisions, is_sample);
   }
   if (counter == &Counts::false_positives) {
     json["false_positive_rate"] = counts.false_positive_rate();
-    json["false_positive_rate_interval_95"] = nullptr;
-    if (is_sample) {
-      const ConfidenceInterval interval = clopper_pearson(counts.false_positives, counts.others());
-      json["false_positive_rate_interval_95"] = {interval.lo, interval.hi};
-    }
+    json["false_positive_rate_interval_95"] =
+        interval_json(counts.false_positives, counts.others(), is_sample);
   }
 }
 

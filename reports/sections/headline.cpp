@@ -21,7 +21,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// The names of subjects, or their number if there are many.
 std::string subjects(const std::vector<std::string>& names) {
-  return names.size() <= 8 ? listed(names) : fmt::format("{} subjects", names.size());
+  return names.size() <= 4 ? listed(names) : fmt::format("{} subjects", names.size());
 }
 
 std::string since_text(const Changes& since) {

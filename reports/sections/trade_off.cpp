@@ -11,21 +11,53 @@
 
 namespace nearmiss {
 
-std::vector<TradeOff> trade_offs(const Statistics& statistics) {
-  const auto is_timed = [](const Counts& counts) { return counts.times.queries() != 0; };
-  std::set<std::string> subjects;
+namespace {
+
+using Subjects = std::set<std::string>;
+
+bool is_timed(const Counts& counts) { return counts.times.queries() != 0; }
+
+Subjects timed_subjects(const Statistics& statistics) {
+  Subjects subjects;
   for (const auto& [key, counts] : statistics.counts)
     if (is_timed(counts)) subjects.insert(key.subject);
-  std::map<std::pair<Kind, std::string>, std::size_t> asked;  // number of subjects by kind and family
+  return subjects;
+}
+
+/// Of the timed subjects, those that were asked about each kind and family.
+std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics& statistics) {
+  const Subjects timed = timed_subjects(statistics);
+  std::map<std::pair<Kind, std::string>, Subjects> asked;
   for (const auto& [key, counts] : statistics.counts)
-    if (subjects.contains(key.subject)) ++asked[{key.kind, key.family}];
+    if (timed.contains(key.subject)) asked[{key.kind, key.family}].insert(key.subject);
+  return asked;
+}
+
+/// The most subjects that have a family in common; if there are several such sets, the one with the most families.
+Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
+  std::map<Subjects, std::size_t> sets;
+  for (const auto& [family, subjects] : asked) ++sets[subjects];
+  const auto most = std::max_element(sets.begin(), sets.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.size(), a.second) < std::pair(b.first.size(), b.second);
+  });
+  return most == sets.end() ? Subjects() : most->first;
+}
+
+}  // namespace
+
+std::vector<TradeOff> trade_offs(const Statistics& statistics) {
+  const auto asked = asked_subjects(statistics);
+  const Subjects subjects = most_comparable(asked);
   std::map<std::string, Counts> all;
   std::map<std::string, CountsSum> timed;
-  for (const auto& [key, counts] : statistics.counts)
-    if (asked[{key.kind, key.family}] == subjects.size()) {
-      all[key.subject].merge(counts);
-      if (is_timed(counts)) timed[key.subject].add(key.family, counts);
-    }
+  for (const auto& [key, counts] : statistics.counts) {
+    const auto family = asked.find({key.kind, key.family});
+    if (family == asked.end() || !subjects.contains(key.subject) ||
+        !std::includes(family->second.begin(), family->second.end(), subjects.begin(), subjects.end()))
+      continue;
+    all[key.subject].merge(counts);
+    if (is_timed(counts)) timed[key.subject].add(key.family, counts);
+  }
   std::vector<TradeOff> trade_offs;
   for (const auto& [subject, counts] : timed)
     trade_offs.push_back({subject, counts, all.at(subject), place_of(subject)});
@@ -103,6 +135,9 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
     subject["epsilon"] = std::exp2(each.place.epsilon_exponent);
     subject["farthest_over_B"] = or_null(each.farthest());
   }
+  json["left_out"] = timed_subjects(statistics);
+  std::erase_if(json["left_out"].get_ref<nlohmann::ordered_json::array_t&>(),
+                [&](const auto& subject) { return json["subjects"].contains(subject); });
   json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
   json["front_by_rate"] =
       pareto_front(all, [](const TradeOff& each) { return each.timed.counts.false_positive_rate(); });

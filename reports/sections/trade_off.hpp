@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// Run time and error of a subject, over all kinds and families about which every subject was asked.
+/// Run time and error of a subject, over the kinds and families that it has in common with all others that are compared.
 struct TradeOff {
   std::string subject;
   /// The sum over timed families. Rates are computed from it too, because the rates of a directed search are
@@ -33,8 +33,8 @@ struct TradeOff {
   }
 };
 
-/// A TradeOff for each timed subject, in the order of their names; empty if there is no family about which
-/// all were asked.
+/// A TradeOff for each timed subject, in the order of their names. If there is no family about which all were asked, only the
+/// largest set of subjects that have one in common is compared.
 std::vector<TradeOff> trade_offs(const Statistics& statistics);
 
 /// The Pareto front of the sound subjects, fastest first. A subject is on the front unless another sound
@@ -42,7 +42,7 @@ std::vector<TradeOff> trade_offs(const Statistics& statistics);
 /// only the first name is on the front. `error` computes the error of a subject.
 std::vector<std::string> pareto_front(const std::vector<TradeOff>& all, double (*error)(const TradeOff&));
 
-/// "subjects" with ns_per_query, rates and the farthest distance of each; "front_by_distance", of the
+/// "left_out" has the names of the timed subjects that are not compared. "subjects" with ns_per_query, rates and the farthest distance of each; "front_by_distance", of the
 /// farthest distance; "front_by_rate", of the rate of false positives; "front_by_earliness", of the 99 % quantile of earliness,
 /// of the subjects whose times are lower bounds. A subject has its sort of time, and the median, the 99 % quantile and the
 /// largest magnitude of time - t*; for a sound lower bound these are its earliness. If an algorithm has at least three

@@ -1,5 +1,6 @@
 #include "reports/statistics/confidence.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -17,8 +18,9 @@ double upper(std::uint64_t count, std::uint64_t total, double risk) {
 }
 
 double lower(std::uint64_t count, std::uint64_t total, double risk) {
-  if (count == 0) return 0;
-  return Binomial::find_lower_bound_on_p(static_cast<double>(total), static_cast<double>(count), risk);
+  if (count == 0 || total == 0) return 0;
+  return Binomial::find_lower_bound_on_p(static_cast<double>(total),
+                                         static_cast<double>(std::min(count, total)), risk);
 }
 
 }  // namespace

@@ -88,10 +88,12 @@ def check_rates(comparison, where, found, tally):
         upper,
         SOLVED,
     )
-    for end, value in zip(
-        found['false_positive_rate_interval_95'], interval(tally.false_positives, of_positives)
+    for name, count, total in (
+        ('false_negative_rate', tally.false_negatives, of_negatives),
+        ('false_positive_rate', tally.false_positives, of_positives),
     ):
-        comparison.near('intervals', f'{where} false_positive_rate', end, value, SOLVED)
+        for end, value in zip(found[f'{name}_interval_95'], interval(count, total)):
+            comparison.near('intervals', f'{where} {name}', end, value, SOLVED)
     largest = tally.ratios.largest()[0] if tally.false_positives else (0, 0)
     comparison.within('largest ratios', where, found['max_fp_distance_over_bound'], *largest)
     for name, part in (('median', 0.5), ('q99', 0.99)):

@@ -145,7 +145,7 @@ def headline(report, verdicts):
 
 def listed(names):
     """ "a, b and c", or the number of names if there are more than eight."""
-    if len(names) > 8:
+    if len(names) > 4:
         return f'{len(names)} subjects'
     return ' and '.join([', '.join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
 

@@ -23,6 +23,7 @@ from check_csv import (
 from check_deciders import check_deciders
 from check_factors import check_common_factors
 from check_page import check_page
+from check_scorecard import check_scorecard
 from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
 from check_text import check_text
 from comparison import Comparison
@@ -46,6 +47,7 @@ def check_report(comparison, report, answers, units):
     comparison.section(
         check_trade_offs, 'error_against_time', report['error_against_time'], answers, units
     )
+    comparison.section(check_scorecard, 'verdicts', report, answers)
     comparison.section(check_ladder, 'ladder', report, answers, units)
     comparison.section(check_deciders, 'deciders', report, answers)
     comparison.section(check_findings, 'findings', report, answers)

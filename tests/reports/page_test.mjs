@@ -1,7 +1,9 @@
 // Opens reports in Chromium as a user does, and checks what is drawn. Usage: page_test.mjs NEARMISS
 import { chromium } from "../../reports/page/node_modules/playwright-core/index.mjs";
-import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSweepsOfWhatIsNeverWrong, showsWhatDecides } from "./page/charts.mjs";
+import { hasNoBarriers, staysQuickWithManyFindings } from "./page/access.mjs";
+import { showsAClaimOfNoDistanceThatIsRefuted, showsSweeps, showsSweepsOfWhatIsNeverWrong, showsWhatDecides, showsWhereCollisionsAreMissed } from "./page/charts.mjs";
 import { showsFindings, showsThatNothingWasFound, showsTheBaseline, showsWhatIsNewSinceTheBaseline } from "./page/findings.mjs";
+import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
 import { removeFolder } from "./page/session.mjs";
@@ -34,6 +36,10 @@ try {
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await fitsEveryMedium(browser);
+  await showsWhereCollisionsAreMissed(browser);
+  await answersBeforeScrolling(browser);
+  await staysQuickWithManyFindings(browser);
+  await hasNoBarriers(browser);
 } finally {
   await browser.close();
   removeFolder();

@@ -49,6 +49,19 @@ TEST(TradeOff, OnlyFamiliesOfAllCount) {
   EXPECT_EQ(all[1].timed.counts.times.ns_per_query(), 200);
 }
 
+TEST(TradeOff, WithoutAFamilyOfAllTheLargestSetOfSubjectsIsCompared) {
+  Statistics statistics;
+  for (const char* subject : {"a", "b", "c"})
+    for (const char* family : {"f", "g"})
+      statistics.counts[{subject, Kind::edge_edge, family}] = counts(100, 50, 0, 0, 100);
+  statistics.counts[{"a", Kind::edge_edge, "scene"}] = counts(100, 50, 0, 0, 9000);
+  statistics.counts[{"other", Kind::edge_edge, "scene"}] = counts(100, 50, 0, 0, 9000);
+  const auto all = trade_offs(statistics);
+  ASSERT_THAT(all, SizeIs(3));
+  for (const TradeOff& each : all) EXPECT_EQ(each.timed.counts.queries, 200) << each.subject;
+  EXPECT_EQ(trade_offs_json(statistics)["left_out"], nlohmann::json({"other"}));
+}
+
 TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   Statistics statistics;
   statistics.counts[{"a", Kind::edge_edge, "f"}] = counts(100, 50, 0, 10, 100);

@@ -1,7 +1,7 @@
 // Tests charts of sweeps, of claims of no distance, and of deciders.
 import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
-import { count, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
+import { count, jsonOf, makeReport, nearmiss, open, pageOf } from "./session.mjs";
 
 export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
@@ -32,8 +32,23 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   assert.deepEqual(await farthest.allTextContents(), ["10–∞", "10–∞"]);
   const ends = (chart) => page.locator(`#${chart} .role-axis-label text`).allTextContents();
   assert.ok((await ends("error-time")).includes("∞"));
-  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 2);
+  assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 3); // and the cross of the one that failed
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
+  await page.close();
+}
+
+/** The map of misses has a column for each subject that missed, a cell for each family in which any of them did, and classes apart. */
+export async function showsWhereCollisionsAreMissed(browser) {
+  const page = await open(browser, pageOf("found"));
+  const { families } = Object.entries(jsonOf("found").subjects.basic).reduce((all, [, ofKind]) => {
+    for (const [name, each] of Object.entries(ofKind.families)) if (each.false_negatives > 0) all.families.add(name);
+    return all;
+  }, { families: new Set() });
+  const labels = await page.locator("#misses .role-axis-label text").allTextContents();
+  assert.deepEqual(new Set(labels), new Set(["basic", ...families]));
+  assert.equal(await count(page, "#misses .mark-rect.role-mark path[fill^='rgb']"), families.size);
+  assert.deepEqual(await page.locator("#misses .role-title-text text").allTextContents().then((titles) => titles.filter((title) => !title.includes("missed"))),
+    ["degenerate", "extreme"]);
   await page.close();
 }
 

@@ -1,0 +1,132 @@
+// Draws the first table: a row for each subject, the worst first.
+"use strict";
+
+const small = (content, bad) => made("div", content, { class: bad ? "small bad" : "small" });
+
+/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are no random sample. */
+const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
+
+/** "4,576 of 30,998"; if nothing was seen, also what the rate is below. */
+function missedText(counts) {
+  const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
+  if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
+  return `${seen}, below ${percent(counts.false_negative_rate_upper_95)}`;
+}
+
+const missedCell = ({ counts, classes }) => {
+  if (counts.collisions === 0) return ["no collision"];
+  const ofClasses = Object.entries(classes).filter(([, each]) => each.collisions > 0)
+    .map(([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`).join(" · ");
+  if (counts.false_negatives === 0) return [missedText(counts), small(ofClasses)];
+  return [made("strong", missedText(counts), { class: "bad" }),
+    ` ${rateText(counts.false_negative_rate, counts.false_negative_rate_interval_95)}`, small(ofClasses)];
+};
+
+/** Reasons to fail that are neither misses nor late times. */
+function otherFailures({ counts, faults }) {
+  const answers = Object.entries(faults).filter(([why]) => why !== "contract");
+  return [
+    ...(counts.refuted_bounds > 0 ? [`${integer(counts.refuted_bounds)} beyond its bound`] : []),
+    ...answers.map(([why, times]) => `${integer(times)} without answer: ${why}`),
+  ];
+}
+
+const falseCell = (verdict) => {
+  const { counts, subject } = verdict;
+  const others = otherFailures(verdict);
+  const unknown = counts.unknown > 0 ? [small(`unknown in ${integer(counts.unknown)} queries`)] : [];
+  const failures = others.length > 0 ? [small(others.join(", "), true)] : [];
+  if (counts.false_positives === 0) return ["none", ...unknown, ...failures];
+  const far = farthestOfSubject(subject);
+  const farthest = `the farthest ${timesTheBound(counts.max_fp_distance_over_bound, counts)}`;
+  return [`${integer(counts.false_positives)}, ${percent(counts.false_positive_rate)}`,
+    small(far ? made("a", farthest, { href: far.file }) : farthest), ...unknown, ...failures];
+};
+
+/** The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile. */
+const barScale = (() => {
+  const times = report.verdicts.flatMap((v) => [v.times.median_ns, v.times.q99_ns, v.counts.ns_per_query]).filter((ns) => ns > 0);
+  const [least, most] = [Math.min(...times) / 2, Math.max(...times)];
+  return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
+})();
+
+/** The run time: the median and the 99 % quantile of single queries, or the mean of batches if there are none. */
+const timeCell = ({ counts, times: { median_ns: median, q99_ns: q99 } }) => {
+  const usual = median ?? counts.ns_per_query;
+  if (!(usual > 0)) return ["–"];
+  const part = (name, ns) => made("span", [], { class: name, style: `width: ${barScale(ns)}` });
+  return [median === null ? short(usual) : `${short(median)}, 99 % ${short(q99)}`,
+    made("div", [...(q99 > 0 ? [part("q99", q99)] : []), part("median", usual)], { class: "bar", "aria-hidden": "true" })];
+};
+
+const changeCell = ({ since, clean }) => {
+  const parts = [
+    ...(since.new > 0 ? [made("strong", counted(since.new, "new way to fail", "new ways to fail"), { class: "bad" })] : []),
+    ...(since.worse > 0 ? [made("strong", counted(since.worse, "rate worse", "rates worse"), { class: "bad" })] : []),
+    ...(since.absent ? ["not in the baseline"] : []),
+  ];
+  const rest = [since.lasting > 0 && `${counted(since.lasting, "way", "ways")} as before`, since.better > 0 && counted(since.better, "rate better", "rates better")]
+    .filter(Boolean).join(", ");
+  const lines = parts.map((each) => made("div", each));
+  if (lines.length === 0) lines.push(made("div", clean ? "nothing new" : "nothing worse"));
+  return [...lines, ...(rest ? [small(rest)] : [])];
+};
+
+const againCell = ({ finding, clean }) => {
+  if (finding === null) return [clean ? "" : "none kept"];
+  const { again } = report.findings[finding];
+  const button = copyButton(again, "copy command");
+  button.title = again;
+  const link = made("a", "show", { href: "#findings-section" });
+  link.addEventListener("click", () => showFinding(finding));
+  return [button, " ", link];
+};
+
+/** The name, which leads to the subject's findings, or to its counts if there are none. */
+function subjectCell({ subject, finding }) {
+  const link = made("a", subject, { href: finding === null ? "#counts-section" : "#findings-section" });
+  if (finding !== null) link.addEventListener("click", () => filterFindings({ subject }));
+  return link;
+}
+
+/** Failed subjects by their rates of misses, then the others by their run times. */
+function inOrder(verdicts) {
+  const key = ({ clean, counts }) => [clean ? 1 : 0, -counts.false_negative_rate, -counts.late, clean ? counts.ns_per_query ?? Infinity : 0];
+  return [...verdicts].sort((a, b) => {
+    const [x, y] = [key(a), key(b)];
+    const i = x.findIndex((each, k) => each !== y[k]);
+    return i < 0 ? 0 : x[i] - y[i];
+  });
+}
+
+function drawScorecard() {
+  const rows = inOrder(report.verdicts);
+  const hasTimes = rows.some(({ counts }) => counts.times_promised > 0);
+  const columns = [
+    ["", ({ clean }) => made("span", clean ? "ok" : "FAIL", { class: "mark" })],
+    ["subject", subjectCell],
+    ["missed collisions", missedCell],
+    ...(hasTimes ? [["late times", ({ counts }) => (counts.times_promised === 0 ? "–"
+      : made(counts.late > 0 ? "strong" : "span", `${integer(counts.late)} of ${integer(counts.times_promised)}`, counts.late > 0 ? { class: "bad" } : {}))]] : []),
+    ["false positives", falseCell],
+    ["ns a query, median", timeCell],
+    ...(report.baseline ? [["since the baseline", changeCell]] : []),
+    ...(report.findings.length > 0 ? [["simplest failing query", againCell]] : []),
+  ];
+  const line = (verdict) => made("tr", columns.map(([, content]) => made("td", content(verdict))), { class: verdict.clean ? "verdict" : "verdict bad" });
+  const table = element("scorecard");
+  table.createTHead().insertRow().append(...columns.map(([title]) => made("th", title || made("span", "verdict", { class: "unseen" }), { scope: "col" })));
+  const wide = (content, attributes) => made("tr", made("td", content, { colspan: columns.length }), attributes);
+  const body = made("tbody");
+  if (report.oracle.complaint) body.append(wide([made("span", "FAIL", { class: "mark" }), ` oracle: ${report.oracle.complaint}`], { class: "verdict bad" }));
+  const good = rows.filter(({ clean }) => clean);
+  const isFolded = good.length > fewSubjects;
+  body.append(...rows.filter((row) => !isFolded || !row.clean).map(line));
+  table.append(body);
+  if (!isFolded) return;
+  const rest = made("tbody", good.map(line), { hidden: "", id: "clean-subjects" });
+  const toggle = made("button", `${good.length} subjects did not fail`, { type: "button", "aria-expanded": "false", "aria-controls": "clean-subjects" });
+  toggle.addEventListener("click", () => toggle.setAttribute("aria-expanded", String(!rest.toggleAttribute("hidden"))));
+  body.append(wide([made("span", "ok", { class: "mark" }), " ", toggle], { class: "verdict" }));
+  table.append(rest);
+}

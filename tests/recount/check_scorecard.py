@@ -1,0 +1,51 @@
+"""Checks the section verdicts of report.json: a row for each subject, for the page's first table."""
+
+from asking import KINDS
+from check_counts import check_rates
+from check_sections import check_places
+from tally import Tally, classes_of
+
+
+def check_scorecard(comparison, where, report, answers):
+    """Checks the rates of each subject over both kinds, as a whole and class by class, and which
+    finding is the simplest."""
+    rows = report['verdicts']
+    comparison.same('names', where, [row['subject'] for row in rows], answers.subjects)
+    for row in rows:
+        subject = row['subject']
+        own = f'{where} {subject}'
+        counts = row['counts']
+        check_rates(comparison, own, counts, Tally.of(answers, subject, KINDS))
+        check_places(comparison, where, row, subject)
+        comparison.same('counters', f'{own} faults', row['faults'], {})
+        failed = counts['false_negatives'] or counts['late'] or counts['refuted_bounds']
+        comparison.same('verdicts', f'{own} clean', row['clean'], not failed)
+        families = {
+            name: each['class']
+            for kind in KINDS
+            for name, each in report['subjects'][subject][kind]['families'].items()
+        }
+        members = classes_of(families)
+        comparison.same('names', f'{own} classes', list(row['classes']), list(members))
+        for name, of_class in members.items():
+            tally = Tally.of(answers, subject, KINDS, of_class)
+            check_rates(comparison, f'{own} {name}', row['classes'][name], tally)
+        _check_simplest(comparison, own, row['finding'], subject, report['findings'])
+
+
+def _check_simplest(comparison, where, index, subject, findings):
+    """Misses go before late times, these before other failures; among equals, no query has fewer
+    numbers other than 0."""
+    ranks = {
+        i: (
+            each['what'] != 'false-negative',
+            each['what'] != 'late',
+            sum(number != 0 for number in each['shrunk']),
+        )
+        for i, each in enumerate(findings)
+        if each['subject'] == subject
+    }
+    comparison.same('verdicts', f'{where} has a finding', index is not None, bool(ranks))
+    if index is None:
+        return
+    comparison.same('verdicts', f'{where} finding', ranks.get(index), min(ranks.values()))

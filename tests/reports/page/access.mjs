@@ -1,0 +1,55 @@
+// Tests that everybody can use the page, and that it stays quick with many findings.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { count, folder, open, pageOf } from "./session.mjs";
+
+const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
+
+/** axe-core finds nothing, in both themes and on a phone. */
+export async function hasNoBarriers(browser) {
+  const [light, dark, phone] = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }];
+  for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light]])
+    for (const options of all) {
+      const page = await open(browser, pageOf(name), options);
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() => axe.run());
+      assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.length} times, such as ${nodes[0].html.slice(0, 200)} (${nodes[0].failureSummary})`), [],
+        `${name} ${JSON.stringify(options)}`);
+      await page.close();
+    }
+}
+
+/** A report with this many findings, made of those of another one. */
+function withFindings(name, many) {
+  const page = readFileSync(join(folder, name, "index.html"), "utf8");
+  const begin = page.indexOf(">", page.indexOf('id="report"')) + 1;
+  const end = page.indexOf("</script>", begin);
+  const report = JSON.parse(page.slice(begin, end));
+  const { findings } = report;
+  report.findings = Array.from({ length: many }, (_, i) => ({ ...findings[i % findings.length], provenance: `number-${i}` }));
+  const file = join(folder, `${many}.html`);
+  writeFileSync(file, page.slice(0, begin) + JSON.stringify(report).replaceAll("<", "\\u003c") + page.slice(end));
+  return pathToFileURL(file).href;
+}
+
+/** However many findings there are, the page draws a few and finds the others. Prints the times. */
+export async function staysQuickWithManyFindings(browser) {
+  for (const many of [10, 10000]) {
+    const page = await open(browser, withFindings("found", many));
+    const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
+    assert.equal(await count(page, "#findings .card"), Math.min(many, 24));
+    const search = await page.evaluate((words) => {
+      const input = document.querySelector("#findings-filter [name=words]");
+      const begin = performance.now();
+      input.value = words;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      document.body.getBoundingClientRect(); // the layout is part of it
+      return performance.now() - begin;
+    }, `number-${many - 1}`);
+    assert.equal(await page.textContent("#findings-count"), `1 of 1 shown, out of ${many.toLocaleString("en-US")}`);
+    console.log(`${many} findings: first paint after ${Math.round(paint)} ms, filtered in ${search.toFixed(1)} ms`);
+    await page.close();
+  }
+}
