@@ -164,7 +164,8 @@ void add_context(ordered_json& json, const Campaign& campaign, const ReportConte
 
 ordered_json report_json(const Campaign& campaign, const ReportContext& context) {
   const Statistics& statistics = campaign.statistics;
-  ordered_json json = summary_json({campaign.runs, by_shown_family(statistics)});
+  ordered_json json{{"schema_version", report_schema_version}};
+  json.update(summary_json({campaign.runs, by_shown_family(statistics)}));
   std::optional<Changes> since;
   if (!context.baseline.empty()) since = changes(campaign, context.baseline);
   const Headline line = headline(statistics, since);

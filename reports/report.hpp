@@ -21,7 +21,10 @@ struct ReportContext {
   std::vector<Environment> environments = {};
 };
 
-/// Everything that the page shows: summary_json by shown family (family.hpp); the headline, a verdict on each subject,
+/// The version of report.json, which reports/report.schema.json describes.
+inline constexpr int report_schema_version = 1;
+
+/// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, a verdict on each subject,
 /// error against run time, the histogram's borders, the names of the stages, the first findings of each signature and the
 /// farthest false positives with the names of their case files, the earliest and latest times; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});

@@ -10,22 +10,22 @@ function failureTitle(finding) {
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
 
-/** A finding: its picture, what failed and how often, the command that replays it, and the query on demand. */
-function card(finding, index) {
-  const fold = (title, query, file) => made("details", [made("summary", title), made("a", file, { href: file }), queryText(query), copyQuery(query)]);
-  return made("article", [
-    drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi),
-    made("div", [
-      ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
-      made("h3", failureTitle(finding)),
-      made("div", `${finding.signature}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
-      made("div", finding.explanation),
-      made("div", `${kindTitles[finding.kind]}, from ${finding.provenance}`, { class: "small" }),
-      command(finding.again),
-      fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
-    ]),
-  ], { class: "card", id: `finding-${index}` });
-}
+/** A picture with what there is to say about it. */
+const pictureCard = (figure, content, attributes = {}) => made("article", [figure, made("div", content)], { class: "card", ...attributes });
+
+/** A query that is shown on demand. */
+const fold = (title, query, file) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query)]);
+
+/** A finding: its picture, what failed and how often, the command that replays it, and its queries. */
+const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
+  ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
+  made("h3", failureTitle(finding)),
+  made("div", `${finding.signature}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
+  made("div", finding.explanation),
+  small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
+  command(finding.again),
+  fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
+], { id: `finding-${index}` });
 
 // --- findings -------------------------------------------------------------------------------------
 
@@ -45,7 +45,7 @@ const filteredFindings = () => {
 
 function drawCards() {
   const some = filteredFindings();
-  element("findings").replaceChildren(...some.slice(0, filter.most).map(({ finding, index }) => card(finding, index)));
+  element("findings").replaceChildren(...some.slice(0, filter.most).map(({ finding, index }) => findingCard(finding, index)));
   element("findings-count").textContent = `${integer(Math.min(some.length, filter.most))} of ${integer(some.length)} shown` +
     (some.length < findings.length ? `, out of ${integer(findings.length)}` : "");
   element("more-findings").toggleAttribute("hidden", some.length <= filter.most);
@@ -88,10 +88,6 @@ function drawFilter() {
   });
 }
 
-const picture = (query, title = "t = 0, t* or closest, t = 1") => ({
-  title, text: (r) => drawPicture(r.kind, r[query], r.time, r.toi),
-});
-
 function drawFindings() {
   show("findings-section");
   const seen = report.signatures.reduce((sum, each) => sum + each.seen, 0);
@@ -113,11 +109,9 @@ function drawFarthest() {
   const rows = countRows(false).map(farthestOf).filter(Boolean);
   if (rows.length === 0) return;
   show("farthest-section");
-  fillTable(element("farthest"), [
-    picture("query"),
-    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio, r)), made("div", `from ${r.provenance}`)]) },
-    { title: "query", text: (r) => made("div", [made("a", r.file, { href: r.file }), queryText(r.query), copyQuery(r.query)]) },
-  ], rows);
+  element("farthest").append(...rows.map((r) => pictureCard(drawPicture(r.kind, r.query, r.time), [
+    made("h3", `${r.subject} ${r.kind}`), made("div", timesTheBound(r.ratio, r)), small(`from ${r.provenance}`), fold("the query", r.query, r.file),
+  ])));
 }
 
 function drawExtremeTimes() {
@@ -130,10 +124,8 @@ function drawExtremeTimes() {
     return side === "after" && late === after.reduce((a, b) => a + b, 0);
   };
   const what = (r) => (isLate(r) ? "late" : r.side === "early" ? "early" : "after t*");
-  fillTable(element("extreme-times"), [
-    picture("query", "t = 0, toi and t*, t = 1"),
-    { title: "subject", text: (r) => made("div", [made("strong", `${r.subject} ${r.kind}`, isLate(r) ? { class: "bad" } : {}),
-      made("div", `${what(r)} by ${short(r.error)} of the step`), made("div", `from ${r.provenance}`)]) },
-    { title: "query", text: (r) => made("div", [queryText(r.query), copyQuery(r.query)]) },
-  ], rows);
+  element("extreme-times").append(...rows.map((r) => pictureCard(drawPicture(r.kind, r.query, r.time, r.toi), [
+    made("h3", `${r.subject} ${r.kind}`, isLate(r) ? { class: "bad" } : {}), made("div", `${what(r)} by ${short(r.error)} of the step`),
+    small(`from ${r.provenance}`), fold("the query", r.query),
+  ])));
 }

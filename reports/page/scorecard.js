@@ -113,7 +113,7 @@ function drawScorecard() {
     ...(report.baseline ? [["since the baseline", changeCell]] : []),
     ...(report.findings.length > 0 ? [["simplest failing query", againCell]] : []),
   ];
-  const line = (verdict) => made("tr", columns.map(([, content]) => made("td", content(verdict))), { class: verdict.clean ? "verdict" : "verdict bad" });
+  const line = (verdict) => made("tr", columns.map(([title, content]) => made("td", content(verdict), { "data-title": title })), { class: verdict.clean ? "verdict" : "verdict bad" });
   const table = element("scorecard");
   table.createTHead().insertRow().append(...columns.map(([title]) => made("th", title || made("span", "verdict", { class: "unseen" }), { scope: "col" })));
   const wide = (content, attributes) => made("tr", made("td", content, { colspan: columns.length }), attributes);

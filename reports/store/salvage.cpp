@@ -48,7 +48,7 @@ Salvage salvage_campaign(const std::filesystem::path& file) {
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
     db.exec("PRAGMA schema_version");        // throws if this is no database
-    TableReader read(db, true);
+    TableReader read = TableReader::salvaging(db);
     Salvage salvage{{read_runs(read), read_statistics(read)}, 0, ""};
     bool lost_runs = false;
     for (const Salvaged& table : read.salvaged()) {

@@ -34,7 +34,7 @@ Table<Row> counters_table(std::string name, const std::string& key, std::vector<
   using Owner = decltype(Row::value);
   add_counters<Row, Owner>(
       columns, "", [](Row & row) -> auto& { return row.value; });
-  return {std::move(name), "PRIMARY KEY (" + key + ")", {}, std::move(columns)};
+  return {std::move(name), "PRIMARY KEY (" + key + ")", {}, std::move(columns), 0};
 }
 
 Table<CountsRow> counts() {
@@ -57,11 +57,13 @@ Table<FunnelRow> funnels() {
 }
 
 Table<FactorRow> factors() {
-  return counters_table<FactorRow>(
+  auto table = counters_table<FactorRow>(
       "factor", "subject, kind, family, factor_values",
       {key_column<FactorRow>("subject", &FactorKey::subject), key_column<FactorRow>("kind", &FactorKey::kind),
        key_column<FactorRow>("family", &FactorKey::family),
        key_column<FactorRow>("factor_values", &FactorKey::values)});
+  table.since = 17;
+  return table;
 }
 
 Table<SeenRow> seen() {

@@ -25,9 +25,9 @@ void make_schema(SQLite::Database& db) {
   write_version(db);
 }
 
-/// Reads a whole store. Throws Damage, or an exception of SQLite, unless it is as it was written.
-Campaign read_all(SQLite::Database& db) {
-  TableReader read(db, false);
+/// Reads a whole store of this version. Throws Damage, or an exception of SQLite, unless it is as it was written.
+Campaign read_all(SQLite::Database& db, int version) {
+  TableReader read(db, version);
   return {read_runs(read), read_statistics(read)};
 }
 
@@ -53,16 +53,15 @@ bool has_locked_log(const fs::path& file, const std::exception& error) {
   return reason != nullptr && reason->getErrorCode() == SQLITE_CANTOPEN && fs::exists(file.string() + "-wal");
 }
 
-/// Opens a store, and runs `act` with it. If it is damaged, the Error also says how much a salvage would save.
+/// Opens a store of at least this version, and runs `act` with it and its version. If it is damaged, the Error also says how much a salvage would save.
 template <class Act>
-auto reading(const fs::path& file, const Act& act) {
+auto reading(const fs::path& file, int oldest, const Act& act) {
   expect_regular_file(file);
   return naming(file, [&] {
     try {
       SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
       const SQLite::Transaction one_save(db);  // another process may save meanwhile
-      check_version(db);
-      return act(db);
+      return act(db, version_of(db, oldest));
     } catch (const std::exception& error) {
       if (has_locked_log(file, error))
         throw Error(fmt::format(
@@ -153,9 +152,9 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
 }
 
 Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
-  const std::vector<Run> runs = reading(file, [](SQLite::Database& db) {
+  const std::vector<Run> runs = reading(file, store_version, [](SQLite::Database& db, int version) {
     check_structure(db);
-    return read_all(db).runs;
+    return read_all(db, version).runs;
   });
   naming(file, [&] {
     if (runs.size() != 1 || runs.front().shards.size() != 1)
@@ -182,7 +181,7 @@ void Store::add(const ScenePicture& picture) {
 
 Campaign load_campaign(const fs::path& file) {
   if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", file.string()));
-  return reading(file, read_all);
+  return reading(file, oldest_store_version, read_all);
 }
 
 Campaign load_campaigns(std::span<const fs::path> files) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reports/store/table.hpp"
+#include "reports/store/version.hpp"
 
 namespace nearmiss {
 
@@ -22,12 +23,19 @@ struct Salvaged {
 /// Reads tables.
 class TableReader {
  public:
-  /// Reads everything and throws Damage, or, if `salvages`, reads the intact rows.
-  TableReader(SQLite::Database& db, bool salvages) : db_(db), salvages_(salvages) {}
+  /// Reads everything of a store of this version, and throws Damage if something is damaged.
+  TableReader(SQLite::Database& db, int version) : db_(db), version_(version) {}
+  /// Reads the intact rows of a store.
+  static TableReader salvaging(SQLite::Database& db) {
+    TableReader reader(db, store_version);
+    reader.salvages_ = true;
+    return reader;
+  }
 
   /// Passes the rows of a table to `take`.
   template <class Row, class Take>
   void operator()(const Table<Row>& table, const Take& take) {
+    if (table.since > version_) return;
     if (!salvages_) return table.read(db_, take);
     Salvaged& result = salvaged_.emplace_back(begin(table.name));
     try {
@@ -44,7 +52,8 @@ class TableReader {
   [[nodiscard]] std::uint64_t last_row(const std::string& table);
 
   SQLite::Database& db_;
-  bool salvages_;
+  int version_;
+  bool salvages_ = false;
   std::vector<Salvaged> salvaged_;
 };
 

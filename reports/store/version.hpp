@@ -13,8 +13,14 @@ namespace nearmiss {
 /// Marks an empty database as a store of this version.
 void write_version(SQLite::Database& db);
 
-/// Throws Error if the database is not a store, or is a store of another version.
-void check_version(SQLite::Database& db);
+/// The version of the tables and of their contents; every change raises it.
+inline constexpr int store_version = 17;
+/// The oldest version that can be read. Stores of versions before the present one cannot be continued.
+inline constexpr int oldest_store_version = 16;
+
+/// The version of a store. Throws Error if the database is not a store, or if its version is not at least `oldest`, or later than
+/// the present one.
+int version_of(SQLite::Database& db, int oldest);
 
 /// Runs `act`. Any exception becomes an Error that names the file.
 template <class Act>

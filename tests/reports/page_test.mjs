@@ -6,6 +6,7 @@ import { showsFindings, showsThatNothingWasFound, showsTheBaseline, showsWhatIsN
 import { answersBeforeScrolling } from "./page/first_screen.mjs";
 import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
+import { everyReportFollowsItsSchema } from "./page/schema.mjs";
 import { removeFolder } from "./page/session.mjs";
 import { drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
@@ -35,11 +36,12 @@ try {
   await drawsManySubjectsWithoutALadder(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
-  await fitsEveryMedium(browser);
   await showsWhereCollisionsAreMissed(browser);
   await answersBeforeScrolling(browser);
+  await fitsEveryMedium(browser);
   await staysQuickWithManyFindings(browser);
   await hasNoBarriers(browser);
+  everyReportFollowsItsSchema();
 } finally {
   await browser.close();
   removeFolder();

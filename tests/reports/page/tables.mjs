@@ -34,7 +34,12 @@ export async function fitsEveryMedium(browser) {
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
       await page.close();
     }
-  const page = await open(browser, url);
-  assert.ok((await page.pdf()).length > 50000);
-  await page.close();
+  for (const each of [url, pageOf("eleven")]) {
+    const page = await open(browser, each);
+    const paper = await page.pdf({ format: "A4" });
+    assert.ok(paper.length > 50000);
+    const sheets = paper.toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g).length;
+    assert.ok(sheets <= 12, `${sheets} sheets`);
+    await page.close();
+  }
 }

@@ -66,11 +66,11 @@ async function checkHistograms(page, { subjects }) {
 }
 
 async function checkPictures(page, { extreme_times, findings }) {
-  assert.equal(await count(page, "#extreme-times tbody tr"), extreme_times.length);
-  const always = page.locator("#extreme-times tbody tr", { hasText: "always vt" });
+  assert.equal(await count(page, "#extreme-times .card"), extreme_times.length);
+  const always = page.locator("#extreme-times .card", { hasText: "always vt" });
   assert.match(await always.first().textContent(), /early by 0\.\d+ of the step/);
   assert.match(await always.last().textContent(), /late by 0\.\d+ of the step/);
-  assert.match(await page.locator("#extreme-times tbody tr", { hasText: "sampling vt" }).last().textContent(), /after t\* by /);
+  assert.match(await page.locator("#extreme-times .card", { hasText: "sampling vt" }).last().textContent(), /after t\* by /);
   const late = findings.filter(({ what }) => what === "late");
   assert.ok(late.length > 0);
   while (await page.isVisible("#more-findings")) await page.click("#more-findings");
@@ -111,6 +111,7 @@ export async function showsSeparations(browser) {
     assert.ok((await page.locator(`#${section} pre`).first().textContent()).endsWith(`\nh  ${h}`), section);
   }
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.locator("#extreme-times summary").first().click();
   const button = page.locator("#extreme-times button").first();
   await button.click();
   await page.locator("#extreme-times").getByText("copied", { exact: true }).waitFor();
@@ -130,7 +131,7 @@ export async function showsWhichTimesAreLate(browser) {
     run("report", `${name}.db`, "-o", name);
     const page = await open(browser, pageOf(name));
     assert.equal(jsonOf(name).subjects.always.vt.late, 1);
-    assert.ok((await page.textContent("#extreme-times tbody tr")).includes(text), text);
+    assert.ok((await page.textContent("#extreme-times .card")).includes(text), text);
     await page.close();
   }
 }
