@@ -14,6 +14,7 @@ inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input, or output
 inline constexpr int exit_interrupted = 130;
 
 // Each function adds its subcommand to the command line. A subcommand that runs stores its exit code.
+void add_demo(CLI::App& app, int& exit_code);
 void add_oracle(CLI::App& app, int& exit_code);
 void add_verdict(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);

@@ -31,7 +31,7 @@ constexpr const char* about =
     "nearmiss puts continuous collision detectors (CCDs) on trial: it compares them with an exact oracle, "
     "hunts for\n"
     "collisions that they miss, and measures how far from contact their false alarms are.\n\n"
-    "Try: nearmiss fuzz --subject basic,wang --cases 100000";
+    "Try: nearmiss demo, then nearmiss fuzz --subject basic,wang --cases 100000";
 
 constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 the results have a false negative, a late time, a refuted bound, an oracle\n"
@@ -132,8 +132,8 @@ int run(int argc, char** argv) {
 
   int exit_code = exit_fine;
   for (const auto add :
-       {add_fuzz, add_replay, add_shrink, add_report, add_merge, add_scene, add_ladder, add_audit, add_power,
-        add_tightness, add_bench, add_family, add_oracle, add_verdict, add_subjects})
+       {add_demo, add_fuzz, add_replay, add_shrink, add_report, add_merge, add_scene, add_ladder, add_audit,
+        add_power, add_tightness, add_bench, add_family, add_oracle, add_verdict, add_subjects})
     add(app, exit_code);
 
   expect_values(argc, argv);

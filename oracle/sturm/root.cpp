@@ -171,16 +171,26 @@ Integer SturmRoot::border_by_chord() const {
   return ((values.lo << (fineness_.bits() + 1)) + rise) / (2 * rise);
 }
 
-void SturmRoot::refine() {
-  ++refinements_;
+/// Shrinks the interval to the pieces beside a border if the root is there. Returns whether it is.
+bool SturmRoot::shrink_to(const Integer& border) {
   const unsigned bits = fineness_.bits();
-  const Integer border = border_by_chord();
   const Dyadic below = border_of_piece(lo_.t, hi_.t, border - 1, bits);
   const Dyadic above = border_of_piece(lo_.t, hi_.t, border + 1, bits);
   for (const Dyadic& at : {below, above})
     if (!is_dyadic_ && lo_.t < at && at < hi_.t) cut(at);
+  return is_dyadic_ || (!(lo_.t < below) && !(above < hi_.t));
+}
+
+void SturmRoot::refine() {
+  // Complex roots close to this one bend the curve, so that the chord says little; a guess for a cluster then says more.
+  constexpr int many = 8;
+  ++refinements_;
+  bool good_guess = shrink_to(border_by_chord());
+  if (!good_guess && refinements_ > many) {
+    const Integer border = border_near_cluster(f_, lo_.t, hi_.t, fineness_.bits());
+    good_guess = border >= 0 && shrink_to(border);
+  }
   if (is_dyadic_) return;
-  const bool good_guess = !(lo_.t < below) && !(above < hi_.t);
   fineness_.after(good_guess);
   if (!good_guess) cut(between(lo_.t, hi_.t));
 }

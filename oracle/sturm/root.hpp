@@ -46,6 +46,7 @@ class SturmRoot {
   void set_polynomial(IntegerPolynomial f);
   [[nodiscard]] bool is_common_root(const IntegerPolynomial& g);
   void refine();
+  bool shrink_to(const Integer& border);
   void cut(Dyadic at);
   [[nodiscard]] Integer border_by_chord() const;
 
