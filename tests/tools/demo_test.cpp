@@ -1,0 +1,53 @@
+// nearmiss demo and nearmiss completion.
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class DemoTest : public testing::CommandLine {
+ protected:
+  /// The words with which bash completes a command line of these words.
+  [[nodiscard]] std::string completed(const std::string& words) const {
+    (void)run("completion bash", "", "&& cp out.txt completion");
+    const std::string command =
+        "cd " + file("").string() + " && bash -c 'source ./completion; COMP_WORDS=(" + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _nearmiss; echo \"${COMPREPLY[*]}\"' >words.txt";
+    EXPECT_EQ(std::system(command.c_str()), 0) << words;
+    return read("words.txt");
+  }
+};
+
+TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
+  const Output output = run("demo -o 'a miss.case'");
+  EXPECT_EQ(output.code, 0) << output.error;
+  EXPECT_THAT(output.out,
+              AllOf(ContainsRegex("basic has missed [0-9]+ collision"),
+                    HasSubstr("wang, the failure-proof CCD, reports it."), ContainsRegex("\n  +[ .o#]*[0-3]"),
+                    HasSubstr("nearmiss replay 'a miss.case' --subject basic,wang\n")));
+  const Output replayed = run("replay 'a miss.case' --subject basic,wang");
+  EXPECT_EQ(replayed.code, 1);
+  EXPECT_THAT(replayed.out,
+              AllOf(HasSubstr("FAIL basic: MISSED 1 of 1"), HasSubstr("ok  wang: no miss in 1")));
+}
+
+TEST_F(DemoTest, SaysThatItCannotWrite) { expect_refused("demo -o no/folder.case", {"no/folder.case"}); }
+
+TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
+  EXPECT_EQ(completed("nearmiss shr"), "shrink\n");
+  EXPECT_EQ(completed("nearmiss fuzz --subj"), "--subject\n");
+  EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
+  EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
+  EXPECT_EQ(completed("nearmiss fuzz --subject ./a"), "\n");  // the shell completes files
+}
+
+TEST_F(DemoTest, KnowsTwoShells) {
+  EXPECT_THAT(run("completion zsh").out, ::testing::StartsWith("#compdef nearmiss\n"));
+  expect_refused("completion fish", {"found 'fish', expected bash or zsh"});
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,38 @@
+#!/usr/bin/env node
+// Writes a chart of a report as an SVG file: opens the page in Chromium, as a user does.
+// Usage: tools/chart.mjs REPORT CHART OUT.svg
+//   REPORT  the folder of a report
+//   CHART   the id of a chart on its page, such as error-time, misses or distances
+//   OUT     the file to write
+import { existsSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "../reports/page/node_modules/playwright-core/index.mjs";
+
+const refuse = (why) => {
+  console.error(`tools/chart.mjs: ${why}`);
+  process.exit(2);
+};
+const [report, chart, out] = process.argv.slice(2);
+if (process.argv.length !== 5) refuse(`found ${process.argv.length - 2} arguments, expected REPORT CHART OUT.svg`);
+const file = join(resolve(report), "index.html");
+if (!existsSync(file)) refuse(`found no '${file}', expected the folder of a report`);
+
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+try {
+  const page = await browser.newPage({ offline: true, viewport: { width: 1100, height: 800 } });
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForSelector("body[data-drawn], body[data-error]");
+  const svg = await page.evaluate((id) => {
+    const drawn = document.querySelector(`#${CSS.escape(id)} svg.marks`);
+    if (!drawn) return undefined;
+    const white = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+    for (const [name, value] of Object.entries({ width: "100%", height: "100%", fill: "white" })) white.setAttribute(name, value);
+    drawn.prepend(white); // so that it can be read on dark pages, too
+    return new XMLSerializer().serializeToString(drawn);
+  }, chart);
+  if (svg === undefined) refuse(`${file}: found no chart '${chart}'`);
+  writeFileSync(out, `${svg}\n`);
+} finally {
+  await browser.close();
+}
