@@ -1,23 +1,24 @@
-#!/usr/bin/env node
 // Writes a chart of a report as an SVG file: opens the page in Chromium, as a user does.
-// Usage: tools/chart.mjs REPORT CHART OUT.svg
+// Usage: node tools/chart.mjs REPORT CHART OUT.svg
 //   REPORT  the folder of a report
 //   CHART   the id of a chart on its page, such as error-time, misses or distances
 //   OUT     the file to write
 import { existsSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "../reports/page/node_modules/playwright-core/index.mjs";
+import { readOptions } from "./options.mjs";
 
 const refuse = (why) => {
   console.error(`tools/chart.mjs: ${why}`);
   process.exit(2);
 };
-const [report, chart, out] = process.argv.slice(2);
-if (process.argv.length !== 5) refuse(`found ${process.argv.length - 2} arguments, expected REPORT CHART OUT.svg`);
+const { positionals } = readOptions({}, true);
+if (positionals.length !== 3) refuse(`found ${positionals.length} arguments, expected REPORT CHART OUT.svg`);
+const [report, chart, out] = positionals;
 const file = join(resolve(report), "index.html");
 if (!existsSync(file)) refuse(`found no '${file}', expected the folder of a report`);
 
+const { chromium } = await import("../reports/page/node_modules/playwright-core/index.mjs");
 const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
 try {
   const page = await browser.newPage({ offline: true, viewport: { width: 1100, height: 800 } });

@@ -7,7 +7,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { readOptions } from "../options.mjs";
+import { readOptions } from "../../tools/options.mjs";
 
 const [nearmiss, plugins, pairs = "100", cases = "300000", only] = readOptions({}, true).positionals;
 if (!nearmiss || !plugins) {

@@ -8,7 +8,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { Copy, filesBelow, source } from './copy.mjs';
-import { readOptions } from '../options.mjs';
+import { readOptions } from '../../tools/options.mjs';
 import { readDefects } from './list.mjs';
 import { steps } from './steps.mjs';
 import { table, unexpected } from './table.mjs';
