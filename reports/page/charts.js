@@ -4,7 +4,12 @@
 const style = getComputedStyle(document.documentElement);
 const color = (name) => style.getPropertyValue(name).trim();
 const words = { labelColor: color("--ink"), titleColor: color("--ink") };
-const look = { font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
+// Charts write numbers as the tables do.
+vega.expressionFunction("digits", (x, many) => (x === Infinity ? "∞" : rounded(x, Number(many))));
+vega.expressionFunction("share", percent);
+const digits = (many) => ({ format: String(many), formatType: "digits" });
+const asShare = { formatType: "share" };
+const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-serif", background: "transparent", view: { stroke: color("--line") },
   legend: { orient: "bottom", columns: 8, symbolLimit: 0, labelLimit: 0, ...words }, title: { color: color("--ink") }, header: words,
   axis: { gridColor: color("--line"), domainColor: color("--soft"), tickColor: color("--soft"), ...words } };
 
@@ -52,7 +57,7 @@ function logAxis(values) {
   const top = power(values.includes(Infinity) ? highest + step : highest);
   const ticks = [bottom, top];
   for (let i = highest; i >= lowest; i -= step) if (top === power(highest) || Math.log10(top) - i >= step / 2) ticks.push(power(i));
-  const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : format(datum.value, '~g')`;
+  const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : digits(datum.value, 3)`;
   return { at: (v) => Math.min(Math.max(v, bottom), top), scale: { type: "log", domain: [bottom, top], nice: false },
     axis: { values: ticks, labelExpr: label } };
 }
@@ -82,12 +87,12 @@ function drawRates() {
   const decades = [];
   for (let decade = 1; decade >= 0.99 * lowest; decade /= 10) decades.push(decade);
   const rate = (field) => ({ field, type: "quantitative", title: "false positives, among non-collisions",
-    scale: { type: "log", domain: [lowest, 1], nice: false }, axis: { values: decades, labelExpr: "format(datum.value * 100, '.3~g') + ' %'" } });
+    scale: { type: "log", domain: [lowest, 1], nice: false }, axis: { values: decades, labelExpr: "share(datum.value)" } });
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "false_positives", title: "false positives" },
-    { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", format: ".3~%" },
-    { field: "lo", title: "from", format: ".3~%" }, { field: "hi", title: "to", format: ".3~%" },
-    { field: "median", title: "median distance / bound, at most", format: ".3~g" },
-    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }, boundField];
+    { field: "queries" }, { field: "collisions" }, { field: "false_positive_rate", title: "rate", ...asShare },
+    { field: "lo", title: "from", ...asShare }, { field: "hi", title: "to", ...asShare },
+    { field: "median", title: "median distance / bound, at most", ...digits(3) },
+    { field: "max_fp_distance_over_bound", title: "largest", ...digits(5) }, boundField];
   const separators = { data: { values: families.slice(1).map((family) => ({ family })) },
     mark: { type: "rule", color: color("--line") }, encoding: { y: { ...y, bandPosition: 0 } } };
   const panel = (kind, i) => ({
@@ -166,7 +171,7 @@ function drawDistances() {
   const used = values.filter((v) => v.count > 0).map((v) => v.begin);
   const hue = chosenColor();
   const first = begins[Math.max(0, begins.indexOf(Math.min(...used)) - 1)];
-  const label = `datum.value < ${begins[0] * 1.1} ? '0' : datum.value > ${ends[last] * 0.9} ? '∞' : format(datum.value, '.0e')`;
+  const label = `datum.value < ${begins[0] * 1.1} ? '0' : datum.value > ${ends[last] * 0.9} ? '∞' : digits(datum.value, 1)`;
   const decades = borders.filter((border, i) => i % 8 === 1 && border > 1.1 * first);
   const bound = { data: { values: [{ bound: 1 }] }, mark: { type: "rule", color: color("--bad"), strokeWidth: 2 },
     encoding: { x: { field: "bound", type: "quantitative" } } };
@@ -183,7 +188,7 @@ function drawDistances() {
           y: { field, type: "quantitative", title, ...scale },
           color: hue,
           tooltip: [{ field: "subject" }, { field: "distance", title: "distance / bound" }, boundField, { field: "count" },
-            { field: "share", title: "not farther", format: ".2%" }],
+            { field: "share", title: "not farther", ...asShare }],
         },
       },
       bound,
@@ -238,9 +243,9 @@ function drawSweeps() {
     axis: { values: [0, ends], labelExpr: "datum.value === 0 ? 'lowest' : 'highest'", labelAngle: 0, labelFlush: true, ticks: false } };
   const y = { field: "row", type: "nominal", title: null };
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "value", title: "parameter" }, { field: "queries" }, { field: "collisions" },
-    { field: "false_negatives", title: "missed" }, { field: "false_positive_rate", title: "false positives", format: ".3~%" },
-    { field: "max_fp_distance_over_bound", title: "largest distance / bound", format: ".4~g" }, boundField,
-    { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
+    { field: "false_negatives", title: "missed" }, { field: "false_positive_rate", title: "false positives", ...asShare },
+    { field: "max_fp_distance_over_bound", title: "largest distance / bound", ...digits(4) }, boundField,
+    { field: "ns_per_query", title: "ns a query", ...digits(4) }];
   const panel = (field, title, scheme, format, names) => ({
     title, width: 330, height: { step: 16 },
     layer: [

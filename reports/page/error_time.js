@@ -1,9 +1,9 @@
 // Draws error against run time: a mark for each subject, or lines if there are algorithms over many scalars.
 "use strict";
 
-const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
+const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: "ns a query", ...digits(4) },
   { field: "false_negatives", title: "missed" }, { field: "collisions", title: "collisions" },
-  { field: "false_positive_rate", title: "false positives", format: ".3~%" }];
+  { field: "false_positive_rate", title: "false positives", ...asShare }];
 
 const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
 
@@ -45,9 +45,9 @@ function drawErrorTimeOfEach() {
   const x = { field: "ns_per_query", type: "quantitative", title: "ns a query",
     scale: { type: "log", nice: false, domain: ends }, axis: { grid: true, tickCount: 6, format: "~s" } };
   const tooltip = [...errorTimeTooltip,
-    { field: "median", title: "median distance / bound, at most", format: ".3~g" },
-    { field: "q99", title: "99 %, at most", format: ".3~g" },
-    { field: "max_fp_distance_over_bound", title: "largest", format: ".5~g" }, boundField];
+    { field: "median", title: "median distance / bound, at most", ...digits(3) },
+    { field: "q99", title: "99 %, at most", ...digits(3) },
+    { field: "max_fp_distance_over_bound", title: "largest", ...digits(5) }, boundField];
   const panel = (title, top, marks, front) => {
     const axis = logAxis(rows.flatMap((row) => [top, ...marks].map((field) => row[field])));
     const shown = rows.map((row) => {
@@ -149,9 +149,9 @@ function drawErrorTimeOfLadder() {
     scale: { type: "log", nice: false, domain: [shortest, longest] }, axis: { grid: true, tickCount: 6, format: "~s" } };
   const hue = { ...algorithmColor([...new Set(rows.map((row) => row.algorithm))]), legend: { symbolOpacity: 1 } };
   const opacity = (most) => ({ condition: { param: "chosen", value: most }, value: 0.1 });
-  const tooltip = [...errorTimeTooltip, { field: "epsilon", title: "ε", format: ".3~e" },
-    { field: "farthest_over_B", title: "farthest / B", format: ".4~g" },
-    { field: "max_fp_distance_over_bound", title: "farthest / bound", format: ".5~g" }, boundField];
+  const tooltip = [...errorTimeTooltip, { field: "epsilon", title: "ε", ...digits(3) },
+    { field: "farthest_over_B", title: "farthest / B", ...digits(4) },
+    { field: "max_fp_distance_over_bound", title: "farthest / bound", ...digits(5) }, boundField];
   const [width, height] = [panelWidth(460), 360];
   const panel = (title, field, front, bounds, params) => {
     const known = rows.filter((row) => row[field] !== null);

@@ -39,9 +39,9 @@ function drawLadder() {
   ], rungs, true);
   const hue = algorithmColor([...new Set(rungs.map((r) => r.algorithm))]);
   const x = { field: "epsilon", type: "quantitative", title: "machine epsilon ε", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } };
-  const tooltip = [{ field: "subject" }, { field: "epsilon", format: ".3e" }, { field: "farthest", title: "farthest / B", format: ".4~g" },
-    { field: "claimed", title: "claimed / B", format: ".4~g" }, { field: "false_positives", title: "false positives" },
-    { field: "false_negatives", title: "missed" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" }];
+  const tooltip = [{ field: "subject" }, { field: "epsilon", ...digits(3) }, { field: "farthest", title: "farthest / B", ...digits(4) },
+    { field: "claimed", title: "claimed / B", ...digits(4) }, { field: "false_positives", title: "false positives" },
+    { field: "false_negatives", title: "missed" }, { field: "ns_per_query", title: "ns a query", ...digits(4) }];
   const distance = (field) => ({ field, type: "quantitative", title: "distance / B", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } });
   return draw("ladder-chart", "For each machine epsilon, the farthest false positive and the distance bound.", {
     width: 640, height: 320, title: "how far false positives are: lines the bound, points the farthest found", layer: [

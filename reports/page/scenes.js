@@ -76,7 +76,7 @@ function drawSceneSteps() {
     encoding: { x: { field: "step", type: "quantitative", title: "step", axis: { tickMinStep: 1, tickCount: 5 } },
       y: { field, type: "quantitative", title, axis: { tickCount: 4, format: "~s" }, scale: { zero: true, domainMax: Math.max(1, ...values.filter((r) => r.scene === scene).map((r) => r[field])) } },
       ...(coloured ? { color: subjectColor } : { color: { value: color("--soft") } }),
-      tooltip: [...(coloured ? [{ field: "subject" }] : []), { field: "step" }, { field, title, format: ",.4~r" }] },
+      tooltip: [...(coloured ? [{ field: "subject" }] : []), { field: "step" }, { field, title, ...digits(4) }] },
   });
   return draw("scene-steps", "For each step of a scene, the pairs asked, the collisions, the false positives and the run time.", {
     vconcat: scenes.map((scene) => ({ hconcat: [
@@ -99,12 +99,12 @@ function drawSceneErrorTime() {
       encoding: {
         x: { field: "ns_per_query", type: "quantitative", title: "ns a query", scale: { type: "log", nice: false, padding: 15 }, axis: { tickCount: 4, format: "~s" } },
         y: { field: "shown", type: "quantitative", title: "false positives", scale: axis.scale,
-          axis: { ...axis.axis, labelExpr: axis.axis.labelExpr.replace("format(datum.value, '~g')", "format(datum.value * 100, '~g') + ' %'") } },
+          axis: { ...axis.axis, labelExpr: axis.axis.labelExpr.replace("digits(datum.value, 3)", "share(datum.value)") } },
         color: subjectColor, shape: { field: "subject", type: "nominal", title: "subject", scale: { domain: subjectNames } },
         tooltip: [{ field: "scene" }, { field: "subject" }, { field: "queries", title: "asked" }, { field: "collisions" },
           { field: "false_negatives", title: "missed" }, { field: "false_positives", title: "false positives" },
-          { field: "rate", format: ".3~%" }, { field: "farthest", title: "farthest / bound", format: ".4~g" },
-          { field: "ns_per_query", title: "ns a query", format: ".4~g" }],
+          { field: "rate", ...asShare }, { field: "farthest", title: "farthest / bound", ...digits(4) },
+          { field: "ns_per_query", title: "ns a query", ...digits(4) }],
       },
     },
   });

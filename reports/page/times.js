@@ -33,9 +33,9 @@ function drawEarliness() {
     axis: { grid: true, tickCount: 6, format: "~s" } };
   const y = (field) => ({ field: `y.${field}`, type: "quantitative", title: "|toi − t*|", scale: axis.scale, axis: axis.axis });
   const hue = { ...chosenColor(color("--soft")), legend: null };
-  const tooltip = [{ field: "subject" }, { field: "sort", title: "time" }, { field: "ns_per_query", title: "ns a query", format: ".4~g" },
-    { field: "times_given", title: "times" }, { field: "late" }, { field: "median", title: "median of |toi − t*|, at most", format: ".3~g" },
-    { field: "q99", title: "99 %, at most", format: ".3~g" }, { field: "max_time_error", title: "largest", format: ".4~g" }];
+  const tooltip = [{ field: "subject" }, { field: "sort", title: "time" }, { field: "ns_per_query", title: "ns a query", ...digits(4) },
+    { field: "times_given", title: "times" }, { field: "late" }, { field: "median", title: "median of |toi − t*|, at most", ...digits(3) },
+    { field: "q99", title: "99 %, at most", ...digits(3) }, { field: "max_time_error", title: "largest", ...digits(4) }];
   const own = { x, color: hue, tooltip };
   const tick = (field, width) => ({ mark: { type: "tick", orient: "horizontal", thickness: 2, width }, encoding: { ...own, y: y(field) } });
   const late = rows.filter((row) => row.late > 0);
@@ -105,7 +105,7 @@ function drawTimeErrors() {
   const perTick = Math.round(4 / Math.log10(ratio));
   const ticks = [0];
   for (let place = perTick + 0.5; place < last || -place > first; place += perTick) ticks.push(place, -place);
-  const label = `datum.value === 0 ? '0' : (datum.value < 0 ? '−' : '') + format(${lowest} * pow(${ratio}, abs(datum.value) - 0.5), '~g')`;
+  const label = `datum.value === 0 ? '0' : (datum.value < 0 ? '−' : '') + digits(${lowest} * pow(${ratio}, abs(datum.value) - 0.5), 3)`;
   const x = { field: "place", type: "quantitative", title: "toi − t*", scale: { domain: [first, last], nice: false },
     axis: { values: ticks.filter((place) => place >= first && place <= last), labelExpr: label } };
   const names = chosenNames().filter((name) => rows.some((row) => row.subject === name));
