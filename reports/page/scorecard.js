@@ -22,26 +22,26 @@ const missedCell = ({ counts, classes }) => {
     ` ${rateText(counts.false_negative_rate, counts.false_negative_rate_interval_95)}`, small(ofClasses)];
 };
 
-/** Reasons to fail that are neither misses nor late times. */
-function otherFailures({ counts, faults }) {
-  const answers = Object.entries(faults).filter(([why]) => why !== "contract");
-  return [
-    ...(counts.refuted_bounds > 0 ? [`${integer(counts.refuted_bounds)} beyond its bound`] : []),
-    ...answers.map(([why, times]) => `${integer(times)} without answer: ${why}`),
-  ];
-}
-
-const falseCell = (verdict) => {
-  const { counts, subject } = verdict;
-  const others = otherFailures(verdict);
+const falseCell = ({ counts, subject }) => {
   const unknown = counts.unknown > 0 ? [small(`unknown in ${integer(counts.unknown)} queries`)] : [];
-  const failures = others.length > 0 ? [small(others.join(", "), true)] : [];
-  if (counts.false_positives === 0) return ["none", ...unknown, ...failures];
+  if (counts.false_positives === 0) return ["none", ...unknown];
+  const beyond = counts.refuted_bounds > 0 ? [", ", made("strong", `${integer(counts.refuted_bounds)} beyond its bound`, { class: "bad" })] : [];
   const far = farthestOfSubject(subject);
-  const farthest = `the farthest ${timesTheBound(counts.max_fp_distance_over_bound, counts)}`;
-  return [`${integer(counts.false_positives)}, ${percent(counts.false_positive_rate)}`,
-    small(far ? made("a", farthest, { href: far.file }) : farthest), ...unknown, ...failures];
+  const farthest = `farthest ${timesTheBound(counts.max_fp_distance_over_bound, counts)}`;
+  return [`${integer(counts.false_positives)}, ${percent(counts.false_positive_rate)}`, ...beyond,
+    small(far ? made("a", farthest, { href: far.file }) : farthest), ...unknown];
 };
+
+/** The number of queries without an answer; the reasons are its title. Queries that break a subject's contract are no failures. */
+function noAnswerCell({ faults }) {
+  const reasons = Object.entries(faults);
+  const failures = reasons.filter(([why]) => why !== "contract").reduce((sum, [, times]) => sum + times, 0);
+  const all = reasons.reduce((sum, [, times]) => sum + times, 0);
+  if (all === 0) return "0";
+  const title = reasons.map(([why, times]) => `${integer(times)} ${why}`).join(", ");
+  return [made(failures > 0 ? "strong" : "span", integer(all), failures > 0 ? { class: "bad", title } : { title }),
+    small(reasons.length === 1 ? reasons[0][0] : `${reasons[0][0]}, …`)];
+}
 
 /** The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile. */
 const barScale = (() => {
@@ -75,7 +75,7 @@ const changeCell = ({ since, clean }) => {
 const againCell = ({ finding, clean }) => {
   if (finding === null) return [clean ? "" : "none kept"];
   const { again } = report.findings[finding];
-  const button = copyButton(again, "copy command");
+  const button = copyButton(again, "copy");
   button.title = again;
   const link = made("a", "show", { href: "#findings-section" });
   link.addEventListener("click", () => showFinding(finding));
@@ -108,12 +108,13 @@ function drawScorecard() {
     ["missed collisions", missedCell],
     ...(hasTimes ? [["late times", ({ counts }) => (counts.times_promised === 0 ? "–"
       : made(counts.late > 0 ? "strong" : "span", `${integer(counts.late)} of ${integer(counts.times_promised)}`, counts.late > 0 ? { class: "bad" } : {}))]] : []),
-    ["false positives", falseCell],
+    ["false positives", falseCell, "wraps"],
+    ...(rows.some(({ faults }) => Object.keys(faults).length > 0) ? [["no answer", noAnswerCell]] : []),
     ["ns a query, median", timeCell],
     ...(report.baseline ? [["since the baseline", changeCell]] : []),
-    ...(report.findings.length > 0 ? [["simplest failing query", againCell]] : []),
+    ...(report.findings.length > 0 ? [["simplest failure", againCell]] : []),
   ];
-  const line = (verdict) => made("tr", columns.map(([title, content]) => made("td", content(verdict), { "data-title": title })), { class: verdict.clean ? "verdict" : "verdict bad" });
+  const line = (verdict) => made("tr", columns.map(([title, content, name = ""]) => made("td", content(verdict), { "data-title": title, class: name })), { class: verdict.clean ? "verdict" : "verdict bad" });
   const table = element("scorecard");
   table.createTHead().insertRow().append(...columns.map(([title]) => made("th", title || made("span", "verdict", { class: "unseen" }), { scope: "col" })));
   const wide = (content, attributes) => made("tr", made("td", content, { colspan: columns.length }), attributes);

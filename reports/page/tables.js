@@ -2,10 +2,15 @@
 "use strict";
 
 const integer = (n) => n.toLocaleString("en-US");
-/** Three digits; an exponent below a thousandth. */
-const rounded = (x, digits) => (x !== 0 && Math.abs(x) < 1e-3 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e") : Number(x.toPrecision(digits)).toString());
+/** A number of so many digits: with an exponent below a thousandth and from ten million on. */
+function rounded(x, digits) {
+  const size = Math.abs(x);
+  if (x !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace(/\.?0*e\+?/, "e");
+  return Number(x.toPrecision(digits)).toLocaleString("en-US", { maximumFractionDigits: 20 });
+}
+/** Three digits, or all of a whole number below ten million. */
 const short = (x) =>
-  x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) ? integer(x) : rounded(x, 3);
+  x === null || x === undefined ? "–" : x === Infinity ? "∞" : Number.isInteger(x) && Math.abs(x) < 1e7 ? integer(x) : rounded(x, 3);
 /** "1 query", "1,234 queries" */
 const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
