@@ -1,11 +1,11 @@
 // Draws single queries: findings, the farthest false positives, and the earliest and latest times.
 "use strict";
 
-const isMiss = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer" };
+const failureTitles = { "false-negative": "missed collision", late: "late time", "refuted-bound": "beyond its bound", fault: "no answer" };
 
 /** "missed collision of basic" and so on. */
 function failureTitle(finding) {
-  const what = `${isMiss[finding.what] ?? finding.what} of ${finding.subject || "the oracle"}`;
+  const what = `${failureTitles[finding.what] ?? finding.what} of ${finding.subject || "the oracle"}`;
   if (finding.late_by) return `${what}, by ${short(finding.late_by)} of the step`;
   return finding.ratio ? `${what}, ${timesTheBound(finding.ratio, finding)}` : what;
 }
@@ -70,7 +70,7 @@ function showFinding(index) {
 /** The controls of the filter. */
 function drawFilter() {
   const values = (field) => [...new Set(report.findings.map((each) => each[field]))].sort();
-  const titles = { what: isMiss, kind: kindTitles, subject: { "": "the oracle" } };
+  const titles = { what: failureTitles, kind: kindTitles, subject: { "": "the oracle" } };
   const choice = (field, title) => {
     const select = made("select", [made("option", "all", { value: "" }),
       ...values(field).filter(Boolean).map((value) => made("option", titles[field]?.[value] ?? value, { value }))], { name: field });

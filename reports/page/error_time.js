@@ -5,7 +5,14 @@ const errorTimeTooltip = [{ field: "subject" }, { field: "ns_per_query", title: 
   { field: "false_negatives", title: "missed" }, { field: "collisions", title: "collisions" },
   { field: "false_positive_rate", title: "false positives", ...asShare }];
 
-const drawErrorTime = () => (report.error_against_time.ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach());
+function drawErrorTime() {
+  const { left_out, ladder } = report.error_against_time;
+  if (left_out.length > 0) {
+    element("error-time-others").textContent = `Not shown, because they were asked about other families: ${left_out.join(", ")}.`;
+    show("error-time-others");
+  }
+  return ladder ? drawErrorTimeOfLadder() : drawErrorTimeOfEach();
+}
 
 /** The share of an axis between its ends, both logarithmic, at which a value is. */
 const partOfAxis = (value, [from, to]) => Math.log(value / from) / Math.log(to / from);
@@ -30,14 +37,10 @@ function nameLayers(rows, x, y, [width, height]) {
 
 /** Draws a mark with a name for each subject; only chosen subjects have their own colours. */
 function drawErrorTimeOfEach() {
-  const { subjects, front_by_distance, front_by_rate, left_out } = report.error_against_time;
+  const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each,
     median: each.median_fp_distance_over_bound[1], q99: each.q99_fp_distance_over_bound[1] }))
     .sort((a, b) => isChosen(a) - isChosen(b));
-  if (left_out.length > 0) {
-    element("error-time-others").textContent = `Not shown, because they were asked about other families: ${left_out.join(", ")}.`;
-    show("error-time-others");
-  }
   const hue = chosenColor(color("--soft"));
   const times = rows.map((row) => row.ns_per_query);
   const ends = [0.6 * Math.min(...times), 1.7 * Math.max(...times)];

@@ -1,18 +1,6 @@
 // Draws the first table: a row for each subject, the worst first.
 "use strict";
 
-const small = (content, bad) => made("div", content, { class: bad ? "small bad" : "small" });
-
-/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are no random sample. */
-const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
-
-/** "4,576 of 30,998"; if nothing was seen, also what the rate is below. */
-function missedText(counts) {
-  const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
-  if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
-  return `${seen}, below ${percent(counts.false_negative_rate_upper_95)}`;
-}
-
 const missedCell = ({ counts, classes }) => {
   if (counts.collisions === 0) return ["no collision"];
   const ofClasses = Object.entries(classes).filter(([, each]) => each.collisions > 0)

@@ -45,6 +45,19 @@ function made(tag, content = [], attributes = {}) {
   return node;
 }
 
+/** A line of small print. */
+const small = (content) => made("div", content, { class: "small" });
+
+/** "14.8 % (14.4–15.2 %)"; the interval is left out if the queries are no random sample. */
+const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
+
+/** "4,576 of 30,998"; if nothing was seen, also what the rate is below. */
+function missedText(counts) {
+  const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
+  if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
+  return `${seen}, below ${percent(counts.false_negative_rate_upper_95)} at 95 %`;
+}
+
 /**
  * Draws a table.
  * @param columns {title, text(row): text or node, number(row): the key to sort by, bad(row): whether it is marked}

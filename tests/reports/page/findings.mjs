@@ -11,7 +11,7 @@ async function checkVerdicts(page, report) {
   assert.equal(verdicts.length, 2);
   assert.match(verdicts[0], /^FAILbasic[\d,]+ of [\d,]+ [\d.]+ % \([\d.]+–[\d.]+ %\)ordinary .* · degenerate [\d.]+ % · extreme /);
   assert.match(verdicts[0], /farthest [\d.]+ times wang's bound \(it claims none\)/);
-  assert.match(verdicts[1], /^okwang0 of [\d,]+, below [\d.]+ %ordinary 0 · degenerate 0 · extreme 0/);
+  assert.match(verdicts[1], /^okwang0 of [\d,]+, below [\d.]+ % at 95 %ordinary 0 · degenerate 0 · extreme 0/);
   assert.match(verdicts[1], /farthest at 0\.\d+ of its bound/);
   assert.match(verdicts[1], /[\d.]+, 99 % [\d.]+/);
   assert.equal(await count(page, ".verdict.bad"), 1);
