@@ -5,7 +5,7 @@ const style = getComputedStyle(document.documentElement);
 const color = (name) => style.getPropertyValue(name).trim();
 const words = { labelColor: color("--ink"), titleColor: color("--ink") };
 // Charts write numbers as the tables do.
-vega.expressionFunction("digits", (x, many) => (x === Infinity ? "∞" : rounded(x, Number(many))));
+vega.expressionFunction("digits", (x, many) => (Number.isFinite(x) ? rounded(x, Number(many)) : short(x)));
 vega.expressionFunction("share", percent);
 const digits = (many) => ({ format: String(many), formatType: "digits" });
 const asShare = { formatType: "share" };

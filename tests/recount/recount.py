@@ -6,6 +6,7 @@ one by one (nearmiss family, oracle and verdict), and recomputes everything exce
 and SciPy. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
 
 import argparse
+import json
 import sys
 import tempfile
 from pathlib import Path
@@ -42,6 +43,9 @@ def counts_of(report):
 
 def check_report(comparison, report, answers, units):
     """Checks everything in report.json."""
+    schema = Path(__file__).parents[2] / 'reports' / 'report.schema.json'
+    version = json.loads(schema.read_text())['properties']['schema_version']['const']
+    comparison.same('names', 'schema_version', report['schema_version'], version)
     comparison.section(check_statistics, 'report.json', report, answers)
     comparison.section(check_borders, 'histogram_borders', report['histogram_borders'])
     comparison.section(

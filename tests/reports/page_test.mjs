@@ -8,7 +8,7 @@ import { showsTheLadderAndTheAudit } from "./page/ladder.mjs";
 import { showsSceneStepsAndMeshes, showsScenes } from "./page/scenes.mjs";
 import { everyReportFollowsItsSchema } from "./page/schema.mjs";
 import { removeFolder } from "./page/session.mjs";
-import { drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
+import { drawsAMixOfRuns, drawsManySubjectsWithoutALadder, showsAChoiceOfManySubjects } from "./page/subjects.mjs";
 import { fitsEveryMedium, showsEnvironments, showsThePowerOfDetection } from "./page/tables.mjs";
 import { showsSeparations, showsTimesOfImpact, showsWhichTimesAreLate } from "./page/times.mjs";
 
@@ -34,6 +34,7 @@ try {
   await showsWhatDecides(browser);
   await showsAChoiceOfManySubjects(browser);
   await drawsManySubjectsWithoutALadder(browser);
+  await drawsAMixOfRuns(browser);
   await showsThePowerOfDetection(browser);
   await showsEnvironments(browser);
   await showsWhereCollisionsAreMissed(browser);

@@ -1,6 +1,6 @@
 // Tests the picker for many subjects, and the charts that it redraws.
 import assert from "node:assert/strict";
-import { count, jsonOf, makeReport, open } from "./session.mjs";
+import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 /** Failed subjects and the Pareto front come first. A change redraws the charts with a row or a line for each subject. */
 export async function showsAChoiceOfManySubjects(browser) {
@@ -89,5 +89,18 @@ export async function drawsManySubjectsWithoutALadder(browser) {
     assert.deepEqual(new Set(await legend()), new Set(names));
     assert.equal(await points(), all);
   }
+  await page.close();
+}
+
+/** Runs with a ladder, with subjects that have no place on it, and with a scene share one picture. */
+export async function drawsAMixOfRuns(browser) {
+  run("scene", "spikes@100", "--subject", "wang,wang-time", "--db", "spikes.db");
+  run("report", "many.db", "plain.db", "spikes.db", "-o", "mixed");
+  const page = await open(browser, pageOf("mixed"));
+  const { subjects, left_out, ladder } = jsonOf("mixed").error_against_time;
+  assert.ok(ladder && subjects["defect:vv"].farthest_over_B === null);
+  assert.deepEqual(left_out, ["wang-time"]);
+  assert.match(await page.textContent("#error-time-others"), /: wang-time\.$/);
+  assert.ok(await count(page, "#error-time .mark-symbol.role-mark path") > Object.keys(subjects).length);
   await page.close();
 }
