@@ -16,9 +16,12 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// The long options of a subcommand.
+/// The long options of a subcommand, also those that are in groups.
 std::vector<std::string> options_of(const CLI::App& command) {
   std::vector<std::string> names;
+  for (const CLI::App* group : command.get_subcommands({}))
+    for (std::string& name : options_of(*group))
+      if (name != "--help" && name != "--help-all") names.push_back(std::move(name));
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;

@@ -78,6 +78,9 @@ std::string vertex_lines(const Query& query) {
 }
 
 void run(const Options& options) {
+  if (options.out.extension() != ".case")
+    throw Error(
+        fmt::format("--output: found '{}', expected a name that ends in .case", options.out.string()));
   const auto basic = make_subject("basic");
   fmt::print(
       "basic is a textbook CCD: it solves a cubic for the times at which the four vertices are coplanar, in "

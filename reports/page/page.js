@@ -285,15 +285,24 @@ for (const box of document.querySelectorAll("main .scroll, main .chart")) {
   for (const [name, value] of Object.entries({ tabindex: "0", role: "group", "aria-label": title })) box.setAttribute(name, value);
 }
 
+/** Draws a chart. If that fails, its section says so, and the others are drawn nevertheless. */
+async function drawOne([id, chart]) {
+  try {
+    await chart();
+  } catch (error) {
+    document.body.setAttribute("data-error", String(error));
+    element(id).append(made("p", `This chart cannot be drawn: ${error.message}`, { class: "bad" }));
+  }
+}
+
 /** Draws charts one after the other. A later call replaces the charts that earlier calls have not yet drawn. */
 let calls = 0;
 let drawing = Promise.resolve();
 function drawCharts(some) {
   const call = ++calls;
   document.body.removeAttribute("data-drawn");
-  drawing = drawing.then(() => call === calls && Promise.all(some.map(([, chart]) => chart())))
-    .then(() => call === calls && document.body.setAttribute("data-drawn", "true"))
-    .catch((error) => document.body.setAttribute("data-error", String(error)));
+  drawing = drawing.then(() => call === calls && Promise.all(some.map(drawOne)))
+    .then(() => call === calls && document.body.setAttribute("data-drawn", "true"));
 }
 drawCharts(charts);
 const ofSubjects = charts.filter(([id]) => element("by-subject").contains(element(id)));

@@ -38,9 +38,13 @@ const barScale = (() => {
   return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
 })();
 
+/** The median of single queries, or that of batches if there are none. */
+const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
+
 /** The run time: the median and the 99 % quantile of single queries, or the mean of batches if there are none. */
-const timeCell = ({ counts, times: { median_ns: median, q99_ns: q99 } }) => {
-  const usual = median ?? counts.ns_per_query;
+const timeCell = (verdict) => {
+  const { median_ns: median, q99_ns: q99 } = verdict.times;
+  const usual = usualTime(verdict);
   if (!(usual > 0)) return ["–"];
   const part = (name, ns) => made("span", [], { class: name, style: `width: ${barScale(ns)}` });
   return [median === null ? short(usual) : `${short(median)}, 99 % ${short(q99)}`,
@@ -72,14 +76,14 @@ const againCell = ({ finding, clean }) => {
 
 /** The name, which leads to the subject's findings, or to its counts if there are none. */
 function subjectCell({ subject, finding }) {
-  const link = made("a", subject, { href: finding === null ? "#counts-section" : "#findings-section" });
+  const link = made("a", subject, { href: finding === null ? "#counts-section" : "#findings-section", title: subject });
   if (finding !== null) link.addEventListener("click", () => filterFindings({ subject }));
   return link;
 }
 
 /** Failed subjects by their rates of misses, then the others by their run times. */
 function inOrder(verdicts) {
-  const key = ({ clean, counts }) => [clean ? 1 : 0, -counts.false_negative_rate, -counts.late, clean ? counts.ns_per_query ?? Infinity : 0];
+  const key = (verdict) => [verdict.clean ? 1 : 0, -verdict.counts.false_negative_rate, -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
   return [...verdicts].sort((a, b) => {
     const [x, y] = [key(a), key(b)];
     const i = x.findIndex((each, k) => each !== y[k]);
@@ -89,6 +93,7 @@ function inOrder(verdicts) {
 
 function drawScorecard() {
   const rows = inOrder(report.verdicts);
+  element("verdicts").toggleAttribute("hidden", rows.length === 0 && !report.oracle.complaint);
   const hasTimes = rows.some(({ counts }) => counts.times_promised > 0);
   const columns = [
     ["", ({ clean }) => made("span", clean ? "ok" : "FAIL", { class: "mark" })],

@@ -24,7 +24,9 @@ std::string subjects(const std::vector<std::string>& names) {
   return names.size() <= 4 ? listed(names) : fmt::format("{} subjects", names.size());
 }
 
-std::string since_text(const Changes& since) {
+/// @param asked number of subjects of the campaign
+std::string since_text(const Changes& since, std::size_t asked) {
+  if (asked != 0 && since.absent_subjects.size() == asked) return "no subject is in the baseline";
   std::vector<std::string> news;
   if (const std::size_t ways = since.new_signatures.size(); ways != 0)
     news.push_back(counted(ways, "new way to fail", "new ways to fail"));
@@ -50,7 +52,9 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
   if (!clean.empty()) text += fmt::format("{}{} did not fail", failed.empty() ? "" : "; ", subjects(clean));
   if (const auto queries = statistics.oracle_total().queries; queries != 0)
     text += fmt::format(", in {}", counted(queries, "query", "queries"));
-  if (since) text += fmt::format("{}{}", text.empty() ? "" : "; ", since_text(*since));
+  if (since)
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", since_text(*since, clean.size() + failed.size()));
+  if (text.empty()) text = "No subject was asked";
   const bool fine = since ? !since->fails(failed) : failed.empty();
   return {fine && complaint.empty(), text + "."};
 }

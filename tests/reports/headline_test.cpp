@@ -53,6 +53,14 @@ TEST(Headline, ASubjectThatTheBaselineLacksIsBadIfItFails) {
   EXPECT_FALSE(headline(now.statistics, changes(now, before)).clean);
 }
 
+TEST(Headline, SaysThatThereIsNothingToCompareOrToJudge) {
+  const Campaign before = campaign("1", {{{"a", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});
+  const Campaign now = campaign("2", {{{"b", Kind::edge_edge, "f"}, counts(9, 5, 0, 0)}});
+  EXPECT_EQ(headline(now.statistics, changes(now, before)).text,
+            "b did not fail; no subject is in the baseline.");
+  EXPECT_EQ(headline({}, std::nullopt).text, "No subject was asked.");
+}
+
 TEST(Headline, CountsSubjectsWhereThereAreMany) {
   Campaign many = campaign("1", {});
   for (char name = 'a'; name < 'k'; ++name)

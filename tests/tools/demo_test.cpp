@@ -34,11 +34,15 @@ TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
               AllOf(HasSubstr("FAIL basic: MISSED 1 of 1"), HasSubstr("ok  wang: no miss in 1")));
 }
 
-TEST_F(DemoTest, SaysThatItCannotWrite) { expect_refused("demo -o no/folder.case", {"no/folder.case"}); }
+TEST_F(DemoTest, SaysThatItCannotWrite) {
+  expect_refused("demo -o no/folder.case", {"no/folder.case"});
+  expect_refused("demo -o miss.txt", {"found 'miss.txt', expected a name that ends in .case"});
+}
 
 TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
   EXPECT_EQ(completed("nearmiss shr"), "shrink\n");
   EXPECT_EQ(completed("nearmiss fuzz --subj"), "--subject\n");
+  EXPECT_EQ(completed("nearmiss fuzz --cas"), "--cases\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
   EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject ./a"), "\n");  // the shell completes files
