@@ -96,7 +96,8 @@ void run(const Options& options) {
   fmt::print(
       "The simplest query that basic misses in the same way ({}):\n{}\n{}\nAt t = {:.4g}, {} meet. In the "
       "picture, the first "
-      "primitive is drawn with o, the second with #;\nthe dots are the paths of the vertices.\n\n",
+      "primitive is drawn with o, the second with #,\nvertices with their numbers, and their paths with "
+      "dots.\n\n",
       to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk), terminal_picture(finding.shrunk, time),
       time, finding.shrunk.kind == Kind::vertex_triangle ? "the vertex and the triangle" : "the edges");
   const bool wang_hits = make_subject("wang")->decide(finding.shrunk).hit;

@@ -31,7 +31,8 @@ const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, fi
 
 /** The findings with their indices, new ones first, and the text in which a filter looks for words. */
 const findings = report.findings.map((finding, index) => ({ finding, index,
-  words: [finding.what, finding.subject, finding.signature, finding.kind, finding.family, finding.provenance, finding.explanation].join(" ").toLowerCase() }))
+  words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,
+    finding.explanation].join(" ").toLowerCase() }))
   .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
 const findingsAtOnce = 24;
 /** The chosen value of each field, "" for all; the words that must occur; and how many findings are shown at most. */
@@ -82,6 +83,7 @@ function drawFilter() {
     Object.assign(filter, { [target.name]: target.value, most: findingsAtOnce });
     drawCards();
   });
+  element("findings-filter").addEventListener("submit", (event) => event.preventDefault()); // Enter sends nothing
   element("more-findings").addEventListener("click", () => {
     filter.most += findingsAtOnce;
     drawCards();
