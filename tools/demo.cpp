@@ -102,10 +102,7 @@ void run(const Options& options) {
       time, finding.shrunk.kind == Kind::vertex_triangle ? "the vertex and the triangle" : "the edges");
   const bool wang_hits = make_subject("wang")->decide(finding.shrunk).hit;
   fmt::print("wang, the failure-proof CCD, {} it.\n\n", wang_hits ? "reports" : "misses");
-  Case shrunk = to_case(finding);
-  shrunk.query = finding.shrunk;
-  shrunk.provenance = "shrunk from " + finding.provenance;
-  replace_file(options.out, to_text(shrunk));
+  replace_file(options.out, to_text(to_case(simplest(finding))));
   fmt::print(
       "Replay it:              nearmiss replay {0} --subject basic,wang\n"
       "Make a test from it:    nearmiss shrink {0} --subject basic --as c++\n"

@@ -148,11 +148,9 @@ void isolate(const SturmSequence& sequence, const Place& lo, const Place& hi, Fi
 
 }  // namespace
 
-SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi) : f_(std::move(f)) {
-  Integer at_lo = f_.scaled_value(lo);
-  Integer at_hi = f_.scaled_value(hi);
-  lo_ = {std::move(lo), std::move(at_lo)};
-  hi_ = {std::move(hi), std::move(at_hi)};
+SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
+    : lo_{std::move(lo), 0}, hi_{std::move(hi), 0} {
+  set_polynomial(std::move(f));
 }
 
 /// Cuts the interval at a number in it.

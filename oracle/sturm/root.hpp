@@ -29,7 +29,7 @@ class SturmRoot {
   SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi);
 
   /// The sign of g at this root. If interval arithmetic does not show it, and residues do not show that the root is no common
-  /// root, a common factor does. Of the polynomial, only the factor with this root is kept then.
+  /// root, a common factor does. Only the factor of the polynomial that has this root is kept then.
   [[nodiscard]] int sign(const IntegerPolynomial& g);
   /// Whether the root is less than a number.
   [[nodiscard]] bool is_below(const Dyadic& number) const;

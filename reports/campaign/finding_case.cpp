@@ -17,6 +17,14 @@ std::string subject_of(const Finding& finding) {
 
 }  // namespace
 
+Finding simplest(const Finding& finding) {
+  Finding simplest = finding;
+  simplest.query = finding.shrunk;
+  simplest.ratio = 0;
+  simplest.provenance = "shrunk from " + finding.provenance;
+  return simplest;
+}
+
 Case to_case(const Finding& finding) {
   std::string why = fmt::format("{} of {}", name(finding.what), subject_of(finding));
   if (finding.ratio > 0)

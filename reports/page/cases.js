@@ -36,7 +36,8 @@ const findings = report.findings.map((finding, index) => ({ finding, index,
   .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
 const findingsAtOnce = 24;
 /** The chosen value of each field, "" for all; the words that must occur; and how many findings are shown at most. */
-const filter = { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce };
+const noFilter = { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce };
+const filter = { ...noFilter };
 
 const filteredFindings = () => {
   const words = filter.words.toLowerCase().split(/\s+/).filter(Boolean);
@@ -54,17 +55,16 @@ function drawCards() {
 
 /** Shows only the findings with these values. */
 function filterFindings(values) {
-  Object.assign(filter, { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce }, values);
+  Object.assign(filter, noFilter, values);
   for (const input of document.querySelectorAll("#findings-filter [name]")) input.value = filter[input.name];
   drawCards();
 }
 
-/** Shows one finding, above the others of its subject. */
+/** Shows one finding among those of its subject. */
 function showFinding(index) {
-  filterFindings({ subject: report.findings[index].subject });
-  const place = filteredFindings().findIndex((each) => each.index === index);
-  filter.most = Math.max(filter.most, place + 1);
-  drawCards();
+  const { subject } = report.findings[index];
+  const place = findings.filter((each) => each.finding.subject === subject).findIndex((each) => each.index === index);
+  filterFindings({ subject, most: Math.max(findingsAtOnce, place + 1) });
   setTimeout(() => element(`finding-${index}`).scrollIntoView({ block: "center" }));
 }
 

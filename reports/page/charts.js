@@ -62,10 +62,12 @@ function logAxis(values) {
     axis: { values: ticks, labelExpr: label } };
 }
 
+/** Whether a family is a step of a sweep; sweeps have charts of their own. */
+const isSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
+
 /** Rates of random families except sweeps; cases and scenes are not random samples. */
 function rateRows() {
-  const isShownElsewhere = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
-  return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isShownElsewhere(row.family))
+  return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row.family))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
       median: row.median_fp_distance_over_bound[1] }));
 }
@@ -110,8 +112,8 @@ function drawRates() {
     { data: { values: rows }, hconcat: ["vt", "ee"].filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
-/** The subjects' misses in each family with collisions; sweeps have charts of their own. */
-const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !Object.keys(report.sweeps ?? {}).some((name) => row.family.startsWith(`${name}@`)));
+/** The subjects' misses in each family with collisions, except sweeps. */
+const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row.family));
 
 /** The misses of both kinds together, by subject and family, with a text for each kind. */
 function missedByFamily() {

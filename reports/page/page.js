@@ -96,9 +96,11 @@ function drawUnits() {
 
 /** The number of queries without an answer. */
 const faults = (r) => Object.values(r.faults).reduce((a, b) => a + b, 0);
+/** "3 crash, 1 time" */
+const faultText = (r) => Object.entries(r.faults).map(([why, times]) => `${integer(times)} ${why}`).join(", ");
 const noAnswer = {
   title: "no answer", number: faults, bad: (r) => faults(r) > 0,
-  text: (r) => Object.entries(r.faults).map(([why, times]) => `${integer(times)} ${why}`).join(", ") || "0",
+  text: (r) => faultText(r) || "0",
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 

@@ -21,14 +21,12 @@ const falseCell = ({ counts, subject }) => {
 };
 
 /** The number of queries without an answer; the reasons are its title. Queries that break a subject's contract are no failures. */
-function noAnswerCell({ faults }) {
-  const reasons = Object.entries(faults);
-  const failures = reasons.filter(([why]) => why !== "contract").reduce((sum, [, times]) => sum + times, 0);
-  const all = reasons.reduce((sum, [, times]) => sum + times, 0);
-  if (all === 0) return "0";
-  const title = reasons.map(([why, times]) => `${integer(times)} ${why}`).join(", ");
-  return [made(failures > 0 ? "strong" : "span", integer(all), failures > 0 ? { class: "bad", title } : { title }),
-    small(reasons.length === 1 ? reasons[0][0] : `${reasons[0][0]}, …`)];
+function noAnswerCell(verdict) {
+  const reasons = Object.keys(verdict.faults);
+  if (reasons.length === 0) return "0";
+  const isFailure = reasons.some((why) => why !== "contract");
+  return [made(isFailure ? "strong" : "span", integer(faults(verdict)), { title: faultText(verdict), ...(isFailure ? { class: "bad" } : {}) }),
+    small(reasons.length === 1 ? reasons[0] : `${reasons[0]}, …`)];
 }
 
 /** The scale of the bars: logarithmic, from somewhat below the fastest subject to the slowest 99 % quantile. */

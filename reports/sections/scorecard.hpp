@@ -1,4 +1,4 @@
-// What the page shows first: a row for each subject.
+// The page's first table: a row for each subject.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -39,16 +39,12 @@ class OwnNames {
 };
 
 ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t number) {
-  Finding simplest = finding;
-  simplest.query = finding.shrunk;
-  simplest.ratio = 0;  // the ratio belongs to the original query
-  simplest.provenance = "shrunk from " + finding.provenance;
   const auto exported = [&](const Finding& what, std::string_view suffix) {
     Exported result{case_file_name(what, fmt::format("{:03}{}", number, suffix)), to_case(what)};
     result.content.why += fmt::format(": {}; times seen: {}", finding.signature, with_separators(seen));
     return result;
   };
-  ShownFinding result{finding, seen, exported(simplest, ""), exported(finding, "-original")};
+  ShownFinding result{finding, seen, exported(simplest(finding), ""), exported(finding, "-original")};
   result.original.content.why += "; before it was shrunk";
   return result;
 }

@@ -24,7 +24,7 @@ Subjects timed_subjects(const Statistics& statistics) {
   return subjects;
 }
 
-/// Of the timed subjects, those that were asked about each kind and family.
+/// Maps each kind and family to the timed subjects that were asked about it.
 std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics& statistics) {
   const Subjects timed = timed_subjects(statistics);
   std::map<std::pair<Kind, std::string>, Subjects> asked;
@@ -135,9 +135,9 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
     subject["epsilon"] = std::exp2(each.place.epsilon_exponent);
     subject["farthest_over_B"] = or_null(each.farthest());
   }
-  json["left_out"] = timed_subjects(statistics);
-  std::erase_if(json["left_out"].get_ref<nlohmann::ordered_json::array_t&>(),
-                [&](const auto& subject) { return json["subjects"].contains(subject); });
+  json["left_out"] = nlohmann::ordered_json::array();
+  for (const std::string& subject : timed_subjects(statistics))
+    if (!json["subjects"].contains(subject)) json["left_out"].push_back(subject);
   json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
   json["front_by_rate"] =
       pareto_front(all, [](const TradeOff& each) { return each.timed.counts.false_positive_rate(); });

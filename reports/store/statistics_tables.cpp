@@ -34,7 +34,7 @@ Table<Row> counters_table(std::string name, const std::string& key, std::vector<
   using Owner = decltype(Row::value);
   add_counters<Row, Owner>(
       columns, "", [](Row & row) -> auto& { return row.value; });
-  return {std::move(name), "PRIMARY KEY (" + key + ")", {}, std::move(columns), 0};
+  return {std::move(name), "PRIMARY KEY (" + key + ")", {}, std::move(columns)};
 }
 
 Table<CountsRow> counts() {
