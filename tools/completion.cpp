@@ -40,7 +40,16 @@ std::vector<std::string> family_names() {
   return names;
 }
 
-/// A script for bash. It completes subcommands; options; the last name of a list of subjects or of families; and otherwise files.
+/// The families that have a parameter.
+std::vector<std::string> sweep_names() {
+  std::vector<std::string> names;
+  for (const Family& family : all_families())
+    if (family.parameter) names.emplace_back(family.name);
+  return names;
+}
+
+/// A script for bash. It completes subcommands; options; the last name of a list of subjects, families or sweeps,
+/// where a subject may be a file, too; and otherwise files. Bash gives "--option=value" as three words.
 std::string bash_script(const CLI::App& app) {
   std::vector<std::string> names;
   std::string options;
@@ -53,6 +62,8 @@ std::string bash_script(const CLI::App& app) {
       R"(_nearmiss() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=
   COMPREPLY=()
+  [[ $word != = ]] || word=
+  [[ $before != = ]] || before=${{COMP_WORDS[COMP_CWORD-2]}}
   if ((COMP_CWORD == 1)); then
     COMPREPLY=($(compgen -W '{} --help --version' -- "$word"))
     return
@@ -60,11 +71,13 @@ std::string bash_script(const CLI::App& app) {
   case $before in
     --subject) words='{}' ;;
     --family) words='all {}' ;;
+    --sweep) words='{}' ;;
   esac
-  if [[ -n $words && $word != */* ]]; then
-    local first=
+  if [[ -n $words ]]; then
+    local first= action=
     [[ $word != *,* ]] || first=${{word%,*}},
-    COMPREPLY=($(compgen -W "$words" -P "$first" -- "${{word##*,}}"))
+    [[ $before != --subject ]] || action='-f'
+    COMPREPLY=($(compgen -W "$words" $action -P "$first" -- "${{word##*,}}"))
     return
   fi
   [[ $word == -* ]] || return
@@ -74,7 +87,8 @@ std::string bash_script(const CLI::App& app) {
 }}
 complete -o bashdefault -o default -F _nearmiss nearmiss
 )",
-      fmt::join(names, " "), fmt::join(subject_names(), " "), fmt::join(family_names(), " "), options);
+      fmt::join(names, " "), fmt::join(subject_names(), " "), fmt::join(family_names(), " "),
+      fmt::join(sweep_names(), " "), options);
 }
 
 void run(const CLI::App& app, std::string_view shell) {

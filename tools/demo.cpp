@@ -89,6 +89,7 @@ void run(const Options& options) {
       "queries.\n\n");
   const PlainMiss miss(*basic);
   const Finding& finding = miss.finding;
+  replace_file(options.out, to_text(to_case(simplest(finding))));
   fmt::print("After {}, basic has missed {}. The last of these is from the family {}:\n{}\n",
              counted(miss.queries, "query", "queries"), counted(miss.misses, "collision", "collisions"),
              finding.family, vertex_lines(finding.query));
@@ -102,7 +103,6 @@ void run(const Options& options) {
       time, finding.shrunk.kind == Kind::vertex_triangle ? "the vertex and the triangle" : "the edges");
   const bool wang_hits = make_subject("wang")->decide(finding.shrunk).hit;
   fmt::print("wang, the failure-proof CCD, {} it.\n\n", wang_hits ? "reports" : "misses");
-  replace_file(options.out, to_text(to_case(simplest(finding))));
   fmt::print(
       "Replay it:              nearmiss replay {0} --subject basic,wang\n"
       "Make a test from it:    nearmiss shrink {0} --subject basic --as c++\n"

@@ -25,7 +25,7 @@ const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, fi
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   command(finding.again),
   fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
-], { id: `finding-${index}` });
+], { id: `finding-${index}`, tabindex: -1 });
 
 // --- findings -------------------------------------------------------------------------------------
 
@@ -85,8 +85,10 @@ function drawFilter() {
   });
   element("findings-filter").addEventListener("submit", (event) => event.preventDefault()); // Enter sends nothing
   element("more-findings").addEventListener("click", () => {
+    const next = filter.most;
     filter.most += findingsAtOnce;
     drawCards();
+    element("findings").children[next].focus(); // the button may be gone
   });
 }
 

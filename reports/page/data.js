@@ -22,6 +22,9 @@ const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKin
   Object.entries(ofKind).flatMap(([kind, counts]) =>
     Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
 
+/** Whether a subject is no algorithm over one of many scalars. */
+const isNoRung = ({ subject, algorithm }) => subject === algorithm;
+
 /** Whether distances are fractions of the bound that the subject claims; else they are in units of wang's bound. */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
 /** Marks a distance that is no fraction of a claim; the notes of class "units" explain the mark. */

@@ -47,7 +47,7 @@ function drawBaseline() {
       [i > 0 ? ", " : "", made("span", counted(list.length, one, many), bad && one.startsWith("new") ? { class: "bad" } : {})])]);
     say(made("details", [summary, ...some.map(({ list, many }) => made("div", [made("h3", many), made("ul", list.map((each) => made("li", way(each))))]))]));
   }
-  for (const subject of baseline.absent_subjects) say(`${subject} is not in the baseline.`);
+  if (baseline.absent_subjects.length > 0) say(`Not in the baseline: ${baseline.absent_subjects.join(", ")}.`);
   if (baseline.new_signatures.length === 0) say("No new way to fail.");
   if (baseline.unseen_signatures.length > 0) say(`By chance, about ${short(Math.round(baseline.expected_unseen))} ways that are not in the baseline were expected.`);
   const worse = baseline.changed_rates.filter((each) => each.worse).length;
@@ -65,13 +65,13 @@ function drawBaseline() {
       { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
     ], baseline.changed_rates);
   const pair = (title, field, form = short) => ({ title, number: (r) => r.now[field],
-    text: (r) => `${r.before ? form(r.before[field], r.before) : "–"} → ${form(r.now[field], r.now)}` });
+    text: (r) => `${form(r.before[field], r.before)} → ${form(r.now[field], r.now)}` });
   const marked = (x, counts) => fraction(x) + unitMark(counts);
   fillTable(element("before-and-now"), [
     text("subject", "subject"), text("kind", "kind"), pair("queries", "queries"), pair("false negatives", "false_negatives"),
     pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound", marked),
     pair("ns / query", "ns_per_query"),
-  ], baseline.subjects);
+  ], baseline.subjects.filter(({ before }) => before));
   if (baseline.changed_facts.length > 0)
     element("changed-facts").textContent = "The runs differ in: " +
       baseline.changed_facts.map((fact) => `${fact.name} (${fact.before || "none"} → ${fact.now || "none"})`).join("; ") +
@@ -138,8 +138,9 @@ function drawCounts() {
 
 function drawSlowest() {
   const most = 5;
-  const rows = Object.entries(report.subjects).flatMap(([subject, ofKind]) =>
-    Object.entries(ofKind).flatMap(([kind, { times }]) => (times.slowest ?? []).map((slow) => ({ subject, kind, ...slow })))
+  const onTrial = report.verdicts.some(isNoRung) ? report.verdicts.filter(isNoRung) : report.verdicts;
+  const rows = onTrial.flatMap(({ subject }) =>
+    Object.entries(report.subjects[subject]).flatMap(([kind, { times }]) => (times.slowest ?? []).map((slow) => ({ subject, kind, ...slow })))
       .sort((a, b) => b.ns - a.ns).slice(0, most));
   if (rows.length === 0) return;
   show("slowest-section");

@@ -24,7 +24,7 @@ function firstChoice() {
   const { front_by_distance, front_by_rate, front_by_earliness, ladder } = report.error_against_time;
   const fronts = new Set([...(ladder ?? { front_by_distance }).front_by_distance, ...front_by_rate, ...front_by_earliness]);
   const choice = new Set();
-  const groups = [(place) => fronts.has(place.subject), (place) => place.clean && place.algorithm === place.subject, (place) => place.clean, () => true];
+  const groups = [(place) => fronts.has(place.subject), (place) => place.clean && isNoRung(place), (place) => place.clean, () => true];
   for (const group of groups) {
     const names = places.filter((place) => group(place) && !choice.has(place.subject)).map((place) => place.subject);
     for (const name of evenly(names, palette.length - choice.size)) choice.add(name);

@@ -89,6 +89,13 @@ function inOrder(verdicts) {
   });
 }
 
+/** The rows that are folded into one: those of a ladder that did not fail if there are many, and the other clean ones if these are many, too. */
+function foldedRows(rows) {
+  const good = rows.filter(({ clean }) => clean);
+  if (good.length <= fewSubjects) return [];
+  return good.filter(isNoRung).length <= fewSubjects ? good.filter((row) => !isNoRung(row)) : good;
+}
+
 function drawScorecard() {
   const rows = inOrder(report.verdicts);
   element("verdicts").toggleAttribute("hidden", rows.length === 0 && !report.oracle.complaint);
@@ -111,13 +118,13 @@ function drawScorecard() {
   const wide = (content, attributes) => made("tr", made("td", content, { colspan: columns.length }), attributes);
   const body = made("tbody");
   if (report.oracle.complaint) body.append(wide([made("span", "FAIL", { class: "mark" }), ` oracle: ${report.oracle.complaint}`], { class: "verdict bad" }));
-  const good = rows.filter(({ clean }) => clean);
-  const isFolded = good.length > fewSubjects;
-  body.append(...rows.filter((row) => !isFolded || !row.clean).map(line));
+  const folded = foldedRows(rows);
+  body.append(...rows.filter((row) => !folded.includes(row)).map(line));
   table.append(body);
-  if (!isFolded) return;
-  const rest = made("tbody", good.map(line), { hidden: "", id: "clean-subjects" });
-  const toggle = made("button", `${good.length} subjects did not fail`, { type: "button", "aria-expanded": "false", "aria-controls": "clean-subjects" });
+  if (folded.length === 0) return;
+  const rest = made("tbody", folded.map(line), { hidden: "", id: "clean-subjects" });
+  const others = folded.length < rows.filter(({ clean }) => clean).length ? "others" : "subjects";
+  const toggle = made("button", `${folded.length} ${others} did not fail`, { type: "button", "aria-expanded": "false", "aria-controls": "clean-subjects" });
   toggle.addEventListener("click", () => toggle.setAttribute("aria-expanded", String(!rest.toggleAttribute("hidden"))));
   body.append(wide([made("span", "ok", { class: "mark" }), " ", toggle], { class: "verdict" }));
   table.append(rest);

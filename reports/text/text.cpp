@@ -72,10 +72,10 @@ std::string fraction_of_bound(double ratio) {
 std::string times_the_bound(double ratio, DistanceUnit unit) {
   const bool is_claim = unit == DistanceUnit::claimed_bound;
   std::string text = ratio == infinite ? fmt::format("beyond {} bound of 0", is_claim ? "a" : "wang's")
-                                       : fmt::format("at {} of {} bound", fraction_of_bound(ratio),
-                                                     is_claim ? "the" : "wang's");
+                                       : fmt::format("at {} {} bound", fraction_of_bound(ratio),
+                                                     is_claim ? "of the" : "times wang's");
   if (unit == DistanceUnit::wangs_bound) text += " (it claims none)";
-  if (unit == DistanceUnit::both) text += " or of a claim";
+  if (unit == DistanceUnit::both) text += " or a claim";
   return text;
 }
 

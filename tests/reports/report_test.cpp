@@ -147,7 +147,7 @@ Statistics one_far_report(bool measured_by_wang) {
 
 TEST(Summary, ADistanceInUnitsOfWangsBoundIsNotAPartOfAClaim) {
   const std::string by_wang = summary_table(one_far_report(true));
-  EXPECT_THAT(by_wang, HasSubstr("the farthest at 2.5 of wang's bound (it claims none)\n"));
+  EXPECT_THAT(by_wang, HasSubstr("the farthest at 2.5 times wang's bound (it claims none)\n"));
   EXPECT_THAT(by_wang, HasSubstr(" 2.5**  "));
   EXPECT_THAT(
       by_wang,

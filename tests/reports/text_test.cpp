@@ -29,10 +29,10 @@ TEST(Text, WhatIsBelowTheBoundIsNotRoundedToIt) {
 }
 
 TEST(Text, ADistanceThatIsNoFractionOfAClaimSaysSo) {
-  EXPECT_EQ(times_the_bound(66.7, DistanceUnit::wangs_bound), "at 66.7 of wang's bound (it claims none)");
+  EXPECT_EQ(times_the_bound(66.7, DistanceUnit::wangs_bound), "at 66.7 times wang's bound (it claims none)");
   EXPECT_EQ(times_the_bound(std::numeric_limits<double>::max(), DistanceUnit::wangs_bound),
             "beyond wang's bound of 0 (it claims none)");
-  EXPECT_EQ(times_the_bound(0.5, DistanceUnit::both), "at 0.5 of wang's bound or of a claim");
+  EXPECT_EQ(times_the_bound(0.5, DistanceUnit::both), "at 0.5 times wang's bound or a claim");
   EXPECT_EQ(marked_fraction_of_bound(0.1234, DistanceUnit::claimed_bound), "0.123");
   EXPECT_EQ(marked_fraction_of_bound(0.1234, DistanceUnit::wangs_bound), "0.123**");
 }

@@ -36,6 +36,7 @@ TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
 
 TEST_F(DemoTest, SaysThatItCannotWrite) {
   expect_refused("demo -o no/folder.case", {"no/folder.case"});
+  EXPECT_THAT(run("demo -o no/folder.case").out, ::testing::Not(HasSubstr("basic has missed")));
   expect_refused("demo -o miss.txt", {"found 'miss.txt', expected a name that ends in .case"});
 }
 
@@ -45,7 +46,12 @@ TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
   EXPECT_EQ(completed("nearmiss fuzz --cas"), "--cases\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
   EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject ./a"), "\n");  // the shell completes files
+  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic\n");  // --subject=ba
+  EXPECT_EQ(completed("nearmiss fuzz --subject ="), completed("nearmiss fuzz --subject \"\""));
+  EXPECT_EQ(completed("nearmiss fuzz --sweep asp"), "aspect\n");
+  EXPECT_EQ(completed("nearmiss fuzz --sweep uniform-e"), "\n");  // has no parameter
+  EXPECT_EQ(completed("nearmiss fuzz --subject ./compl"), "./completion\n");
+  EXPECT_EQ(completed("nearmiss fuzz --subject wang,./compl"), "wang,./completion\n");
 }
 
 TEST_F(DemoTest, KnowsTwoShells) {

@@ -1,6 +1,6 @@
 // Tests what is seen before scrolling.
 import assert from "node:assert/strict";
-import { jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
+import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 const failing = "basic,basic-plain,defect:vv,defect:proximity,defect:D2*0,defect:S*0,defect:psi*0,defect:rho*0,defect:lambda2*0,defect:mu*0";
 
@@ -29,6 +29,30 @@ async function answersEverything(browser, name) {
   return failed.length;
 }
 
+/** A night with a scene and a ladder, too: only the ladder's many subjects are folded, and nothing makes the page too wide or too long. */
+async function answersBesideAScene(browser) {
+  run("ladder", "--scalar", "float,p40,p48,p56,p64", "--cases", "160", "--db", "rungs.db");
+  run("scene", "spikes@100", "--subject", "wang,basic", "--db", "beside.db");
+  run("report", "eleven.db", "beside.db", "rungs.db", "--baseline", "eleven-before.db", "-o", "night");
+  const page = await open(browser, pageOf("night"), { viewport: { width: 1440, height: 900 } });
+  const { verdicts, baseline } = jsonOf("night");
+  const own = verdicts.filter(({ subject, algorithm }) => subject === algorithm);
+  assert.ok(verdicts.length >= own.length + 10);
+  const table = await page.locator("#scorecard").boundingBox();
+  assert.ok(table.y + table.height <= 900, `the table ends at ${table.y + table.height}`);
+  const shown = page.locator("#scorecard .verdict:visible");
+  assert.equal(await shown.count(), verdicts.filter((each) => !each.clean || own.includes(each)).length + 1);
+  assert.match(await shown.last().textContent(), /^ok \d+ others did not fail$/);
+  await shown.last().locator("button").click();
+  assert.equal(await shown.count(), verdicts.length + 1);
+  assert.ok(baseline.absent_subjects.length >= 10);
+  assert.equal(await page.locator("#news li", { hasText: /^Not in the baseline: / }).count(), 1);
+  assert.equal(await count(page, "#before-and-now tbody tr"), 2 * own.length);
+  const slow = new Set(await page.locator("#slowest tbody td:first-child").allTextContents());
+  assert.deepEqual(slow, new Set(own.map(({ subject }) => subject)));
+  await page.close();
+}
+
 export async function answersBeforeScrolling(browser) {
   for (const [name, subjects] of [["one", "wang"], ["three", "basic,exact,wang"], ["eleven", `${failing},wang`]]) {
     run("fuzz", "--cases", "3000", "--subject", subjects, "--db", `${name}-before.db`);
@@ -37,4 +61,5 @@ export async function answersBeforeScrolling(browser) {
   assert.equal(await answersEverything(browser, "one"), 0);
   assert.equal(await answersEverything(browser, "three"), 1);
   assert.ok((await answersEverything(browser, "eleven")) >= 6);
+  await answersBesideAScene(browser);
 }

@@ -28,7 +28,7 @@ export async function showsEnvironments(browser) {
 /** With another theme, on a phone, and on paper, everything is shown and nothing extends beyond the page. */
 export async function fitsEveryMedium(browser) {
   const url = pageOf("found");
-  for (const each of [url, pageOf("timed")])
+  for (const each of [url, pageOf("timed"), pageOf("night")])
     for (const options of [{ colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }]) {
       const page = await open(browser, each, options);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "sticks out");
