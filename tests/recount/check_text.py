@@ -122,7 +122,7 @@ def verdict(found, unknown):
     if largest == LARGEST:
         far = f'beyond {"a" if claims else wangs} bound of 0'
     else:
-        far = f'at {fraction(largest)} of {"the" if claims else wangs} bound'
+        far = f'at {fraction(largest)} {"of the" if claims else f"times {wangs}"} bound'
     if not claims:
         far += ' (it claims none)'
     return is_clean, f'{text}, the farthest {far}'

@@ -46,7 +46,7 @@ TEST_F(DemoTest, BashCompletesCommandsOptionsAndLists) {
   EXPECT_EQ(completed("nearmiss fuzz --cas"), "--cases\n");
   EXPECT_EQ(completed("nearmiss fuzz --subject basic,wang-t"), "basic,wang-tight basic,wang-time\n");
   EXPECT_EQ(completed("nearmiss fuzz --family uniform-e"), "uniform-end\n");
-  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic\n");  // --subject=ba
+  EXPECT_EQ(completed("nearmiss fuzz --subject = ba"), "basic basic-plain\n");  // --subject=ba
   EXPECT_EQ(completed("nearmiss fuzz --subject ="), completed("nearmiss fuzz --subject \"\""));
   EXPECT_EQ(completed("nearmiss fuzz --sweep asp"), "aspect\n");
   EXPECT_EQ(completed("nearmiss fuzz --sweep uniform-e"), "\n");  // has no parameter
