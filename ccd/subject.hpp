@@ -250,8 +250,4 @@ SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 /// Throws an Error that lists the known names.
 [[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
 
-/// The bound B of one pair (§4.1), in its unit of length; infinity if it exceeds the largest double. The
-/// bound of a scene is the largest one of its pairs.
-double pair_bound(const Query& query);
-
 }  // namespace nearmiss

@@ -9,6 +9,7 @@
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
+#include "ccd/pair_bound.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/stopwatch.hpp"
 #include "ccd/subject.hpp"
@@ -20,12 +21,6 @@
 namespace nearmiss {
 
 namespace {
-
-template <Kind kind>
-double own_bound(const Query& query) {
-  const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
-  return std::ldexp(pair.B, -pair.frame.total());
-}
 
 /// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
 /// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
@@ -117,10 +112,7 @@ struct Wang {
     return wang<kind, double, options, Steps>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
-    // The bound is proportional to B, so it is computed for B = 1, where nothing overflows. It is rounded up,
-    // so that it does not vanish for a tiny pair.
-    const double bound = Steps::tolerances(1.0).distance_bound() * given.value_or(pair_bound(query));
-    return std::nextafter(bound, std::numeric_limits<double>::infinity());
+    return distance_bound_of(Steps::tolerances(1.0), given.value_or(pair_bound(query)));
   }
   static double needed_tolerance(const Query& query, const std::optional<double>& given) {
     return least_loosening([&](double s) {
@@ -258,11 +250,6 @@ void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {
   for (const SubjectInfo& info : known) names += (names.empty() ? "" : ", ") + std::string(info.name);
   throw Error("unknown subject '" + excerpt(name) + "', expected one of " + names +
               " or the path of a plug-in such as ./plugin.so");
-}
-
-double pair_bound(const Query& query) {
-  return query.kind == Kind::vertex_triangle ? own_bound<Kind::vertex_triangle>(query)
-                                             : own_bound<Kind::edge_edge>(query);
 }
 
 }  // namespace nearmiss

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ccd/error.hpp"
+#include "ccd/pair_bound.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/subjects/subjects.hpp"

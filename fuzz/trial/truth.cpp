@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "ccd/pair_bound.hpp"
 #include "ccd/subject.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"

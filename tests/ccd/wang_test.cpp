@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ccd/error.hpp"
+#include "ccd/pair_bound.hpp"
 #include "ccd/subject.hpp"
 #include "tests/queries.hpp"
 

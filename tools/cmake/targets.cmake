@@ -24,10 +24,15 @@ endif()
 # Bools are joined by | to save a branch, which clang advises against.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 
-# nearmiss_options(TARGET): our code compiles without warnings; includes are relative to the top folder, "folder/file.hpp".
+# Our code compiles without warnings. Who only builds it may have a compiler that warns of more.
+if("tests" IN_LIST NEARMISS_COMPONENTS)
+  set(nearmiss_werror -Werror)
+endif()
+
+# nearmiss_options(TARGET): warnings; includes are relative to the top folder, "folder/file.hpp".
 function(nearmiss_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror ${nearmiss_joined_bools})
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion ${nearmiss_werror} ${nearmiss_joined_bools})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
 # nearmiss_library(FOLDER LIB...): the library of one folder, from all its .cpp files.
@@ -37,6 +42,7 @@ function(nearmiss_library folder)
     return()
   endif()
   add_library(nearmiss_${folder} STATIC ${sources})
+  set_target_properties(nearmiss_${folder} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   nearmiss_options(nearmiss_${folder})
   target_link_libraries(nearmiss_${folder} PUBLIC ${ARGN})
 endfunction()

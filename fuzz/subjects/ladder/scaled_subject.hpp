@@ -14,6 +14,7 @@
 
 #include "ccd/arithmetic.hpp"
 #include "ccd/basic.hpp"
+#include "ccd/pair_bound.hpp"
 #include "ccd/tight_tolerances.hpp"
 #include "ccd/wang.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"

@@ -1,0 +1,60 @@
+#include "ccd/interface/wang.h"
+
+#include <limits>
+
+#include "ccd/interface/gather.hpp"
+#include "ccd/pair_bound.hpp"
+#include "ccd/wang.hpp"
+#include "ccd/wang_batch.hpp"
+
+using nearmiss::Kind;
+using nearmiss::Query;
+using nearmiss::Verdict;
+using nearmiss::WangOptions;
+
+namespace {
+
+bool reports(const Query& query) {
+  return query.kind == Kind::vertex_triangle
+             ? nearmiss::wang<Kind::vertex_triangle, double, WangOptions{}>(query).hit
+             : nearmiss::wang<Kind::edge_edge, double, WangOptions{}>(query).hit;
+}
+
+/// Whether the arguments are usable; wang takes no separation.
+bool are_usable(const nearmiss_queries* queries, const void* to) {
+  return to != nullptr && queries != nullptr && nearmiss::interface::asks_for_contact(*queries);
+}
+
+}  // namespace
+
+int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
+  if (!are_usable(queries, answers)) return NEARMISS_BAD_ARGUMENT;
+  return nearmiss::interface::for_blocks(queries, [&](std::span<const Query> block, std::size_t first) {
+    std::array<Verdict, nearmiss::interface::block_size> verdicts;
+    nearmiss::wang_in_lanes(block, verdicts);
+    int status = NEARMISS_OK;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      std::int8_t& answer = answers[first + i];
+      if (nearmiss::is_decided(verdicts[i])) {
+        answer = verdicts[i].hit ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+      } else if (nearmiss::interface::is_answerable(block[i])) {
+        answer = reports(block[i]) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+      } else {
+        answer = NEARMISS_NO_ANSWER;
+        status = NEARMISS_NOT_FINITE;
+      }
+    }
+    return status;
+  });
+}
+
+int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds) {
+  if (!are_usable(queries, bounds)) return NEARMISS_BAD_ARGUMENT;
+  const auto tolerances = nearmiss::AllSteps::tolerances(1.0);
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) {
+        bounds[q] = nearmiss::distance_bound_of(tolerances, nearmiss::pair_bound(query));
+      },
+      [&](std::size_t q) { bounds[q] = std::numeric_limits<double>::quiet_NaN(); });
+}

@@ -1,0 +1,31 @@
+// The size of a pair, and what wang promises for it.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "ccd/motion.hpp"
+#include "ccd/query.hpp"
+#include "ccd/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The bound B of one pair (§4.1), in its unit of length; infinity if it exceeds the largest double. The
+/// bound of a scene is the largest one of its pairs.
+template <Kind kind>
+double pair_bound(const Query& query) {
+  const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
+  return std::ldexp(pair.B, -pair.frame.total());
+}
+inline double pair_bound(const Query& query) {
+  return query.kind == Kind::vertex_triangle ? pair_bound<Kind::vertex_triangle>(query)
+                                             : pair_bound<Kind::edge_edge>(query);
+}
+
+/// The largest distance of a false positive of a pair with bound B, from the tolerances for B = 1, where nothing overflows. It is
+/// rounded up, so that it does not vanish for a tiny pair.
+inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
+  return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace nearmiss

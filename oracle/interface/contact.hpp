@@ -1,0 +1,74 @@
+// The oracle behind the interface that contact codes use for CCD: the positions of all points at the start and the end of the step, a
+// time of impact, a minimum distance, and the largest time. A class with these names and arguments can be replaced by
+// nearmiss::ExactCCD. C++20.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "oracle/interface/nearmiss.hpp"
+
+namespace nearmiss {
+
+/// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at some t in [0, tmax], and
+/// sets `toi` to the largest double that is not after the first such t. So nothing happens in [0, toi), and no rescaling is needed. If
+/// there is no such t, `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a collision
+/// with toi = 0, because a simulation must not step on.
+///
+/// Points may have any type with operator[] or operator(), and have three coordinates, or two, of which the third is 0, if they have a
+/// size() of 2.
+class ExactCCD {
+ public:
+  bool point_triangle_ccd(const auto& p_t0, const auto& t0_t0, const auto& t1_t0, const auto& t2_t0, const auto& p_t1,
+                          const auto& t0_t1, const auto& t1_t1, const auto& t2_t1, double& toi, double min_distance = 0,
+                          double tmax = 1) const noexcept {
+    return first_contact(Kind::vertex_triangle, toi, min_distance, tmax, p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1,
+                         t2_t1);
+  }
+
+  bool edge_edge_ccd(const auto& ea0_t0, const auto& ea1_t0, const auto& eb0_t0, const auto& eb1_t0, const auto& ea0_t1,
+                     const auto& ea1_t1, const auto& eb0_t1, const auto& eb1_t1, double& toi, double min_distance = 0,
+                     double tmax = 1) const noexcept {
+    return first_contact(Kind::edge_edge, toi, min_distance, tmax, ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1,
+                         eb1_t1);
+  }
+
+  /// A point and an edge, which is a degenerate triangle.
+  bool point_edge_ccd(const auto& p_t0, const auto& e0_t0, const auto& e1_t0, const auto& p_t1, const auto& e0_t1,
+                      const auto& e1_t1, double& toi, double min_distance = 0, double tmax = 1) const noexcept {
+    return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, toi, min_distance, tmax);
+  }
+
+  bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1, double& toi,
+                       double min_distance = 0, double tmax = 1) const noexcept {
+    return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, toi, min_distance, tmax);
+  }
+
+ private:
+  static double coordinate(const auto& point, std::size_t k) {
+    if constexpr (requires { point.size(); })
+      if (k >= static_cast<std::size_t>(point.size())) return 0;
+    // Eigen's types count with signed numbers.
+    if constexpr (requires { point(std::ptrdiff_t{}); })
+      return static_cast<double>(point(static_cast<std::ptrdiff_t>(k)));
+    else
+      return static_cast<double>(point[k]);
+  }
+
+  static bool first_contact(Kind kind, double& toi, double min_distance, double tmax, const auto&... points) noexcept {
+    std::array<double, 24> x;
+    std::size_t next = 0;
+    const auto add = [&](const auto& point) {
+      for (std::size_t k = 0; k < 3; ++k) x[next++] = coordinate(point, k);
+    };
+    (add(points), ...);
+    const Queries query = Queries::packed(kind, x).with_separation(min_distance);
+    std::int8_t answer = NEARMISS_NO_ANSWER;
+    toi = 0;
+    (void)times_of_impact(query, {&answer, 1}, {&toi, 1}, tmax);
+    return Answer{answer} != Answer::no_collision;
+  }
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,188 @@
+// The C++ interface of nearmiss: exact answers and the failure-proof CCD for queries in the caller's memory. It is a thin layer over
+// the C functions of nearmiss.h, whose comments say what the answers mean. C++20. Link with nearmiss::oracle, or -lnearmiss.
+//
+//     const auto pairs = nearmiss::Queries::of_mesh(nearmiss::Kind::edge_edge, indices, start, end);
+//     std::vector<std::int8_t> answers(pairs.size());
+//     if (nearmiss::collides(pairs, answers) != nearmiss::Status::ok) ...
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "ccd/kind.hpp"
+#include "oracle/interface/nearmiss.h"
+
+namespace nearmiss {
+
+/// What a function returns.
+enum class Status : int {
+  ok = NEARMISS_OK,
+  not_finite = NEARMISS_NOT_FINITE,        ///< all queries are answered, some by Answer::none or NaN
+  bad_argument = NEARMISS_BAD_ARGUMENT,    ///< nothing is answered: a span of another length, or a null pointer
+  out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< some queries are not answered
+};
+
+/// The answers in a span of std::int8_t.
+enum class Answer : std::int8_t {
+  none = NEARMISS_NO_ANSWER,
+  no_collision = NEARMISS_NO_COLLISION,
+  collision = NEARMISS_COLLISION,
+};
+
+/// The values in a span of what decided.
+enum class DecidedBy : std::uint8_t {
+  boxes = NEARMISS_BY_BOXES,
+  filter = NEARMISS_BY_FILTER,
+  exact = NEARMISS_BY_EXACT,
+};
+
+/// Two numbers that enclose a time or a distance. Both are infinite for the time of no collision, and NaN if there is no answer.
+struct Interval {
+  double lo = std::numeric_limits<double>::quiet_NaN();
+  double hi = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A sentence about a status.
+inline const char* message(Status status) noexcept { return nearmiss_message(static_cast<int>(status)); }
+
+/// Queries of one kind in the caller's memory, which must outlive them. Nothing is copied.
+class Queries {
+ public:
+  /// Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. A rest of fewer than 24 is ignored.
+  static Queries packed(Kind kind, std::span<const double> x) noexcept {
+    return Queries(nearmiss_packed(to_c(kind), x.size() / 24, x.data()));
+  }
+  static Queries packed(Kind kind, std::span<const float> x) noexcept {
+    return Queries(nearmiss_packed_float(to_c(kind), x.size() / 24, x.data()));
+  }
+
+  /// Pairs of a moving mesh: four numbers of vertices for each pair, and three coordinates for each vertex at t = 0 and t = 1.
+  static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
+                         const double* end) noexcept {
+    return Queries(nearmiss_of_mesh(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
+  }
+  static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const float* start,
+                         const float* end) noexcept {
+    return Queries(nearmiss_of_mesh_float(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
+  }
+
+  /// Any other layout, as nearmiss_queries describes it.
+  explicit Queries(const nearmiss_queries& layout) noexcept : layout_(layout) {}
+
+  /// The same queries with one separation h for all, which must outlive them, or with one for each.
+  [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
+  Queries with_separation(double&&) const = delete;
+  [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
+    return with_separations(h.data(), sizeof(double));
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
+  [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
+  nearmiss_queries& layout() noexcept { return layout_; }
+
+ private:
+  static int to_c(Kind kind) { return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE; }
+  [[nodiscard]] Queries with_separations(const double* h, std::ptrdiff_t stride) const noexcept {
+    Queries queries = *this;
+    queries.layout_.separation = h;
+    queries.layout_.separation_stride = stride;
+    return queries;
+  }
+
+  nearmiss_queries layout_;
+};
+
+namespace detail {
+
+/// The data of a span that may be left out, if it has as many elements as there are queries.
+template <class T>
+bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
+  return to.size() == queries.size() || (may_be_empty && to.empty());
+}
+
+}  // namespace detail
+
+/// nearmiss_collides(): whether each query is a collision, and, if wanted, what decided it.
+inline Status collides(const Queries& queries, std::span<std::int8_t> answers,
+                       std::span<std::uint8_t> decided_by = {}) noexcept {
+  if (!detail::fits(queries, answers) || !detail::fits(queries, decided_by, true)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(nearmiss_collides(&queries.layout(), answers.data(), decided_by.data()));
+}
+
+/// nearmiss_earliest_time(): the earliest time of each collision, with a `width` of 0 to the nearest double below.
+inline Status earliest_times(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
+                             double width = 0) noexcept {
+  if (!detail::fits(queries, lo) || !detail::fits(queries, hi, true)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(nearmiss_earliest_time(&queries.layout(), width, lo.data(), hi.data()));
+}
+
+/// nearmiss_time_of_impact(): whether each query is a collision in [0, tmax], and the largest double that is not after it.
+inline Status times_of_impact(const Queries& queries, std::span<std::int8_t> answers, std::span<double> toi,
+                              double tmax = 1) noexcept {
+  if (!detail::fits(queries, answers) || !detail::fits(queries, toi)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(nearmiss_time_of_impact(&queries.layout(), tmax, answers.data(), toi.data()));
+}
+
+/// nearmiss_smallest_distance(): the smallest distance over the step.
+inline Status smallest_distances(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
+                                 double relative_width = 1e-3) noexcept {
+  if (!detail::fits(queries, lo) || !detail::fits(queries, hi, true)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(
+      nearmiss_smallest_distance(&queries.layout(), relative_width, lo.data(), hi.data()));
+}
+
+/// nearmiss_wang(): whether the failure-proof CCD reports each query.
+inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexcept {
+  if (!detail::fits(queries, answers)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(nearmiss_wang(&queries.layout(), answers.data()));
+}
+
+/// nearmiss_wang_bound(): the largest distance of a false positive of wang.
+inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noexcept {
+  if (!detail::fits(queries, bounds)) return Status::bad_argument;
+  if (queries.size() == 0) return Status::ok;
+  return static_cast<Status>(nearmiss_wang_bound(&queries.layout(), bounds.data()));
+}
+
+/// One query: x0 x1 x2 x3 at t = 0, then at t = 1. The functions below answer it as those above do.
+using Coordinates = std::span<const double, 24>;
+
+inline Answer collides(Kind kind, Coordinates x, double h = 0) noexcept {
+  std::int8_t answer = NEARMISS_NO_ANSWER;
+  (void)collides(Queries::packed(kind, x).with_separation(h), {&answer, 1});
+  return Answer{answer};
+}
+
+inline Interval earliest_time(Kind kind, Coordinates x, double h = 0, double width = 0) noexcept {
+  Interval time;
+  (void)earliest_times(Queries::packed(kind, x).with_separation(h), {&time.lo, 1}, {&time.hi, 1}, width);
+  return time;
+}
+
+inline Interval smallest_distance(Kind kind, Coordinates x, double relative_width = 1e-3) noexcept {
+  Interval distance;
+  (void)smallest_distances(Queries::packed(kind, x), {&distance.lo, 1}, {&distance.hi, 1}, relative_width);
+  return distance;
+}
+
+inline Answer wang(Kind kind, Coordinates x) noexcept {
+  std::int8_t answer = NEARMISS_NO_ANSWER;
+  (void)wang(Queries::packed(kind, x), {&answer, 1});
+  return Answer{answer};
+}
+
+inline double wang_bound(Kind kind, Coordinates x) noexcept {
+  double bound = std::numeric_limits<double>::quiet_NaN();
+  (void)wang_bounds(Queries::packed(kind, x), {&bound, 1});
+  return bound;
+}
+
+}  // namespace nearmiss

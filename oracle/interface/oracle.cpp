@@ -1,0 +1,130 @@
+#include "oracle/interface/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ccd/interface/gather.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/oracle.hpp"
+
+namespace nearmiss::interface {
+namespace {
+
+std::uint8_t decider(FilterStage stage) {
+  switch (stage) {
+    case FilterStage::boxes:
+      return NEARMISS_BY_BOXES;
+    case FilterStage::undecided:
+      return NEARMISS_BY_EXACT;
+    default:
+      return NEARMISS_BY_FILTER;
+  }
+}
+
+/// Fewer queries are decided faster one by one.
+constexpr std::size_t fewest_side_by_side = 4;
+
+/// Where answers go.
+struct Answers {
+  std::int8_t* answers;
+  std::uint8_t* decided_by;
+
+  void set(std::size_t q, bool is_collision, FilterStage stage) const {
+    answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+    if (decided_by != nullptr) decided_by[q] = decider(stage);
+  }
+
+  int refuse(std::size_t q) const {
+    answers[q] = NEARMISS_NO_ANSWER;
+    if (decided_by != nullptr) decided_by[q] = NEARMISS_BY_BOXES;
+    return NEARMISS_NOT_FINITE;
+  }
+
+  void set(std::size_t q, const Decision& decision) const {
+    set(q, decision.collision || decision.is_tie, decision.stage);
+  }
+};
+
+/// Where enclosures go.
+struct Enclosures {
+  double *lo, *hi;
+
+  void set(std::size_t q, const Enclosure& enclosure) const {
+    lo[q] = enclosure.lo;
+    if (hi != nullptr) hi[q] = enclosure.hi;
+  }
+  void refuse(std::size_t q) const {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    set(q, {nan, nan});
+  }
+};
+
+}  // namespace
+}  // namespace nearmiss::interface
+
+using nearmiss::FilterStage;
+using nearmiss::Query;
+using nearmiss::interface::Answers;
+using nearmiss::interface::Enclosures;
+
+int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by) {
+  if (answers == nullptr) return NEARMISS_BAD_ARGUMENT;
+  using nearmiss::interface::asks_for_contact;
+  const Answers to{answers, decided_by};
+  return nearmiss::interface::for_blocks(queries, [&](std::span<const Query> block, std::size_t first) {
+    std::array<FilterStage, nearmiss::interface::block_size> stages;
+    const bool side_by_side = asks_for_contact(*queries) && block.size() >= nearmiss::interface::fewest_side_by_side;
+    if (side_by_side) nearmiss::filter(block, stages);
+    int status = NEARMISS_OK;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (side_by_side && stages[i] != FilterStage::undecided)
+        to.set(first + i, nearmiss::is_collision(stages[i]), stages[i]);
+      else if (!nearmiss::interface::is_answerable(block[i]))
+        status = to.refuse(first + i);
+      else
+        to.set(first + i, side_by_side ? nearmiss::settle(block[i], stages[i]) : nearmiss::decide(block[i]));
+    }
+    return status;
+  });
+}
+
+int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi) {
+  if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
+  const Enclosures to{lo, hi};
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) {
+        auto time = nearmiss::earliest_time(query);
+        to.set(q, time ? time->enclosure(width) : nearmiss::Enclosure{HUGE_VAL, HUGE_VAL});
+      },
+      [&](std::size_t q) { to.refuse(q); });
+}
+
+int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi) {
+  if (answers == nullptr || toi == nullptr || !(tmax <= 1)) return NEARMISS_BAD_ARGUMENT;
+  const Answers to{answers, nullptr};
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) {
+        auto time = nearmiss::earliest_time(query);
+        // A time that is no double is at most tmax if the next double is.
+        const auto enclosure = time ? time->enclosure() : nearmiss::Enclosure{HUGE_VAL, HUGE_VAL};
+        const bool is_collision = enclosure.hi <= tmax;
+        answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+        toi[q] = is_collision ? enclosure.lo : HUGE_VAL;
+      },
+      [&](std::size_t q) {
+        to.refuse(q);
+        toi[q] = 0;
+      });
+}
+
+int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo, double* hi) {
+  if (lo == nullptr || !(relative_width >= 0)) return NEARMISS_BAD_ARGUMENT;
+  const Enclosures to{lo, hi};
+  return nearmiss::interface::for_each_query(
+      queries,
+      [&](const Query& query, std::size_t q) { to.set(q, nearmiss::minimum_distance(query, std::min(relative_width, 0.5))); },
+      [&](std::size_t q) { to.refuse(q); });
+}

@@ -1,0 +1,150 @@
+// Asks an installed nearmiss through its C++ interface, in several layouts and from several threads, and compares its answers with
+// those on standard input. These come in blocks of one kind:
+//
+//     int32 kind, n, timed
+//     double x[n][2][4][3], h[n]
+//     int8 collides[n], wang[n]; double bound[n]            of wang without a separation
+//     if timed: double lo[n], hi[n] of the earliest times; lo[n], hi[n] of the smallest distances
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <nearmiss/nearmiss.hpp>
+#include <thread>
+#include <vector>
+
+namespace {
+
+std::atomic<std::size_t> differences = 0;
+
+template <class T>
+std::vector<T> numbers(std::size_t count) {
+  std::vector<T> read(count);
+  if (std::fread(read.data(), sizeof(T), count, stdin) == count) return read;
+  std::fputs("the input ends within a block\n", stderr);
+  std::exit(2);
+}
+
+void expect(bool holds, const char* what) {
+  if (!holds && ++differences < 10) std::fprintf(stderr, "%s\n", what);
+}
+
+template <class T>
+void compare(const char* what, std::span<const T> found, std::span<const T> expected) {
+  expect(std::memcmp(found.data(), expected.data(), found.size_bytes()) == 0, what);
+}
+template <class T>
+void compare(const char* what, const std::vector<T>& found, const std::vector<T>& expected) {
+  compare(what, std::span<const T>(found), std::span<const T>(expected));
+}
+
+struct Block {
+  nearmiss::Kind kind;
+  std::size_t n;
+  std::vector<double> x, h;
+  std::vector<std::int8_t> collides, wang;
+  std::vector<double> bound, times, distances;
+};
+
+void ask(const nearmiss::Queries& queries, const Block& block, const char* layout) {
+  std::vector<std::int8_t> answers(block.n);
+  expect(nearmiss::collides(queries.with_separations(block.h), answers) == nearmiss::Status::ok, "status");
+  compare(layout, answers, block.collides);
+  expect(nearmiss::wang(queries, answers) == nearmiss::Status::ok, "status of wang");
+  compare("wang", answers, block.wang);
+}
+
+void ask_in_all_layouts(const Block& block) {
+  using nearmiss::Queries;
+  const std::size_t n = block.n;
+  ask(Queries::packed(block.kind, block.x), block, "packed");
+
+  // A mesh of separate primitives, whose vertices have four numbers and are in another order.
+  std::vector<double> start(16 * n), end(16 * n);
+  std::vector<std::int32_t> vertices(4 * n);
+  for (std::size_t v = 0; v < 4 * n; ++v) {
+    vertices[v] = static_cast<std::int32_t>(4 * n - 1 - v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      start[4 * (4 * n - 1 - v) + k] = block.x[24 * (v / 4) + 3 * (v % 4) + k];
+      end[4 * (4 * n - 1 - v) + k] = block.x[24 * (v / 4) + 12 + 3 * (v % 4) + k];
+    }
+  }
+  Queries mesh = Queries::of_mesh(block.kind, vertices, start.data(), end.data());
+  mesh.layout().vertex_stride = 4 * sizeof(double);
+  ask(mesh, block, "mesh");
+
+  // An array [2][4][3][n], as a structure of arrays has it.
+  std::vector<double> turned(24 * n);
+  for (std::size_t q = 0; q < n; ++q)
+    for (std::size_t c = 0; c < 24; ++c) turned[c * n + q] = block.x[24 * q + c];
+  nearmiss_queries layout = Queries::packed(block.kind, block.x).layout();
+  const auto row = static_cast<std::ptrdiff_t>(n * sizeof(double));
+  layout.start = turned.data();
+  layout.end = turned.data() + 12 * n;
+  layout.query_stride = sizeof(double);
+  layout.coordinate_stride = row;
+  layout.vertex_stride = 3 * row;
+  ask(Queries(layout), block, "turned");
+
+  // Floats are the doubles of the same value.
+  const std::vector<float> small(block.x.begin(), block.x.end());
+  const std::vector<double> rounded(small.begin(), small.end());
+  std::vector<std::int8_t> of_float(n), of_double(n);
+  expect(nearmiss::collides(Queries::packed(block.kind, small), of_float) ==
+             nearmiss::collides(Queries::packed(block.kind, rounded), of_double),
+         "status of float");
+  compare("float", of_float, of_double);
+
+  if (block.times.empty()) return;
+  std::vector<double> lo(n), hi(n);
+  const Queries queries = Queries::packed(block.kind, block.x).with_separations(block.h);
+  expect(nearmiss::earliest_times(queries, lo, hi) == nearmiss::Status::ok, "status of times");
+  compare("times", std::span<const double>(lo), std::span(block.times).first(n));
+  compare("times from above", std::span<const double>(hi), std::span(block.times).last(n));
+  expect(nearmiss::smallest_distances(queries, lo, hi) == nearmiss::Status::ok, "status of distances");
+  compare("distances", std::span<const double>(lo), std::span(block.distances).first(n));
+  compare("distances from above", std::span<const double>(hi), std::span(block.distances).last(n));
+
+  // One by one.
+  std::vector<double> one_lo(n), one_hi(n);
+  std::vector<std::int8_t> answers(n);
+  for (std::size_t q = 0; q < n; ++q) {
+    const nearmiss::Coordinates x(&block.x[24 * q], 24);
+    const nearmiss::Interval time = nearmiss::earliest_time(block.kind, x, block.h[q]);
+    one_lo[q] = time.lo;
+    one_hi[q] = time.hi;
+    answers[q] = static_cast<std::int8_t>(nearmiss::collides(block.kind, x, block.h[q]));
+    expect(static_cast<std::int8_t>(nearmiss::wang(block.kind, x)) == block.wang[q], "wang of one");
+  }
+  compare("times of one", std::span<const double>(one_lo), std::span(block.times).first(n));
+  compare("answers of one", answers, block.collides);
+}
+
+}  // namespace
+
+int main() {
+  std::int32_t head[3];
+  std::size_t asked = 0;
+  while (std::fread(head, sizeof head, 1, stdin) == 1) {
+    const auto n = static_cast<std::size_t>(head[1]);
+    Block block{head[0] == NEARMISS_EDGE_EDGE ? nearmiss::Kind::edge_edge : nearmiss::Kind::vertex_triangle, n,
+                numbers<double>(24 * n), numbers<double>(n), numbers<std::int8_t>(n), numbers<std::int8_t>(n),
+                numbers<double>(n), {}, {}};
+    if (head[2] != 0) {
+      block.times = numbers<double>(2 * n);
+      block.distances = numbers<double>(2 * n);
+    }
+    asked += n;
+    // Two threads ask the same at once.
+    std::thread other([&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
+    ask_in_all_layouts(block);
+    other.join();
+  }
+
+  std::vector<std::int8_t> few(1);
+  const std::vector<double> two(48);
+  expect(nearmiss::collides(nearmiss::Queries::packed(nearmiss::Kind::edge_edge, two), few) ==
+             nearmiss::Status::bad_argument, "a span that is too short");
+  std::printf("C++, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked, differences.load());
+  return differences == 0 ? 0 : 1;
+}

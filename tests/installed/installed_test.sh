@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Installs nearmiss into an empty prefix, moves it, and builds and runs other people's programs with it: C and C++, with g++ and
+# clang++, with flags that the headers' users may have. Usage: installed_test.sh BUILD
+set -euo pipefail
+build=$(realpath "$1")
+here=$(dirname "$(realpath "$0")")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+cmake --install "$build" --prefix "$folder/first" >"$folder/log" || fail "$(cat "$folder/log")"
+mv "$folder/first" "$folder/prefix"
+"$build/tests/answered_queries" 30000 1 >"$folder/queries"
+
+# Other packages' headers of the same names must not matter.
+! grep -rE '#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
+! grep -rlE 'CGAL|boost|gmp' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
+
+peers=
+for each in "$here"/../../../shared/peers "$here"/../../../../shared/peers; do [[ ! -d $each/additive ]] || peers=$each; done
+
+# check NAME COMPILER C-COMPILER FLAGS OPTION...
+check() {
+  local name=$1 cxx=$2 cc=$3 flags=$4
+  shift 4
+  CXX=$cxx CC=$cc cmake -S "$here" -B "$folder/$name" -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags" "$@" >"$folder/log" 2>&1 && cmake --build "$folder/$name" >>"$folder/log" 2>&1 ||
+    fail "$name: $(tail -30 "$folder/log")"
+  local program
+  for program in answers_c answers_cpp contact_cpp templates additive; do
+    [[ -x $folder/$name/$program ]] || continue
+    echo -n "$name: "
+    "$folder/$name/$program" <"$folder/queries" || fail "$name: $program"
+  done
+}
+check g++ g++ gcc "" ${peers:+-DIPC="$peers/additive/src"}
+check clang++ clang++ clang ""
+check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
+check clang-fast-math clang++ clang "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
+
+# The templates refuse such flags.
+if g++ -std=c++20 -ffast-math -I"$folder/prefix/include" $(pkg-config --cflags eigen3) -fsyntax-only "$here/templates.cpp" 2>"$folder/log"; then
+  fail "the templates accept -ffast-math"
+fi
+grep -q 'nearmiss needs IEEE arithmetic: found -ffast-math' "$folder/log" || fail "$(cat "$folder/log")"
+
+# pkg-config
+export PKG_CONFIG_PATH=$folder/prefix/lib/pkgconfig
+gcc -std=c99 "$here/answers.c" $(pkg-config --cflags --libs nearmiss) -o "$folder/by_pkg_config"
+LD_LIBRARY_PATH=$folder/prefix/lib "$folder/by_pkg_config" <"$folder/queries"
+[[ $(pkg-config --modversion nearmiss) == 1.* ]] || fail "the version of pkg-config"
+
+# What is not there is refused.
+mkdir "$folder/other"
+for wanted in "2 COMPONENTS oracle" "1 COMPONENTS fortran"; do
+  printf 'cmake_minimum_required(VERSION 3.25)\nproject(other CXX)\nfind_package(nearmiss %s REQUIRED)\n' "$wanted" >"$folder/other/CMakeLists.txt"
+  ! cmake -S "$folder/other" -B "$folder/other/b" -DCMAKE_PREFIX_PATH="$folder/prefix" >"$folder/log" 2>&1 || fail "find_package(nearmiss $wanted) succeeds"
+done
+
+# The library shows the functions of its interface, and nothing else.
+shown=$(nm -D --defined-only "$folder/prefix/lib/libnearmiss.so" | awk '$2 == "T" {print $3}' | sed 's/@@NEARMISS_1$//' | sort)
+declared=$(grep -ohE '\bnearmiss_[a-z_]+\(' "$folder"/prefix/include/nearmiss/{queries,wang,oracle}.h | tr -d '(' | sort -u |
+  grep -vE '^nearmiss_(packed|of_mesh)' )
+[[ $shown == "$declared" ]] || fail "exported: $shown; declared: $declared"
+
+# A plain build needs neither npm nor what the tools need.
+cmake -S "$here/../.." -B "$folder/plain" >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"

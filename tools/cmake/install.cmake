@@ -1,0 +1,64 @@
+# Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the library, its headers, the
+# target nearmiss::oracle, and a file for pkg-config) and tools.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. There, "ccd/query.hpp" is
+# "nearmiss/ccd/query.hpp", so that no folder of the user's can be meant.
+set(templates advance arithmetic basic constraints cubic elementary error kind motion pair_bound plane_culling proven proximity
+  quadratic query scalar solver_errors steps subject tight_tolerances tolerances ve_culling vertex_edge vertex_vertex wang wang_time)
+list(TRANSFORM templates REPLACE "(.+)" "ccd/\\1.hpp")
+set(interface ccd/interface/queries.h ccd/interface/wang.h oracle/interface/oracle.h oracle/interface/nearmiss.h oracle/interface/nearmiss.hpp
+  oracle/interface/contact.hpp)
+
+# nearmiss_install_headers(COMPONENT HEADER...)
+function(nearmiss_install_headers component)
+  foreach(header IN LISTS ARGN)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+    file(READ ${PROJECT_SOURCE_DIR}/${header} text)
+    string(REGEX REPLACE "#include \"(ccd|oracle)/interface/" "#include \"nearmiss/" text "${text}")
+    string(REPLACE "#include \"ccd/" "#include \"nearmiss/ccd/" text "${text}")
+    string(REGEX REPLACE "^(ccd|oracle)/interface/" "" place ${header})
+    set(made ${PROJECT_BINARY_DIR}/include/nearmiss/${place})
+    file(CONFIGURE OUTPUT ${made} CONTENT "${text}" @ONLY)
+    get_filename_component(folder nearmiss/${place} DIRECTORY)
+    install(FILES ${made} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT ${component})
+  endforeach()
+endfunction()
+
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/nearmiss)
+set(written ${PROJECT_BINARY_DIR}/install)
+
+# nearmiss_install_target(COMPONENT TARGET): nearmiss::COMPONENT for find_package.
+function(nearmiss_install_target component target)
+  install(TARGETS ${target} EXPORT nearmiss-${component}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_COMPONENT ${component}-dev
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT nearmiss-${component} NAMESPACE nearmiss:: DESTINATION ${config} COMPONENT ${component}-dev)
+endfunction()
+
+if("ccd" IN_LIST NEARMISS_COMPONENTS)
+  add_library(nearmiss_templates INTERFACE)
+  set_target_properties(nearmiss_templates PROPERTIES EXPORT_NAME ccd)
+  target_compile_features(nearmiss_templates INTERFACE cxx_std_20)
+  # Every operation must be rounded to double; ccd/README.md says why.
+  target_compile_options(nearmiss_templates INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  target_link_libraries(nearmiss_templates INTERFACE Eigen3::Eigen)
+  nearmiss_install_headers(ccd-dev ${templates} ccd/nearmiss_subject.h)
+  nearmiss_install_target(ccd nearmiss_templates)
+endif()
+
+if("oracle" IN_LIST NEARMISS_COMPONENTS)
+  nearmiss_install_headers(oracle-dev ${interface})
+  # The C++ interface uses the kinds of the templates.
+  nearmiss_install_headers(oracle-dev ccd/kind.hpp)
+  nearmiss_install_target(oracle nearmiss_interface)
+  file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # so that the prefix can be moved
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/nearmiss.pc.in ${written}/nearmiss.pc @ONLY)
+  install(FILES ${written}/nearmiss.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT oracle-dev)
+endif()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config})
+write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT oracle-dev)
