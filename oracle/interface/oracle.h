@@ -36,7 +36,8 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 /* The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi, or as small as doubles
  * allow; both are 0 if the primitives touch, and NaN if there is no answer. Separations are ignored. `relative_width` must
  * be at least 1e-9. `hi` may be null. */
-int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo, double* hi);
+int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
+                               double* hi);
 
 #ifdef __cplusplus
 }

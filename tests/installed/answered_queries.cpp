@@ -39,7 +39,8 @@ void write_block(std::span<const Query> queries, bool is_timed) {
   write(x);
   write_each<double>(queries, [](const Query& query) { return query.separation; });
   write_each<std::int8_t>(queries, [](const Query& query) { return exact->decide(query).hit; });
-  write_each<std::int8_t>(queries, [](const Query& query) { return wang->decide(with_separation(query, 0)).hit; });
+  write_each<std::int8_t>(queries,
+                          [](const Query& query) { return wang->decide(with_separation(query, 0)).hit; });
   write_each<double>(queries, [](const Query& query) { return wang->distance_bound(query); });
   if (!is_timed) return;
   std::vector<double> times[2], distances[2];

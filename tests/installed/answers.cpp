@@ -127,16 +127,23 @@ int main() {
   std::size_t asked = 0;
   while (std::fread(head, sizeof head, 1, stdin) == 1) {
     const auto n = static_cast<std::size_t>(head[1]);
-    Block block{head[0] == NEARMISS_EDGE_EDGE ? nearmiss::Kind::edge_edge : nearmiss::Kind::vertex_triangle, n,
-                numbers<double>(24 * n), numbers<double>(n), numbers<std::int8_t>(n), numbers<std::int8_t>(n),
-                numbers<double>(n), {}, {}};
+    Block block{head[0] == NEARMISS_EDGE_EDGE ? nearmiss::Kind::edge_edge : nearmiss::Kind::vertex_triangle,
+                n,
+                numbers<double>(24 * n),
+                numbers<double>(n),
+                numbers<std::int8_t>(n),
+                numbers<std::int8_t>(n),
+                numbers<double>(n),
+                {},
+                {}};
     if (head[2] != 0) {
       block.times = numbers<double>(2 * n);
       block.distances = numbers<double>(2 * n);
     }
     asked += n;
     // Two threads ask the same at once.
-    std::thread other([&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
+    std::thread other(
+        [&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
     ask_in_all_layouts(block);
     other.join();
   }
@@ -144,7 +151,9 @@ int main() {
   std::vector<std::int8_t> few(1);
   const std::vector<double> two(48);
   expect(nearmiss::collides(nearmiss::Queries::packed(nearmiss::Kind::edge_edge, two), few) ==
-             nearmiss::Status::bad_argument, "a span that is too short");
-  std::printf("C++, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked, differences.load());
+             nearmiss::Status::bad_argument,
+         "a span that is too short");
+  std::printf("C++, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked,
+              differences.load());
   return differences == 0 ? 0 : 1;
 }
