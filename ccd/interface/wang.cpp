@@ -23,6 +23,7 @@ bool reports(const Query& query) {
 
 /// Whether the arguments are usable; wang takes no separation.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
+  const nearmiss::PlainArithmetic guard;  // a subnormal separation is not 0
   return to != nullptr && queries != nullptr && nearmiss::interface::asks_for_contact(*queries);
 }
 
