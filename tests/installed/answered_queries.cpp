@@ -69,7 +69,7 @@ int main(int count_of_arguments, char** arguments) {
   std::vector<Query> of_kind[2];
   std::size_t blocks = 0;
   const auto write_kind = [&](std::vector<Query>& queries) {
-    if (!queries.empty()) write_block(queries, blocks++ % 16 < 2);
+    if (!queries.empty()) write_block(queries, blocks++ % 128 < 2);
     queries.clear();
   };
   const auto& families = all_families();

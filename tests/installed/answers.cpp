@@ -7,6 +7,7 @@
 //     if timed: double lo[n], hi[n] of the earliest times; lo[n], hi[n] of the smallest distances
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -44,13 +45,13 @@ void compare(const char* what, const std::vector<T>& found, const std::vector<T>
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* const memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace {
 
@@ -76,7 +77,7 @@ void allocates_nothing() {
   constexpr std::size_t n = 10000;
   std::mt19937 random(1);
   std::vector<double> x(24 * n), h(n);
-  for (double& each : x) each = static_cast<double>(random()) / 4294967296.0;
+  for (double& each : x) each = std::ldexp(static_cast<double>(random()), -32);
   std::vector<std::int8_t> answers(n);
   std::vector<std::uint8_t> decided_by(n);
   for (const nearmiss::Kind kind : nearmiss::kinds) {
@@ -86,7 +87,8 @@ void allocates_nothing() {
     (void)nearmiss::collides(queries.with_separations(h), answers);
     (void)nearmiss::wang(queries, answers);
     expect(allocations == before, "memory is allocated");
-    expect(std::count(decided_by.begin(), decided_by.end(), NEARMISS_BY_EXACT) == 0, "exact arithmetic is needed");
+    expect(std::count(decided_by.begin(), decided_by.end(), NEARMISS_BY_EXACT) == 0,
+           "exact arithmetic is needed");
     expect(std::count(answers.begin(), answers.end(), NEARMISS_COLLISION) > 100, "there are few collisions");
   }
 }
