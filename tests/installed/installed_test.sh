@@ -63,6 +63,9 @@ declared=$(grep -ohE '\bnearmiss_[a-z_]+\(' "$folder"/prefix/include/nearmiss/{q
   grep -vE '^nearmiss_(packed|of_mesh)' )
 [[ $shown == "$declared" ]] || fail "exported: $shown; declared: $declared"
 
+# A project may have the source tree as a subdirectory.
+cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.." >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+
 # A plain build needs neither npm nor what the tools need.
 cmake -S "$here/../.." -B "$folder/plain" >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"

@@ -31,6 +31,8 @@ set(written ${PROJECT_BINARY_DIR}/install)
 
 # nearmiss_install_target(COMPONENT TARGET): nearmiss::COMPONENT for find_package.
 function(nearmiss_install_target component target)
+  add_library(nearmiss::${component} ALIAS ${target})  # for projects that have this one as a subdirectory
+  target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
   install(TARGETS ${target} EXPORT nearmiss-${component}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_COMPONENT ${component}-dev
