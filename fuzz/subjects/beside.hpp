@@ -1,4 +1,4 @@
-// Files that are built with this program.
+// Files that are built or installed with this program.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,16 @@
 
 namespace nearmiss {
 
-/// The path of a file or folder beside this program, or else `built`, the path where it was built.
-inline std::string path_beside(std::string_view name, std::string_view built) {
+/// The path of a file or folder of nearmiss. It is beside this program, or, seen from there, in the folder NEARMISS_INSTALLED or
+/// NEARMISS_BUILT (fuzz/CMakeLists.txt).
+inline std::string path_beside(std::string_view name) {
   std::error_code unknown;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const auto beside = self.parent_path() / name;
-  return std::filesystem::exists(beside, unknown) ? beside.string() : std::string(built);
+  const auto here = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+  for (const char* const folder : {"", NEARMISS_INSTALLED, NEARMISS_BUILT}) {
+    const auto path = (here / folder / name).lexically_normal();
+    if (std::filesystem::exists(path, unknown)) return path.string();
+  }
+  return (here / name).string();
 }
 
 }  // namespace nearmiss

@@ -33,7 +33,7 @@ constexpr std::array<Peer, 11> all{{
 std::span<const Peer> peers() { return all; }
 
 std::string path_of(const Peer& peer) {
-  return fmt::format("{}/{}.so", path_beside("peers", NEARMISS_PEERS), peer.object);
+  return fmt::format("{}/{}.so", path_beside("peers"), peer.object);
 }
 
 bool is_built(const Peer& peer) {

@@ -1,5 +1,5 @@
 # Installs the components that are built: ccd (headers and the CMake target nearmiss::ccd), oracle (the library, its headers, the
-# target nearmiss::oracle, and a file for pkg-config) and tools.
+# target nearmiss::oracle, and a file for pkg-config) and tools (tools/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -26,6 +26,7 @@ function(nearmiss_install_headers component)
   endforeach()
 endfunction()
 
+set(nearmiss_private ${CMAKE_INSTALL_LIBDIR}/nearmiss)  # for what users do not call themselves
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/nearmiss)
 set(written ${PROJECT_BINARY_DIR}/install)
 
@@ -37,7 +38,11 @@ function(nearmiss_install_target component target)
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_COMPONENT ${component}-dev
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT nearmiss-${component} NAMESPACE nearmiss:: DESTINATION ${config} COMPONENT ${component}-dev)
+  set(part ${component}-dev)
+  if(component STREQUAL tools)
+    set(part tools)  # The file needs the program.
+  endif()
+  install(EXPORT nearmiss-${component} NAMESPACE nearmiss:: DESTINATION ${config} COMPONENT ${part})
 endfunction()
 
 if("ccd" IN_LIST NEARMISS_COMPONENTS)
@@ -63,4 +68,5 @@ endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config})
 write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT oracle-dev)

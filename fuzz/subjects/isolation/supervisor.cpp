@@ -103,7 +103,7 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files) {
   spawn.pass(files.questions, questions_memory);
   spawn.pass(files.answers, answers_memory);
   status_ = std::move(status.ours);
-  const std::string program = path_beside("nearmiss-worker", NEARMISS_WORKER);
+  const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), "nearmiss-worker");
   worker_ = spawn.run(program, std::move(arguments));
   status.theirs.close();

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Checks that programs that were compiled with an earlier version of the major version keep working: the functions and types of the
+# library are those of oracle/interface/nearmiss.abi, and the constants those of constants.txt. More of them are allowed.
+# Usage: abi_test.sh [--write] LIBRARY, which has debug information
+#   --write  replaces both files. Only additions need that within a major version; anything else needs a new one.
+set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+write=false
+options 'write' "$@"
+((${#arguments[@]} == 1)) || refuse "expected LIBRARY"
+library=$(realpath "${arguments[0]}")
+cd "$(dirname "$0")/../../oracle/interface"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+describe() {
+  abidw --exported-interfaces-only --no-corpus-path --no-comp-dir-path --no-show-locs --no-elf-needed --no-architecture \
+    --no-write-default-sizes --type-id-style hash --out-file "$1" "$library"
+}
+constants() {
+  echo '#include "oracle/interface/nearmiss.h"' | gcc -dM -E -I../.. - | sed -nE 's/^#define (NEARMISS_\w+) (.+)/\1 \2/p' | sort
+}
+if $write; then
+  describe nearmiss.abi
+  constants >constants.txt
+  exit
+fi
+
+# is_kept REFERENCE: whether the library has all that is in the reference. abidiff's exit codes: 4 and 8 are changes.
+is_kept() {
+  local code=0
+  abidiff --exported-interfaces-only --no-architecture --no-corpus-path --no-added-syms "$1" "$library" >"$folder/changes" 2>&1 || code=$?
+  ((code == 0 || code == 4 || code == 8 || code == 12)) || fail "abidiff: exit code $code: $(cat "$folder/changes")"
+  ((code == 0))
+}
+is_kept nearmiss.abi || fail "$(cat "$folder/changes")"
+missing=$(comm -23 constants.txt <(constants))
+[[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
+
+# The comparison notices what it must. References that differ stand for libraries that do.
+# differs EDIT: a copy of the reference with another library's interface.
+differs() {
+  sed -E "$1" nearmiss.abi >"$folder/other.abi"
+  ! cmp -s nearmiss.abi "$folder/other.abi" || fail "$1 changes nothing"
+}
+for edit in "s/(layout-offset-in-bits=')576/\1640/; s/size-in-bits='640'/size-in-bits='704'/" "/var-decl name='type'/s/95e97e5e/b59d7dce/" \
+  "/<parameter type-id='7408d286' name='bounds'/d" "s/nearmiss_message/nearmiss_text/g" "s/NEARMISS_1/NEARMISS_0/" "s/libnearmiss.so.1/libnearmiss.so.0/"; do
+  differs "$edit"
+  ! is_kept "$folder/other.abi" || fail "unnoticed: $edit"
+done
+differs "/elf-symbol name='nearmiss_message'/d; /<function-decl name='nearmiss_message'/,/<\/function-decl>/d"
+is_kept "$folder/other.abi" || fail "a function cannot be added: $(cat "$folder/changes")"
+echo "the interface keeps $(grep -c '<function-decl' nearmiss.abi) functions, their types, and $(wc -l <constants.txt) constants"

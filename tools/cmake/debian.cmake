@@ -1,0 +1,58 @@
+# The Debian packages that CPack makes (tools/package): one for each group of components.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME nearmiss)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
+set(maintainer "nearmiss maintainers <maintainers@nearmiss.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL "")
+set(debian ${PROJECT_BINARY_DIR}/debian)
+
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # that of SOURCE_DATE_EPOCH, if it is set
+file(CONFIGURE OUTPUT ${debian}/changelog.Debian CONTENT "nearmiss (${version}) unstable; urgency=medium
+
+  * Release ${PROJECT_VERSION}.
+
+ -- ${maintainer}  ${date}
+" @ONLY)
+execute_process(COMMAND gzip -9nkf ${debian}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
+
+# nearmiss_package(NAME SECTION COMPONENT...): a package, described in tools/debian/NAME.txt.
+macro(nearmiss_package name section)
+  string(MAKE_C_IDENTIFIER ${name} group)
+  string(TOUPPER ${group} GROUP)
+  set(doc ${CMAKE_INSTALL_DATADIR}/doc/${name})
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/debian/copyright ${debian}/changelog.Debian.gz DESTINATION ${doc}
+    COMPONENT debian-${name} EXCLUDE_FROM_ALL)
+  foreach(component ${ARGN} debian-${name})
+    list(APPEND CPACK_COMPONENTS_ALL ${component})
+    string(TOUPPER ${component} COMPONENT)
+    set(CPACK_COMPONENT_${COMPONENT}_GROUP ${group})
+  endforeach()
+  set(CPACK_DEBIAN_${GROUP}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${GROUP}_PACKAGE_SECTION ${section})
+  file(READ ${PROJECT_SOURCE_DIR}/tools/debian/${name}.txt CPACK_DEBIAN_${GROUP}_DESCRIPTION)
+endmacro()
+
+# A package of another language needs a component that installs its files, and one more line here.
+nearmiss_package(libnearmiss1 libs oracle)
+nearmiss_package(libnearmiss-dev libdevel oracle-dev ccd-dev)
+nearmiss_package(nearmiss science tools)
+set(CPACK_DEBIAN_LIBNEARMISS1_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/tools/debian/symbols)
+set(CPACK_DEBIAN_LIBNEARMISS_DEV_PACKAGE_DEPENDS "libnearmiss1 (= ${version}), libeigen3-dev")
+set(CPACK_DEBIAN_NEARMISS_PACKAGE_SUGGESTS "libnearmiss-dev")
+include(CPack)
