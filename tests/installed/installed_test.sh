@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
 # Installs nearmiss into an empty prefix, moves it, and builds and runs other people's programs with it: C and C++, with g++ and
-# clang++, with flags that the headers' users may have. Usage: installed_test.sh BUILD
+# clang++, with flags that the headers' users may have. Then it runs the installed program.
+# Usage: installed_test.sh BUILD
 set -euo pipefail
-build=$(realpath "$1")
-here=$(dirname "$(realpath "$0")")
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 1)) || refuse "expected BUILD"
+build=$(realpath "${arguments[0]}")
+here=$(dirname "$script")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*" >&2; exit 1; }
@@ -69,3 +73,16 @@ cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.." >"$fo
 # A plain build needs neither npm nor what the tools need.
 cmake -S "$here/../.." -B "$folder/plain" >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
+
+# The program finds its own files in the prefix, also while the build folder has them. The worker is replaced by a script that notes
+# its call, and a published CCD by an empty file.
+"$here/tools_test.sh" "$folder/prefix"
+private=$folder/prefix/lib/nearmiss
+mv "$private/nearmiss-worker" "$private/worker"
+printf '#!/bin/sh\ntouch "%s/called"\nexec "%s/worker" "$@"\n' "$folder" "$private" >"$private/nearmiss-worker"
+chmod +x "$private/nearmiss-worker"
+"$folder/prefix/bin/nearmiss" fuzz --subject fcl --cases 10 >/dev/null || ((($? == 1)))
+[[ -e $folder/called ]] || fail "the program uses another worker"
+: >"$private/peers/fcl.so"
+! "$folder/prefix/bin/nearmiss" fuzz --subject fcl --cases 10 2>"$folder/log" || fail "the program uses another fcl.so"
+grep -q "$private/peers/fcl.so" "$folder/log" || fail "$(cat "$folder/log")"

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# In a fresh Debian 12: installs the packages, builds and runs other people's programs with them, puts CCDs on trial, and removes the
+# packages again, after which no file may be left. Then it builds and installs the library from its sources, where only what the
+# library needs is installed. Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
+# Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests (tools/setup)
+set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 2)) || refuse "expected PACKAGES BUILD"
+packages=$(realpath "${arguments[0]}") queries=${arguments[1]}/tests/answered_queries
+[[ -x $queries ]] || refuse "found no $queries (tools/setup builds it)"
+command -v mmdebstrap >/dev/null || refuse "found no mmdebstrap, expected Debian's package"
+((EUID == 0)) || refuse "needs root"
+queries=$(realpath "$queries")
+cd "$(dirname "$script")/../.."
+folder=$(mktemp -d)
+root=$folder/debian
+cleanup() {
+  ! mountpoint -q "$root/proc" || umount "$root/proc"
+  rm -rf --one-file-system "$folder"
+}
+trap cleanup EXIT
+trap 'exit 130' INT TERM HUP
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+mmdebstrap --quiet --variant=minbase bookworm "$root"
+mount -t proc proc "$root/proc"
+debian() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"; }
+get() { debian apt-get -qq "$@" >"$folder/log" 2>&1 || fail "apt-get $*: $(tail -20 "$folder/log")"; }
+install() { get install -y --no-install-recommends "$@"; }
+files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path './var/lib/*' -o -path './var/cache/*' -o -path './var/log/*' \) -prune -o -print | sort); }
+
+# The sources, as a user gets them, and queries with their answers.
+mkdir "$root/nearmiss"
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$root/nearmiss"
+"$queries" 30000 1 >"$root/queries"
+cp "$packages"/*.deb "$root/"
+
+# answers PREFIX: builds the project of tests/installed, and runs its programs.
+answers() {
+  debian cmake -S nearmiss/tests/installed -B "$1" -DCMAKE_BUILD_TYPE=Release >"$folder/log" 2>&1 &&
+    debian cmake --build "$1" -j "$(nproc)" >>"$folder/log" 2>&1 || fail "$(tail -20 "$folder/log")"
+  local program
+  for program in answers_c answers_cpp contact_cpp templates; do
+    debian "$1/$program" <"$root/queries" || fail "$program"
+  done
+}
+
+get update
+install g++ cmake make
+files >"$folder/before"
+install "$(cd "$root" && ls ./libnearmiss1_*.deb)"
+debian sh -c 'ldconfig -p | grep -q libnearmiss.so.1' || fail "the linker does not know the library"
+install "$(cd "$root" && ls ./libnearmiss-dev_*.deb)" pkg-config
+answers /tmp/packaged
+debian sh -c 'gcc -std=c99 nearmiss/tests/installed/answers.c $(pkg-config --cflags --libs nearmiss) -o /tmp/answers && /tmp/answers </queries'
+install "$(cd "$root" && ls ./nearmiss_*.deb)"
+debian /nearmiss/tests/installed/tools_test.sh /usr
+debian sh -c 'cd /tmp && nearmiss demo'
+get remove -y nearmiss
+answers /tmp/without_tools
+get purge -y nearmiss libnearmiss-dev libnearmiss1
+get autoremove -y --purge
+get purge -y pkg-config
+get autoremove -y --purge
+rm -rf "$root"/tmp/*
+files >"$folder/after"
+diff "$folder/before" "$folder/after" >&2 || fail "files are left, or lost"
+echo "the packages leave no file"
+
+# The library needs no more than this.
+install libeigen3-dev libcgal-dev libboost-dev libgmp-dev libmpfr-dev
+debian sh -c 'cd /nearmiss && cmake -B build && cmake --build build -j "$(nproc)" && cmake --install build && ldconfig' >"$folder/log" 2>&1 ||
+  fail "$(tail -20 "$folder/log")"
+answers /tmp/plain
+echo "the library is built and installed with g++ cmake make libeigen3-dev libcgal-dev libboost-dev libgmp-dev libmpfr-dev"

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Uses an installed nearmiss as a user does: puts a CCD on trial, looks up a man page, and completes a command line.
+# Usage: tools_test.sh PREFIX
+set -euo pipefail
+source "$(dirname "$0")/../../tools/options.sh"
+options '' "$@"
+((${#arguments[@]} == 1)) || refuse "expected PREFIX"
+prefix=$(realpath "${arguments[0]}")
+here=$(dirname "$script")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+gcc -shared -fPIC -I"$prefix/include/nearmiss" -o boxes.so "$here/../plugin/example.c"
+nearmiss=$prefix/bin/nearmiss
+code=0
+"$nearmiss" fuzz --subject wang,fcl,bullet,bullet-double,./boxes.so --cases 1000 --db a.db >said || code=$?
+((code == 1)) || fail "fuzz: exit code $code: $(cat said)"  # FCL and Bullet miss collisions
+for each in ' ok  wang: no miss' ' ok  boxes: no miss' 'FAIL fcl: MISSED' 'FAIL bullet: MISSED' 'FAIL bullet-double: MISSED'; do
+  grep -q "^$each" said || fail "expected '$each', found $(cat said)"
+done
+"$nearmiss" report a.db -o report >/dev/null || ((($? == 1)))
+[[ -s report/index.html ]] || fail "no report"
+"$nearmiss" demo >said
+grep -q '^wang, the failure-proof CCD, reports it' said || fail "the demo: $(cat said)"
+
+man=$prefix/share/man/man1/nearmiss-fuzz.1.gz
+[[ ! -e $man ]] || zgrep -q "Time limit per query" "$man" || fail "the man page"
+words() { bash -c 'source "$1"; COMP_WORDS=(nearmiss fu) COMP_CWORD=1; _nearmiss; echo "${COMPREPLY[*]}"' - "$1"; }
+found=$(words "$prefix/share/bash-completion/completions/nearmiss")
+[[ $found == fuzz ]] || fail "bash completes 'nearmiss fu' to '$found'"
+ls "$prefix"/share/zsh/*/_nearmiss >/dev/null
+
+# CMake finds the program.
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(user NONE)' 'find_package(nearmiss 1 REQUIRED COMPONENTS tools)' \
+  'add_custom_target(ask COMMAND nearmiss::nearmiss --version)' >CMakeLists.txt
+cmake -B build -DCMAKE_PREFIX_PATH="$prefix" >said || fail "$(cat said)"
+cmake --build build --target ask >said
+grep -q '^1\.' said || fail "CMake does not find the program: $(cat said)"
+echo "the installed program puts 5 CCDs on trial"
