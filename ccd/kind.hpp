@@ -13,6 +13,7 @@ enum class Kind : std::uint8_t {
   edge_edge,        ///< x0x1 and x2x3 are the edges
 };
 
+/// Both kinds.
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge};
 
 /// "vt" or "ee": the name on the command line, in files and in reports.

@@ -17,6 +17,7 @@ double pair_bound(const Query& query) {
   const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
   return std::ldexp(pair.B, -pair.frame.total());
 }
+/// The same for the kind of the query.
 inline double pair_bound(const Query& query) {
   return query.kind == Kind::vertex_triangle ? pair_bound<Kind::vertex_triangle>(query)
                                              : pair_bound<Kind::edge_edge>(query);

@@ -16,6 +16,7 @@
 
 namespace nearmiss {
 
+/// Three coordinates.
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
@@ -24,17 +25,22 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 /// The question is whether the distance of the two closed primitives is at most h, the separation, at some t in [0, 1].
 /// Their distance is 0 where they touch, so h = 0 asks for contact.
 struct Query {
-  Kind kind{};
+  Kind kind{};  ///< which primitives they are
   /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
   std::array<double, 24> x{};
   /// The separation h, finite and not negative, in the unit of the coordinates.
   double separation = 0;
 
+  /// A vertex at t = 0.
   [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
+  /// A vertex at t = 1.
   [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
+  /// Moves a vertex at t = 0.
   void set_start(int vertex, const Vector3<double>& p) { set(vertex, p); }
+  /// Moves a vertex at t = 1.
   void set_end(int vertex, const Vector3<double>& p) { set(4 + vertex, p); }
 
+  /// Whether kind, coordinates and separation are equal.
   bool operator==(const Query&) const = default;
 
  private:

@@ -21,8 +21,8 @@ namespace nearmiss {
 
 /// The culling that a variant of the algorithm uses.
 struct WangOptions {
-  bool plane_culling = true;
-  VeCulling ve_culling = VeCulling::per_root;
+  bool plane_culling = true;                   ///< by moving planes across axes and diagonals
+  VeCulling ve_culling = VeCulling::per_root;  ///< before the vertex-edge tests
 };
 
 namespace detail {

@@ -1,4 +1,5 @@
-/* Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
+/** \file
+ * Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
  *
  * A query is four vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, or the edges x0x1 and
  * x2x3. All coordinates have one unit, which is arbitrary; times are fractions of the step. The question is whether the distance
@@ -14,44 +15,45 @@ extern "C" {
 #endif
 
 /* Kinds of queries, as in nearmiss_subject.h. */
-#define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */
-#define NEARMISS_EDGE_EDGE 2       /* edges x0x1 and x2x3 */
+#define NEARMISS_VERTEX_TRIANGLE 1 /**< vertex x0, triangle x1 x2 x3 */
+#define NEARMISS_EDGE_EDGE 2       /**< edges x0x1 and x2x3 */
 
-/* Types of coordinates. A float is the double of the same value. */
-#define NEARMISS_DOUBLE 0
-#define NEARMISS_FLOAT 1
+/* Types of coordinates. */
+#define NEARMISS_DOUBLE 0 /**< 64 bits */
+#define NEARMISS_FLOAT 1  /**< 32 bits, each of which is the double of the same value */
 
 /* Answers. */
-#define NEARMISS_NO_COLLISION 0
-#define NEARMISS_COLLISION 1
-#define NEARMISS_NO_ANSWER \
-  (-1) /* a coordinate or the separation is not finite, or the separation is negative */
+#define NEARMISS_NO_COLLISION 0 /**< the distance is always above the separation */
+#define NEARMISS_COLLISION 1    /**< the distance is at most the separation at some time */
+#define NEARMISS_NO_ANSWER (-1) /**< a number is not finite, or the separation is negative */
 
 /* What a function returns. */
-#define NEARMISS_OK 0
-#define NEARMISS_NOT_FINITE 1    /* all queries are answered, some of them by NEARMISS_NO_ANSWER, or by NaN */
-#define NEARMISS_BAD_ARGUMENT 2  /* nothing is answered: a null pointer, or an unknown kind or type */
-#define NEARMISS_OUT_OF_MEMORY 3 /* some queries are not answered */
+#define NEARMISS_OK 0         /**< all queries are answered */
+#define NEARMISS_NOT_FINITE 1 /**< all queries are answered, some of them by NEARMISS_NO_ANSWER, or by NaN */
+#define NEARMISS_BAD_ARGUMENT 2  /**< nothing is answered: a null pointer, or an unknown kind or type */
+#define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
-/* Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at
+/** Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at
  *
  *     start + v * vertex_stride + k * coordinate_stride     at t = 0, and likewise from `end` at t = 1,
  *
  * where v is vertices[4 * q + i], or i if `vertices` is null and then q * query_stride is added. Strides are in bytes, and may be 0
  * or negative. Addresses must be aligned for the type. nearmiss_packed() and nearmiss_of_mesh() fill in the usual cases. */
 typedef struct {
-  int kind; /* NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE */
-  int type; /* NEARMISS_DOUBLE or NEARMISS_FLOAT */
-  size_t count;
-  const void *start, *end;
-  ptrdiff_t query_stride, vertex_stride, coordinate_stride;
-  const int32_t* vertices;  /* numbers of vertices, four for each query; or null */
-  const double* separation; /* h of the first query; null is 0 for all */
-  ptrdiff_t
-      separation_stride; /* from the h of a query to that of the next, in bytes; 0 if all have the same */
+  int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE */
+  int type;                    /**< NEARMISS_DOUBLE or NEARMISS_FLOAT */
+  size_t count;                /**< number of queries */
+  const void* start;           /**< coordinates at t = 0 */
+  const void* end;             /**< coordinates at t = 1 */
+  ptrdiff_t query_stride;      /**< from a query to the next, in bytes */
+  ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
+  ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
+  const int32_t* vertices;     /**< numbers of vertices, four for each query; or null */
+  const double* separation;    /**< h of the first query; null is 0 for all */
+  ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all have one */
 } nearmiss_queries;
 
-/* Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
+/** Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
 static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const double* x) {
   const ptrdiff_t size = sizeof(double);
   const nearmiss_queries queries = {
@@ -59,7 +61,7 @@ static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const dou
   return queries;
 }
 
-/* The same in float. */
+/** nearmiss_packed() in float. */
 static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, const float* x) {
   const ptrdiff_t size = sizeof(float);
   const nearmiss_queries queries = {kind, NEARMISS_FLOAT, count, x, x ? x + 12 : x, 24 * size, 3 * size,
@@ -67,7 +69,7 @@ static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, con
   return queries;
 }
 
-/* Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have three coordinates for
+/** Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have three coordinates for
  * each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three numbers, change vertex_stride. */
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
@@ -77,7 +79,7 @@ static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const in
   return queries;
 }
 
-/* The same in float. */
+/** nearmiss_of_mesh() in float. */
 static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, const int32_t* vertices,
                                                       const float* start, const float* end) {
   const ptrdiff_t size = sizeof(float);
@@ -86,11 +88,11 @@ static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, co
   return queries;
 }
 
-/* The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep working without being
+/** The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep working without being
  * compiled again. */
 const char* nearmiss_version(void);
 
-/* A sentence about a value that a function returned. */
+/** A sentence about a value that a function returned. */
 const char* nearmiss_message(int status);
 
 #ifdef __cplusplus

@@ -32,9 +32,7 @@ constexpr std::array<Peer, 11> all{{
 
 std::span<const Peer> peers() { return all; }
 
-std::string path_of(const Peer& peer) {
-  return fmt::format("{}/{}.so", path_beside("peers"), peer.object);
-}
+std::string path_of(const Peer& peer) { return fmt::format("{}/{}.so", path_beside("peers"), peer.object); }
 
 bool is_built(const Peer& peer) {
   std::error_code unknown;

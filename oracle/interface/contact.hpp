@@ -20,6 +20,7 @@ namespace nearmiss {
 /// size() of 2.
 class ExactCCD {
  public:
+  /// A point and a triangle.
   bool point_triangle_ccd(const auto& p_t0, const auto& t0_t0, const auto& t1_t0, const auto& t2_t0,
                           const auto& p_t1, const auto& t0_t1, const auto& t1_t1, const auto& t2_t1,
                           double& toi, double min_distance = 0, double tmax = 1) const noexcept {
@@ -27,6 +28,7 @@ class ExactCCD {
                          t0_t1, t1_t1, t2_t1);
   }
 
+  /// Two edges.
   bool edge_edge_ccd(const auto& ea0_t0, const auto& ea1_t0, const auto& eb0_t0, const auto& eb1_t0,
                      const auto& ea0_t1, const auto& ea1_t1, const auto& eb0_t1, const auto& eb1_t1,
                      double& toi, double min_distance = 0, double tmax = 1) const noexcept {
@@ -41,6 +43,7 @@ class ExactCCD {
     return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, toi, min_distance, tmax);
   }
 
+  /// Two points, one of which is a degenerate triangle.
   bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1,
                        double& toi, double min_distance = 0, double tmax = 1) const noexcept {
     return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, toi, min_distance, tmax);

@@ -1,9 +1,10 @@
-// The C++ interface of nearmiss: exact answers and the failure-proof CCD for queries in the caller's memory. It is a thin layer over
-// the C functions of nearmiss.h, whose comments say what the answers mean. C++20. Link with nearmiss::oracle, or -lnearmiss.
-//
-//     const auto pairs = nearmiss::Queries::of_mesh(nearmiss::Kind::edge_edge, indices, start, end);
-//     std::vector<std::int8_t> answers(pairs.size());
-//     if (nearmiss::collides(pairs, answers) != nearmiss::Status::ok) ...
+/// \file
+/// The C++ interface of nearmiss: exact answers and the failure-proof CCD for queries in the caller's memory. It is a thin layer over
+/// the C functions of nearmiss.h, whose comments say what the answers mean. C++20. Link with nearmiss::oracle, or -lnearmiss.
+///
+///     const auto pairs = nearmiss::Queries::of_mesh(nearmiss::Kind::edge_edge, indices, start, end);
+///     std::vector<std::int8_t> answers(pairs.size());
+///     if (nearmiss::collides(pairs, answers) != nearmiss::Status::ok) ...
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 #include "ccd/kind.hpp"
 #include "oracle/interface/nearmiss.h"
 
+/// The C++ interface, and the header-only CCD.
 namespace nearmiss {
 
 /// What a function returns.
@@ -41,8 +43,8 @@ enum class DecidedBy : std::uint8_t {
 
 /// Two numbers that enclose a time or a distance. Both are infinite for the time of no collision, and NaN if there is no answer.
 struct Interval {
-  double lo = std::numeric_limits<double>::quiet_NaN();
-  double hi = std::numeric_limits<double>::quiet_NaN();
+  double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower one
+  double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper one
 };
 
 /// A sentence about a status.
@@ -55,6 +57,7 @@ class Queries {
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), x.size() / 24, x.data()));
   }
+  /// The same in float.
   static Queries packed(Kind kind, std::span<const float> x) noexcept {
     return Queries(nearmiss_packed_float(to_c(kind), x.size() / 24, x.data()));
   }
@@ -64,6 +67,7 @@ class Queries {
                          const double* end) noexcept {
     return Queries(nearmiss_of_mesh(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
   }
+  /// The same in float.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const float* start,
                          const float* end) noexcept {
     return Queries(nearmiss_of_mesh_float(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
@@ -72,15 +76,19 @@ class Queries {
   /// Any other layout, as nearmiss_queries describes it.
   explicit Queries(const nearmiss_queries& layout) noexcept : layout_(layout) {}
 
-  /// The same queries with one separation h for all, which must outlive them, or with one for each.
+  /// The same queries with one separation h for all, which must outlive them.
   [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
   Queries with_separation(double&&) const = delete;
+  /// The same queries with one separation for each.
   [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
     return with_separations(h.data(), sizeof(double));
   }
 
+  /// Number of queries.
   [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
+  /// Where the queries are, as the C functions take it.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
+  /// The same, to be changed.
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:
@@ -155,33 +163,38 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   return static_cast<Status>(nearmiss_wang_bound(&queries.layout(), bounds.data()));
 }
 
-/// One query: x0 x1 x2 x3 at t = 0, then at t = 1. The functions below answer it as those above do.
+/// One query: x0 x1 x2 x3 at t = 0, then at t = 1.
 using Coordinates = std::span<const double, 24>;
 
+/// nearmiss_collides() for one query.
 inline Answer collides(Kind kind, Coordinates x, double h = 0) noexcept {
   std::int8_t answer = NEARMISS_NO_ANSWER;
   (void)collides(Queries::packed(kind, x).with_separation(h), {&answer, 1});
   return Answer{answer};
 }
 
+/// nearmiss_earliest_time() for one query.
 inline Interval earliest_time(Kind kind, Coordinates x, double h = 0, double width = 0) noexcept {
   Interval time;
   (void)earliest_times(Queries::packed(kind, x).with_separation(h), {&time.lo, 1}, {&time.hi, 1}, width);
   return time;
 }
 
+/// nearmiss_smallest_distance() for one query.
 inline Interval smallest_distance(Kind kind, Coordinates x, double relative_width = 1e-3) noexcept {
   Interval distance;
   (void)smallest_distances(Queries::packed(kind, x), {&distance.lo, 1}, {&distance.hi, 1}, relative_width);
   return distance;
 }
 
+/// nearmiss_wang() for one query.
 inline Answer wang(Kind kind, Coordinates x) noexcept {
   std::int8_t answer = NEARMISS_NO_ANSWER;
   (void)wang(Queries::packed(kind, x), {&answer, 1});
   return Answer{answer};
 }
 
+/// nearmiss_wang_bound() for one query.
 inline double wang_bound(Kind kind, Coordinates x) noexcept {
   double bound = std::numeric_limits<double>::quiet_NaN();
   (void)wang_bounds(Queries::packed(kind, x), {&bound, 1});

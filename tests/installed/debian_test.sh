@@ -57,11 +57,9 @@ debian sh -c 'gcc -std=c99 nearmiss/tests/installed/answers.c $(pkg-config --cfl
 install "$(cd "$root" && ls ./nearmiss_*.deb)"
 debian /nearmiss/tests/installed/tools_test.sh /usr
 debian sh -c 'cd /tmp && nearmiss demo'
-get remove -y nearmiss
+get purge -y nearmiss
 answers /tmp/without_tools
-get purge -y nearmiss libnearmiss-dev libnearmiss1
-get autoremove -y --purge
-get purge -y pkg-config
+get remove -y libnearmiss-dev libnearmiss1 pkg-config
 get autoremove -y --purge
 rm -rf "$root"/tmp/*
 files >"$folder/after"

@@ -81,7 +81,7 @@ private=$folder/prefix/lib/nearmiss
 mv "$private/nearmiss-worker" "$private/worker"
 printf '#!/bin/sh\ntouch "%s/called"\nexec "%s/worker" "$@"\n' "$folder" "$private" >"$private/nearmiss-worker"
 chmod +x "$private/nearmiss-worker"
-"$folder/prefix/bin/nearmiss" fuzz --subject fcl --cases 10 >/dev/null || ((($? == 1)))
+"$folder/prefix/bin/nearmiss" fuzz --subject fcl --cases 10 >/dev/null || (($? == 1))
 [[ -e $folder/called ]] || fail "the program uses another worker"
 : >"$private/peers/fcl.so"
 ! "$folder/prefix/bin/nearmiss" fuzz --subject fcl --cases 10 2>"$folder/log" || fail "the program uses another fcl.so"

@@ -20,7 +20,7 @@ code=0
 for each in ' ok  wang: no miss' ' ok  boxes: no miss' 'FAIL fcl: MISSED' 'FAIL bullet: MISSED' 'FAIL bullet-double: MISSED'; do
   grep -q "^$each" said || fail "expected '$each', found $(cat said)"
 done
-"$nearmiss" report a.db -o report >/dev/null || ((($? == 1)))
+"$nearmiss" report a.db -o report >/dev/null || (($? == 1))
 [[ -s report/index.html ]] || fail "no report"
 "$nearmiss" demo >said
 grep -q '^wang, the failure-proof CCD, reports it' said || fail "the demo: $(cat said)"
@@ -33,7 +33,7 @@ found=$(words "$prefix/share/bash-completion/completions/nearmiss")
 ls "$prefix"/share/zsh/*/_nearmiss >/dev/null
 
 # CMake finds the program.
-printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(user NONE)' 'find_package(nearmiss 1 REQUIRED COMPONENTS tools)' \
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(user LANGUAGES C)' 'find_package(nearmiss 1 REQUIRED COMPONENTS tools)' \
   'add_custom_target(ask COMMAND nearmiss::nearmiss --version)' >CMakeLists.txt
 cmake -B build -DCMAKE_PREFIX_PATH="$prefix" >said || fail "$(cat said)"
 cmake --build build --target ask >said

@@ -1,0 +1,26 @@
+# The documentation of the interface: target `documentation`, in documentation/html/index.html of the build folder. It is made of the
+# installed headers and of the pages beside them. Every warning is an error.
+find_package(Doxygen QUIET)
+if(NOT DOXYGEN_FOUND)
+  return()
+endif()
+set(DOXYGEN_PROJECT_NAME nearmiss)
+set(DOXYGEN_PROJECT_BRIEF "exact and failure-proof continuous collision detection")
+set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/documentation)
+set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_BINARY_DIR}/include)
+set(DOXYGEN_STRIP_FROM_INC_PATH ${PROJECT_BINARY_DIR}/include)
+set(DOXYGEN_USE_MDFILE_AS_MAINPAGE ${PROJECT_SOURCE_DIR}/oracle/interface/README.md)
+set(DOXYGEN_EXCLUDE_SYMBOLS nearmiss::detail)
+set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+set(DOXYGEN_EXTRACT_STATIC YES)  # the inline functions of the C interface
+set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+set(DOXYGEN_QUIET YES)
+set(DOXYGEN_GENERATE_LATEX NO)
+set(DOXYGEN_HAVE_DOT NO)
+set(DOXYGEN_VERBATIM_HEADERS NO)
+set(DOXYGEN_SORT_MEMBER_DOCS NO)
+set(documented queries.h wang.h oracle.h nearmiss.h nearmiss.hpp contact.hpp ccd/kind.hpp ccd/query.hpp ccd/wang.hpp
+  ccd/wang_time.hpp ccd/pair_bound.hpp)
+list(TRANSFORM documented PREPEND ${PROJECT_BINARY_DIR}/include/nearmiss/)
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/oracle/interface/*.md)
+doxygen_add_docs(documentation ${documented} ${pages})
