@@ -97,6 +97,11 @@ void run(const CLI::App& app, std::string_view shell) {
   else if (shell != "bash")
     throw Error(fmt::format("SHELL: found '{}', expected bash or zsh", shell));
   fmt::print("{}", bash_script(app));
+  // A script that is installed is read at the first completion, which is then still to be done.
+  if (shell == "zsh")
+    fmt::print(
+        "[[ ${{zsh_eval_context[-1]}} != loadautofunc ]] || _bash_complete -o bashdefault -o default -F "
+        "_nearmiss\n");
 }
 
 }  // namespace

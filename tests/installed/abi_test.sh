@@ -38,6 +38,11 @@ is_kept nearmiss.abi || fail "$(cat "$folder/changes")"
 missing=$(comm -23 constants.txt <(constants))
 [[ ! $missing ]] || fail "constants that are lost or have another value: $missing"
 
+# Debian's packages know since which version each function exists.
+known=$(sed -nE 's/^ (nearmiss_\w+)@NEARMISS_1 .*/\1/p' ../../tools/debian/symbols | sort)
+exported=$(nm -D --defined-only "$library" | sed -nE 's/.* T (\w+)@@NEARMISS_1$/\1/p' | sort)
+[[ $known == "$exported" ]] || fail "tools/debian/symbols has: $known; the library: $exported"
+
 # The comparison notices what it must. References that differ stand for libraries that do.
 # differs EDIT: a copy of the reference with another library's interface.
 differs() {
