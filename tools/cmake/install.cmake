@@ -35,14 +35,9 @@ function(nearmiss_install_target component target)
   add_library(nearmiss::${component} ALIAS ${target})  # for projects that have this one as a subdirectory
   target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
   install(TARGETS ${target} EXPORT nearmiss-${component}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_COMPONENT ${component}-dev
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  set(part ${component}-dev)
-  if(component STREQUAL tools)
-    set(part tools)  # The file needs the program.
-  endif()
-  install(EXPORT nearmiss-${component} NAMESPACE nearmiss:: DESTINATION ${config} COMPONENT ${part})
+  install(EXPORT nearmiss-${component} NAMESPACE nearmiss:: DESTINATION ${config} COMPONENT ${component}-dev)
 endfunction()
 
 if("ccd" IN_LIST NEARMISS_COMPONENTS)
