@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/subject.hpp"
-#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/subjects/built_in.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/interface/nearmiss.hpp"
 #include "tests/benchmarks/measured.hpp"
@@ -57,7 +56,7 @@ void measure_all(Kind kind, std::size_t count) {
   count = input->queries.size();
   const std::string of(short_name(kind));
   for (const std::string name : {"exact-decision", "wang"}) {
-    const Subject* const subject = make_subject(name).release();
+    const Subject* const subject = make_built_in(name).release();
     measure(of + "/" + name + "/harness", count, [=] { subject->decide(input->queries, input->verdicts); });
     const auto through = [&](const std::string& interface, const Queries& queries) {
       const bool is_exact = name == "exact-decision";

@@ -37,7 +37,7 @@ class Exact final : public ipc::NarrowPhaseCCD {
 }  // namespace
 
 int main() {
-  const Exact exact;
+  const Exact exact{};
   const ipc::NarrowPhaseCCD& ccd = exact;
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), above(0.25, 0.25, 1), below(0.25, 0.25, -1);
   Eigen::MatrixXd rows(2, 3);

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "ccd/interface/queries.h"
-#include "ccd/subject.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/subjects/built_in.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 
@@ -30,8 +29,8 @@ void write_each(std::span<const Query> queries, const Of& of) {
 }
 
 void write_block(std::span<const Query> queries, bool is_timed) {
-  static const auto exact = make_subject("exact-decision");
-  static const auto wang = make_subject("wang");
+  static const auto exact = make_built_in("exact-decision");
+  static const auto wang = make_built_in("wang");
   write(std::vector<std::int32_t>{
       queries[0].kind == Kind::edge_edge ? NEARMISS_EDGE_EDGE : NEARMISS_VERTEX_TRIANGLE,
       static_cast<std::int32_t>(queries.size()), is_timed ? 1 : 0});
