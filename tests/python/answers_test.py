@@ -73,7 +73,9 @@ class Answers(unittest.TestCase):
                     same(nearmiss.collides(block.kind, x, block.separation), block.collides)
                     same(nearmiss.wang(block.kind, x), block.wang)
             every_third = block.separation.repeat(3)[::3]
-            same(nearmiss.collides(nearmiss.Kind(block.kind), block.x, every_third), block.collides)
+            same(
+                nearmiss.collides(nearmiss.Kind(block.kind), block.x, every_third), block.collides
+            )
 
     def test_about_floats_are_those_about_the_same_doubles(self):
         for block in BLOCKS[:4]:
@@ -104,10 +106,14 @@ class Answers(unittest.TestCase):
             ):
                 same(nearmiss.collides(block.kind, mesh, block.separation), block.collides)
                 same(nearmiss.wang(block.kind, mesh), block.wang)
-        start, end = start.astype(np.float32), end
+
+    def test_about_a_mesh_of_different_types_are_those_about_doubles(self):
+        start = np.random.default_rng(1).integers(0, 9, (300, 3))
+        end = np.random.default_rng(2).random((300, 3), np.float32)
+        pairs = np.arange(300)[::-1].reshape(-1, 4)
         mixed = nearmiss.MeshPairs(pairs, start, end)
-        double = nearmiss.MeshPairs(pairs, start.astype(float), end)
-        same(nearmiss.wang(block.kind, mixed), nearmiss.wang(block.kind, double))
+        doubles = nearmiss.MeshPairs(pairs, start.astype(float), end.astype(float))
+        same(nearmiss.wang_bound('ee', mixed), nearmiss.wang_bound('ee', doubles))
 
     def test_of_no_queries_are_none(self):
         for x in (np.empty((0, 2, 4, 3)), np.empty((0, 8, 3), np.float32)):
@@ -134,7 +140,9 @@ class Options(unittest.TestCase):
         same(hits, block.collides)
         a, b = (
             block.x[:, :, part]
-            for part in ((slice(1), slice(1, 4)) if block.kind == 'vt' else (slice(2), slice(2, 4)))
+            for part in (
+                (slice(1), slice(1, 4)) if block.kind == 'vt' else (slice(2), slice(2, 4))
+            )
         )
         apart = (a.max((1, 2)) < b.min((1, 2))) | (b.max((1, 2)) < a.min((1, 2)))
         same(decided_by == nearmiss.DecidedBy.BOXES, apart.any(1))

@@ -1,7 +1,9 @@
 """What the Python package refuses, what it says about it, and what else runs during a call."""
 
 import signal
+import sys
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -111,53 +113,46 @@ class Refusals(unittest.TestCase):
         self.expect(ValueError, wanted, nearmiss.smallest_distance, 'vt', X, relative_width=1e-10)
 
 
-def queries_that_take_long(kind='vt'):
-    """Queries that take 10 seconds together: one, many times."""
-    vertices = np.random.default_rng(1).random((2, 4, 3))
-    return np.broadcast_to(vertices, (10**7, 2, 4, 3))
+def many_queries():
+    """One query ten million times, without its memory."""
+    return np.broadcast_to(X[0], (10**7, 2, 4, 3))
 
 
 class DuringACall(unittest.TestCase):
     def test_other_threads_run(self):
-        count = 0
-        stop = threading.Event()
+        """Another thread counts. Python never takes its lock away from a thread here, so the other one counts during a call only if
+        the call releases the lock."""
+        count, calls = 0, 0
+        is_over = threading.Event()
 
-        def ask():
-            try:
-                while not stop.is_set():
-                    nearmiss.collides('vt', queries_that_take_long())
-            finally:
-                stop.set()
-
-        thread = threading.Thread(target=ask)
-        counts = []
-        original = nearmiss._interface.collides
-
-        def observed(queries):
-            # Between these lines, this thread runs no Python code. Another one only can while the lock is released.
-            before = count
-            answers = original(queries)
-            counts.append(count - before)
-            stop.set()
-            return answers
-
-        nearmiss._interface.collides = observed
-        try:
-            thread.start()
-            while not stop.is_set():
+        def count_up():
+            nonlocal count
+            while not is_over.is_set():
                 count += 1
-            thread.join()
-        finally:
-            nearmiss._interface.collides = original
-        self.assertGreater(counts[0], 1000)
+                time.sleep(0)  # releases the lock
 
-    def test_a_signal_interrupts_it(self):
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(1000)
+        thread = threading.Thread(target=count_up)
+        thread.start()
+        queries = nearmiss._queries.Asked('vt', many_queries()).queries
+        counted = 0
+        while counted == 0 and calls < 100:
+            before = count
+            nearmiss._interface.collides(queries)
+            counted = count - before
+            calls += 1
+        is_over.set()
+        thread.join()
+        self.assertGreater(counted, 0)
+
+    def test_a_signal_ends_it(self):
+        main = threading.main_thread().ident
         thread = threading.Thread(target=lambda: signal.pthread_kill(main, signal.SIGINT))
-        main = threading.get_ident()
         with self.assertRaises(KeyboardInterrupt):
             thread.start()
             while True:
-                nearmiss.smallest_distance('vt', queries_that_take_long())
+                nearmiss.smallest_distance('vt', many_queries())
 
 
 if __name__ == '__main__':

@@ -29,7 +29,7 @@ def answered_queries(program, count, seed):
         nonlocal at
         array = np.frombuffer(data, dtype, int(np.prod(shape)), at)
         at += array.nbytes
-        return array.reshape(shape)
+        return array.reshape(shape).copy()  # aligned
 
     blocks = []
     while at < len(data):

@@ -15,7 +15,7 @@
 namespace nearmiss::python {
 
 /// Calls function(kind, x, separation) for queries of one kind, with x (n, 2, 4, 3) and separation (n,). It returns bools (n,), and
-/// times (n,) with them if it has a sort of time (nearmiss/_trials.py checks the answers). Its exceptions are passed on. The caller must
+/// times (n,) with them if it has a sort of time (src/nearmiss/_trials.py checks the answers). Its exceptions are passed on. The caller must
 /// not hold the lock that Python code needs.
 class FunctionSubject final : public BatchSubject {
  public:

@@ -1,5 +1,5 @@
 // nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the package's Python code has checked
-// (nearmiss/_queries.py).
+// (src/nearmiss/_queries.py).
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -1,4 +1,4 @@
-// nearmiss._trial: trials of Python functions. nearmiss/_trials.py gives the results their form.
+// nearmiss._trial: trials of Python functions. src/nearmiss/_trials.py gives the results their form.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -81,9 +81,9 @@ class Counts:
     farthest: float = 0.0  # of the false positives: distance divided by the bound of the subject, or of wang if it has none
 
     def __add__(self, other: 'Counts') -> 'Counts':
-        *own, farthest = dataclasses.astuple(self)
-        *others, other_farthest = dataclasses.astuple(other)
-        return Counts(*map(sum, zip(own, others)), max(farthest, other_farthest))
+        sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
+        sums['farthest'] = max(self.farthest, other.farthest)
+        return Counts(**sums)
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ def trial(
         raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
     rows, columns = extension.hold(chosen, list(families), cases, seed, shrunk)
     return TrialResult(
-        [(*row[:3], Counts(*row[3:])) for row in rows],
+        [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
         Findings(**{name: _column(values) for name, values in columns.items()}),
     )
 
