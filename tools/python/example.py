@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
 """Puts a naive CCD on trial, and draws what it misses and how near its queries are.
 
-Usage: PYTHONPATH=build/release/python tools/python/example.py PICTURE.png
+Usage: PYTHONPATH=build/release/python python3 tools/python/example.py PICTURE.png
 """
 
 import sys

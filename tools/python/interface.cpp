@@ -26,7 +26,10 @@ namespace py = pybind11;
 class Queries {
  public:
   Queries(int kind, py::array start, py::array end, std::optional<py::array> pairs, py::array separation)
-      : start_(std::move(start)), end_(std::move(end)), pairs_(std::move(pairs)), separation_(std::move(separation)) {
+      : start_(std::move(start)),
+        end_(std::move(end)),
+        pairs_(std::move(pairs)),
+        separation_(std::move(separation)) {
     const py::ssize_t vertex_axis = pairs_ ? 0 : 1;
     layout_ = {.kind = kind,
                .type = start_.itemsize() == sizeof(float) ? NEARMISS_FLOAT : NEARMISS_DOUBLE,
@@ -135,8 +138,8 @@ py::tuple collides(const Queries& queries) {
 py::array wang(const Queries& queries) {
   auto answers = one_for_each<std::int8_t>(queries);
   auto* const to = answers.mutable_data();
-  check(ask_in_parts(
-            queries, [=](const nearmiss_queries& part, std::size_t first) { return nearmiss_wang(&part, to + first); }),
+  check(ask_in_parts(queries, [=](const nearmiss_queries& part,
+                                  std::size_t first) { return nearmiss_wang(&part, to + first); }),
         queries, has_answer(to));
   return answers;
 }
@@ -170,9 +173,10 @@ py::tuple enclosures(const Queries& queries, double width) {
   auto upper = one_for_each<double>(queries);
   auto* const lo = lower.mutable_data();
   auto* const hi = upper.mutable_data();
-  check(ask_in_parts(queries, [=](const nearmiss_queries& part,
-                                  std::size_t first) { return enclose(&part, width, lo + first, hi + first); }),
-        queries, has_number(lo));
+  check(
+      ask_in_parts(queries, [=](const nearmiss_queries& part,
+                                std::size_t first) { return enclose(&part, width, lo + first, hi + first); }),
+      queries, has_number(lo));
   return py::make_tuple(lower, upper);
 }
 

@@ -90,8 +90,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
     if (++seen[signature_of(finding)] > of_each_signature) continue;
     const auto subject = std::find_if(subjects.begin(), subjects.end(),
                                       [&](const auto& each) { return each->name() == finding.subject; });
-    finding.shrunk = shrunk_query(finding, subject == subjects.end() ? nullptr : subject->get(), Stop::never(),
-                                  limits_in_campaign);
+    finding.shrunk = shrunk_query(finding, subject == subjects.end() ? nullptr : subject->get(),
+                                  Stop::never(), limits_in_campaign);
     finding.is_shrunk = true;
     let_python_handle_signals();
   }
@@ -101,9 +101,9 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
 py::list counts_of(const Statistics& statistics) {
   py::list rows;
   for (const auto& [key, counts] : statistics.counts)
-    rows.append(py::make_tuple(key.subject, short_name(key.kind), key.family, counts.queries, counts.collisions,
-                               counts.false_negatives, counts.false_positives, counts.late, counts.faults_total(),
-                               counts.max_ratio()));
+    rows.append(py::make_tuple(key.subject, short_name(key.kind), key.family, counts.queries,
+                               counts.collisions, counts.false_negatives, counts.false_positives, counts.late,
+                               counts.faults_total(), counts.max_ratio()));
   return rows;
 }
 
@@ -159,7 +159,8 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
 /// The name, the description and whether queries have a separation, of each family.
 std::vector<std::tuple<std::string, std::string, bool>> known_families() {
   std::vector<std::tuple<std::string, std::string, bool>> known;
-  for (const Family& family : all_families()) known.emplace_back(family.name, family.about, family.has_separation);
+  for (const Family& family : all_families())
+    known.emplace_back(family.name, family.about, family.has_separation);
   return known;
 }
 
