@@ -194,6 +194,8 @@ class Trial(unittest.TestCase):
             ('expected different ones', [[never, never]]),
             ('expected at least one', [never, 0]),
             ('expected at least one', [never, 10, []]),
+            ('seed is -1, expected', [never, 10, ['uniform'], -1]),
+            ("found the name 'a:b'", [nearmiss.Subject(never, 'a:b')]),
         ):
             with self.assertRaisesRegex(ValueError, message):
                 nearmiss.trial(*arguments)

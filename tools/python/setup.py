@@ -41,8 +41,7 @@ def version():
 
 setup(
     version=version(),
-    ext_modules=[
-        Extension('nearmiss._interface', sources=[])
-    ],  # so that the wheel is of this platform
+    # An extension without sources, so that the wheel is one of this platform.
+    ext_modules=[Extension('nearmiss._interface', [])],
     cmdclass={'build_ext': CMakeBuild},
 )

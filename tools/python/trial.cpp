@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <memory>
 #include <span>
@@ -178,13 +177,7 @@ py::tuple make(const std::string& family, std::string_view kind, std::size_t cou
 
 PYBIND11_MODULE(_trial, module) {
   using namespace nearmiss::python;
-  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
-    try {
-      if (thrown) std::rethrow_exception(thrown);
-    } catch (const nearmiss::Error& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    }
-  });
+  pybind11::register_local_exception<nearmiss::Error>(module, "Error", PyExc_ValueError);
   module.def("hold", &hold);
   module.def("families", &known_families);
   module.def("queries", &make);

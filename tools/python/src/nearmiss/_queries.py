@@ -71,7 +71,8 @@ class Asked:
     def _halves(self, x: Coordinates) -> tuple[Coordinates, Coordinates]:
         """The vertices at t = 0 and t = 1, both (n, 4, 3)."""
         by_time = x.shape[-3:] == (2, 4, 3)
-        if not by_time and x.shape[-2:] != (8, 3) or x.ndim not in (2 + by_time, 3 + by_time):
+        is_known = by_time or x.shape[-2:] == (8, 3)
+        if not is_known or x.ndim not in (2 + by_time, 3 + by_time):
             raise ValueError(
                 f'x has shape {x.shape}, expected (n, 2, 4, 3) or (n, 8, 3), or (2, 4, 3) or (8, 3) for one query'
             )

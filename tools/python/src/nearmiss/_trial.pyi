@@ -5,6 +5,8 @@ from numpy.typing import NDArray
 
 from nearmiss._trials import Subject
 
+class Error(ValueError): ...
+
 def hold(
     subjects: Sequence[Union[Subject, str]],
     families: Sequence[str],

@@ -195,11 +195,18 @@ def trial(
         families = [name for name, _, has_separation in extension.families() if not has_separation]
     if cases < 1 or not families:
         raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
+    _expect_not_negative(seed=seed, shrunk=shrunk)
     rows, columns = extension.hold(chosen, list(families), cases, seed, shrunk)
     return TrialResult(
         [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
         Findings(**{name: _column(values) for name, values in columns.items()}),
     )
+
+
+def _expect_not_negative(**numbers: int) -> None:
+    for name, number in numbers.items():
+        if number < 0:
+            raise ValueError(f'{name} is {number}, expected a number that is not negative')
 
 
 def _column(values: Any) -> NDArray[Any]:
@@ -217,6 +224,7 @@ def queries(
     family: str, kind: KindLike, count: int, seed: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,)."""
+    _expect_not_negative(count=count, seed=seed)
     x, separation = _extension().queries(family, kind_of(kind).value, count, seed)
     return x, separation
 
