@@ -41,7 +41,7 @@ class BuiltInSubject final : public Subject {
     const PlainArithmetic guard;
     if constexpr (is_batched) {
       if (!given_) {
-        wang_in_lanes(queries, verdicts);
+        wang_in_lanes(QueryRows(queries), verdicts);
         for (std::size_t i = 0; i < queries.size(); ++i)
           if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
         return;

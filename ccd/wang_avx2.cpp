@@ -2,8 +2,8 @@
 
 namespace nearmiss {
 
-[[gnu::flatten]] void wang_with_avx2(const Query* queries, std::size_t count, Verdict* verdicts) {
-  decide_batch<4>(queries, count, verdicts);
+[[gnu::flatten]] void wang_with_avx2(const QueryRows& queries, Verdict* verdicts) {
+  decide_batch<4>(queries, verdicts);
 }
 
 }  // namespace nearmiss

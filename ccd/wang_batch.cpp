@@ -5,12 +5,12 @@
 
 namespace nearmiss {
 
-void wang_in_lanes(std::span<const Query> queries, std::span<Verdict> verdicts, Instructions instructions) {
+void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts, Instructions instructions) {
   constexpr std::array<WangBatch*, all_instructions.size()> all{wang_with_sse2, wang_with_avx2,
                                                                 wang_with_avx512};
   WangBatch* const decide = all[static_cast<std::size_t>(instructions)];
   for (std::size_t first = 0; first < queries.size(); first += wang_batch_size)
-    decide(&queries[first], std::min(wang_batch_size, queries.size() - first), &verdicts[first]);
+    decide(queries.part(first, std::min(wang_batch_size, queries.size() - first)), &verdicts[first]);
 }
 
 }  // namespace nearmiss

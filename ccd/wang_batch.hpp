@@ -5,6 +5,7 @@
 #include <span>
 
 #include "ccd/instructions.hpp"
+#include "ccd/query_rows.hpp"
 #include "ccd/subject.hpp"
 
 namespace nearmiss {
@@ -18,14 +19,14 @@ constexpr bool is_decided(const Verdict& verdict) {
 /// Gives those verdicts of `wang` (wang.hpp) on some queries, with the bounds of the pairs, that need no vertex-edge tests, no
 /// other frame and no other order of end points, and leaves the others undecided. A query with a coordinate that is not
 /// finite is left undecided.
-void wang_in_lanes(std::span<const Query> queries, std::span<Verdict> verdicts,
+void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    Instructions instructions = chosen_instructions());
 
 /// The largest number of queries in a batch, whose intermediate results fit into the nearest caches.
 inline constexpr std::size_t wang_batch_size = 128;
 
 /// Decides a batch in the same way, with one instruction set.
-using WangBatch = void(const Query* queries, std::size_t count, Verdict* verdicts);
+using WangBatch = void(const QueryRows& queries, Verdict* verdicts);
 
 WangBatch wang_with_sse2;
 WangBatch wang_with_avx2;    ///< requires has(Instructions::avx2)

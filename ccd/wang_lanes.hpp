@@ -27,12 +27,12 @@ namespace nearmiss {
 template <int n, Kind kind>
 class WangLanes {
  public:
+  WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
+
   /// Decides those of at most `wang_batch_size` queries that are of its kind.
-  void run(const Query* queries, std::size_t count, Verdict* verdicts) {
-    queries_ = queries;
-    verdicts_ = verdicts;
+  void run() {
     Rows of_kind;
-    for (std::size_t row = 0; row < count; ++row) of_kind.add_if(queries[row].kind == kind, row);
+    for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
     reject_clear(reject_separated(of_kind));
     find_roots();
     refine_roots();
@@ -75,7 +75,7 @@ class WangLanes {
   Points points(const RowOfLane& row) const {
     Points points;
     for (std::size_t i = 0; i < 24; i += n)
-      load_transposed<n>([&](std::size_t lane) { return &queries_[row(lane)].x[i]; }, &points.x[i]);
+      load_transposed<n>([&](std::size_t lane) { return queries_.x(row(lane)) + i; }, &points.x[i]);
     return points;
   }
 
@@ -304,8 +304,8 @@ class WangLanes {
   static constexpr std::size_t most_brackets = 3 * wang_batch_size;
   static constexpr std::size_t most_candidates = 4 * wang_batch_size;
 
-  const Query* queries_ = nullptr;
-  Verdict* verdicts_ = nullptr;
+  QueryRows queries_;
+  Verdict* verdicts_;
   Rows left_;  ///< queries whose F may have a root; a place is an index in this list
   std::array<Column<double, wang_batch_size>, 6> columns_;  ///< a, b, c, d of F, W and B, by place
   std::array<Column<double, most_brackets>, 4> brackets_;
@@ -319,9 +319,9 @@ class WangLanes {
 };
 
 template <int n>
-void decide_batch(const Query* queries, std::size_t count, Verdict* verdicts) {
-  WangLanes<n, Kind::vertex_triangle>().run(queries, count, verdicts);
-  WangLanes<n, Kind::edge_edge>().run(queries, count, verdicts);
+void decide_batch(const QueryRows& queries, Verdict* verdicts) {
+  WangLanes<n, Kind::vertex_triangle>(queries, verdicts).run();
+  WangLanes<n, Kind::edge_edge>(queries, verdicts).run();
 }
 
 }  // namespace nearmiss

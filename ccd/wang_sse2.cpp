@@ -2,8 +2,8 @@
 
 namespace nearmiss {
 
-[[gnu::flatten]] void wang_with_sse2(const Query* queries, std::size_t count, Verdict* verdicts) {
-  decide_batch<2>(queries, count, verdicts);
+[[gnu::flatten]] void wang_with_sse2(const QueryRows& queries, Verdict* verdicts) {
+  decide_batch<2>(queries, verdicts);
 }
 
 }  // namespace nearmiss

@@ -12,12 +12,14 @@
 
 #include "ccd/interface/queries.h"
 #include "ccd/query.hpp"
+#include "ccd/query_rows.hpp"
 
 namespace nearmiss::interface {
 
 /// Whether the fields are such that the queries can be read.
 inline bool are_readable(const nearmiss_queries* queries) {
-  return queries != nullptr && (queries->kind == NEARMISS_VERTEX_TRIANGLE || queries->kind == NEARMISS_EDGE_EDGE) &&
+  return queries != nullptr &&
+         (queries->kind == NEARMISS_VERTEX_TRIANGLE || queries->kind == NEARMISS_EDGE_EDGE) &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
          (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
 }
@@ -32,6 +34,14 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
+/// Whether all coordinates of a query are doubles that lie one after the other.
+inline bool lie_in_rows(const nearmiss_queries& queries) {
+  constexpr std::ptrdiff_t size = sizeof(double);
+  return queries.type == NEARMISS_DOUBLE && queries.coordinate_stride == size &&
+         queries.vertex_stride == 3 * size && queries.vertices == nullptr &&
+         static_cast<const double*>(queries.start) + 12 == queries.end;
+}
+
 /// Reads one query after the other.
 template <class T>
 class Reader {
@@ -43,21 +53,10 @@ class Reader {
 
   void read(std::size_t q, Query& query) const {
     const auto offset = static_cast<std::ptrdiff_t>(q);
-    std::size_t time = 0;
-    for (const void* const points : {queries_.start, queries_.end}) {
-      const auto* const first = static_cast<const std::byte*>(points) + offset * queries_.query_stride;
-      double* const x = &query.x[12 * time++];
-      if (is_packed_)
-        copy(first, x);
-      else
-        for (std::size_t i = 0; i < 4; ++i) {
-          const std::ptrdiff_t vertex =
-              queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i) : queries_.vertices[4 * q + i];
-          for (std::size_t k = 0; k < 3; ++k)
-            x[3 * i + k] = number<T>(first + vertex * queries_.vertex_stride +
-                                     static_cast<std::ptrdiff_t>(k) * queries_.coordinate_stride);
-        }
-    }
+    read_points(q, static_cast<const std::byte*>(queries_.start) + offset * queries_.query_stride,
+                &query.x[0]);
+    read_points(q, static_cast<const std::byte*>(queries_.end) + offset * queries_.query_stride,
+                &query.x[12]);
     if (queries_.separation != nullptr)
       query.separation = number<double>(reinterpret_cast<const std::byte*>(queries_.separation) +
                                         offset * queries_.separation_stride);
@@ -71,48 +70,75 @@ class Reader {
     return value;
   }
 
-  static void copy(const std::byte* from, double* x) {
-    std::array<T, 12> numbers;
-    std::memcpy(numbers.data(), from, sizeof numbers);
-    std::copy(numbers.begin(), numbers.end(), x);
+  void read_points(std::size_t q, const std::byte* first, double* x) const {
+    if (is_packed_) {
+      std::array<T, 12> numbers;
+      std::memcpy(numbers.data(), first, sizeof numbers);
+      std::copy(numbers.begin(), numbers.end(), x);
+      return;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::ptrdiff_t vertex =
+          queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i) : queries_.vertices[4 * q + i];
+      const std::byte* const point = first + vertex * queries_.vertex_stride;
+      for (std::ptrdiff_t k = 0; k < 3; ++k) *x++ = number<T>(point + k * queries_.coordinate_stride);
+    }
   }
 
   const nearmiss_queries& queries_;
   bool is_packed_;
 };
 
-/// Number of queries that are decided side by side.
-inline constexpr std::size_t block_size = 128;
+/// The largest number of queries in a block.
+inline constexpr std::size_t block_size = 256;
 
-/// Calls visit(block, first) for the queries, in blocks that begin with query `first`. Returns NEARMISS_OK, or what `visit`
-/// returns last that is something else.
-template <class T, class Visit>
-int for_blocks_of(const nearmiss_queries& queries, const Visit& visit) {
-  const Reader<T> reader(queries);
-  const Query empty{.kind = queries.kind == NEARMISS_EDGE_EDGE ? Kind::edge_edge : Kind::vertex_triangle};
-  union Block {  // of which only the queries that are used are initialised
-    Block() {}
-    Query queries[block_size];
-  } block;
-  std::uninitialized_fill_n(block.queries, std::min(block_size, queries.count), empty);
+/// Calls visit(block, first) for blocks of queries, of which the first is query `first`. Returns NEARMISS_OK, or what `visit`
+/// returns last that is something else. `block_of` makes a block from its first query and its size.
+template <class BlockOf, class Visit>
+int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;
-  for (std::size_t first = 0; first < queries.count; first += block_size) {
-    const std::size_t count = std::min(block_size, queries.count - first);
-    for (std::size_t i = 0; i < count; ++i) reader.read(first + i, block.queries[i]);
-    const int each = visit(std::span<const Query>(block.queries, count), first);
+  for (std::size_t first = 0; first < count; first += most) {
+    const int each = visit(block_of(first, std::min(most, count - first)), first);
     if (each != NEARMISS_OK) status = each;
   }
   return status;
 }
 
-/// The same for any queries, in plain arithmetic and without exceptions.
+/// The same with copies of the queries.
+template <class T, class Visit>
+int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
+  constexpr std::size_t most = 128;  // which fit into the nearest cache
+  union Block {                      // of which only the queries that are used are initialised
+    Block() {}
+    Query queries[most];
+  } block;
+  std::uninitialized_fill_n(block.queries, std::min(most, queries.count), Query{.kind = kind});
+  const Reader<T> reader(queries);
+  return for_parts(
+      queries.count, most,
+      [&](std::size_t first, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) reader.read(first + i, block.queries[i]);
+        return QueryRows(std::span<const Query>(block.queries, size));
+      },
+      visit);
+}
+
+/// The same for any queries, in plain arithmetic and without exceptions; queries are copied if they must be.
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
+  const Kind kind = queries->kind == NEARMISS_EDGE_EDGE ? Kind::edge_edge : Kind::vertex_triangle;
   try {
     const PlainArithmetic guard;
-    return queries->type == NEARMISS_DOUBLE ? for_blocks_of<double>(*queries, visit)
-                                            : for_blocks_of<float>(*queries, visit);
+    if (lie_in_rows(*queries) && asks_for_contact(*queries)) {
+      const QueryRows rows(kind, static_cast<const double*>(queries->start), queries->query_stride,
+                           queries->count);
+      return for_parts(
+          queries->count, block_size,
+          [&](std::size_t first, std::size_t size) { return rows.part(first, size); }, visit);
+    }
+    return queries->type == NEARMISS_DOUBLE ? for_copies<double>(*queries, kind, visit)
+                                            : for_copies<float>(*queries, kind, visit);
   } catch (const std::bad_alloc&) {
     return NEARMISS_OUT_OF_MEMORY;
   }
@@ -121,15 +147,17 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
 /// The same query by query: answer(query, q) is called for those that have an answer, refuse(q) for the others.
 template <class Answer, class Refuse>
 int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
-  return for_blocks(queries, [&](std::span<const Query> block, std::size_t first) {
+  return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     int status = NEARMISS_OK;
-    for (std::size_t i = 0; i < block.size(); ++i)
-      if (is_answerable(block[i])) {
-        answer(block[i], first + i);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const Query query = block[i];
+      if (is_answerable(query)) {
+        answer(query, first + i);
       } else {
         refuse(first + i);
         status = NEARMISS_NOT_FINITE;
       }
+    }
     return status;
   });
 }

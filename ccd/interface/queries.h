@@ -24,7 +24,8 @@ extern "C" {
 /* Answers. */
 #define NEARMISS_NO_COLLISION 0
 #define NEARMISS_COLLISION 1
-#define NEARMISS_NO_ANSWER (-1) /* a coordinate or the separation is not finite, or the separation is negative */
+#define NEARMISS_NO_ANSWER \
+  (-1) /* a coordinate or the separation is not finite, or the separation is negative */
 
 /* What a function returns. */
 #define NEARMISS_OK 0
@@ -44,9 +45,10 @@ typedef struct {
   size_t count;
   const void *start, *end;
   ptrdiff_t query_stride, vertex_stride, coordinate_stride;
-  const int32_t* vertices;     /* numbers of vertices, four for each query; or null */
-  const double* separation;    /* h of the first query; null is 0 for all */
-  ptrdiff_t separation_stride; /* from the h of a query to that of the next, in bytes; 0 if all have the same */
+  const int32_t* vertices;  /* numbers of vertices, four for each query; or null */
+  const double* separation; /* h of the first query; null is 0 for all */
+  ptrdiff_t
+      separation_stride; /* from the h of a query to that of the next, in bytes; 0 if all have the same */
 } nearmiss_queries;
 
 /* Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
@@ -60,8 +62,8 @@ static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const dou
 /* The same in float. */
 static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, const float* x) {
   const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {
-      kind, NEARMISS_FLOAT, count, x, x ? x + 12 : x, 24 * size, 3 * size, size, NULL, NULL, 0};
+  const nearmiss_queries queries = {kind, NEARMISS_FLOAT, count, x, x ? x + 12 : x, 24 * size, 3 * size,
+                                    size, NULL,           NULL,  0};
   return queries;
 }
 
@@ -70,8 +72,8 @@ static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, con
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
   const ptrdiff_t size = sizeof(double);
-  const nearmiss_queries queries = {kind, NEARMISS_DOUBLE, count,    start, end, 0,
-                                    3 * size, size,        vertices, NULL,  0};
+  const nearmiss_queries queries = {kind, NEARMISS_DOUBLE, count, start, end, 0, 3 * size,
+                                    size, vertices,        NULL,  0};
   return queries;
 }
 
@@ -79,8 +81,8 @@ static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const in
 static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, const int32_t* vertices,
                                                       const float* start, const float* end) {
   const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {kind, NEARMISS_FLOAT, count,    start, end, 0,
-                                    3 * size, size,       vertices, NULL,  0};
+  const nearmiss_queries queries = {kind,     NEARMISS_FLOAT, count,    start, end, 0,
+                                    3 * size, size,           vertices, NULL,  0};
   return queries;
 }
 

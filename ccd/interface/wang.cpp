@@ -9,6 +9,7 @@
 
 using nearmiss::Kind;
 using nearmiss::Query;
+using nearmiss::QueryRows;
 using nearmiss::Verdict;
 using nearmiss::WangOptions;
 
@@ -22,6 +23,7 @@ bool reports(const Query& query) {
 
 /// Whether the arguments are usable; wang takes no separation.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
+  const nearmiss::PlainArithmetic guard;  // a subnormal separation is not 0
   return to != nullptr && queries != nullptr && nearmiss::interface::asks_for_contact(*queries);
 }
 
@@ -29,7 +31,7 @@ bool are_usable(const nearmiss_queries* queries, const void* to) {
 
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
   if (!are_usable(queries, answers)) return NEARMISS_BAD_ARGUMENT;
-  return nearmiss::interface::for_blocks(queries, [&](std::span<const Query> block, std::size_t first) {
+  return nearmiss::interface::for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<Verdict, nearmiss::interface::block_size> verdicts;
     nearmiss::wang_in_lanes(block, verdicts);
     int status = NEARMISS_OK;
@@ -37,8 +39,8 @@ int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
       std::int8_t& answer = answers[first + i];
       if (nearmiss::is_decided(verdicts[i])) {
         answer = verdicts[i].hit ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
-      } else if (nearmiss::interface::is_answerable(block[i])) {
-        answer = reports(block[i]) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+      } else if (const Query query = block[i]; nearmiss::is_finite(query)) {
+        answer = reports(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
       } else {
         answer = NEARMISS_NO_ANSWER;
         status = NEARMISS_NOT_FINITE;

@@ -2,9 +2,9 @@
 
 namespace nearmiss::certified {
 
-[[gnu::flatten]] void filter_with_avx2(const Query* queries, std::size_t count, double caution,
-                                       FilterStage* stages, const Query* ahead) {
-  filter_batch<4>(queries, count, caution, stages, ahead);
+[[gnu::flatten]] void filter_with_avx2(const QueryRows& queries, double caution, FilterStage* stages,
+                                       const QueryRows& ahead) {
+  filter_batch<4>(queries, caution, stages, ahead);
 }
 
 }  // namespace nearmiss::certified

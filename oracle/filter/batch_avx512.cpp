@@ -2,9 +2,9 @@
 
 namespace nearmiss::certified {
 
-[[gnu::flatten]] void filter_with_avx512(const Query* queries, std::size_t count, double caution,
-                                         FilterStage* stages, const Query* ahead) {
-  filter_batch<8>(queries, count, caution, stages, ahead);
+[[gnu::flatten]] void filter_with_avx512(const QueryRows& queries, double caution, FilterStage* stages,
+                                         const QueryRows& ahead) {
+  filter_batch<8>(queries, caution, stages, ahead);
 }
 
 }  // namespace nearmiss::certified

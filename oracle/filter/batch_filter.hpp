@@ -24,14 +24,13 @@ namespace nearmiss::certified {
 template <int n, Kind kind>
 class BatchFilter {
  public:
-  explicit BatchFilter(double caution) : caution_(caution) {}
+  BatchFilter(const QueryRows& queries, double caution, const QueryRows& ahead)
+      : queries_(queries), ahead_(ahead), caution_(caution) {}
 
   /// Processes those of the at most batch_size queries that are of its kind. It sets stages[i] if it decides
   /// query i, and leaves it `undecided` otherwise.
-  void run(const Query* queries, std::size_t count, FilterStage* stages, const Query* ahead) {
-    queries_ = queries;
-    ahead_ = ahead;
-    const Rows all(count, [&](std::size_t q) { return queries[q].kind == kind; });
+  void run(FilterStage* stages) {
+    const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);
     const Rows unsure = cull_by_sign(crossing, stages);
     prepare_weights(unsure);
@@ -93,17 +92,16 @@ class BatchFilter {
     PointLanes points;
     for (std::size_t i = 0; i < 24; i += n) {
       Real* const columns = &points.x[i];
-      for (std::size_t l = 0; l < n; ++l) columns[l] = Real::load(&queries_[rows[l]].x[i]);
+      for (std::size_t l = 0; l < n; ++l) columns[l] = Real::load(queries_.x(rows[l]) + i);
       Real::transpose(columns);
     }
     return points;
   }
 
   /// Prefetches a query into the nearest cache, line by line.
-  static void fetch(const Query& query) {
-    const auto* const bytes = reinterpret_cast<const char*>(&query);
-    for (std::size_t line = 0; line < sizeof(Query); line += 64) __builtin_prefetch(bytes + line);
-    __builtin_prefetch(bytes + sizeof(Query) - 1);
+  static void fetch(const double* x) {
+    for (std::size_t c = 0; c < 24; c += 8) __builtin_prefetch(x + c);
+    __builtin_prefetch(x + 23);
   }
 
   /// The lanes in which the swept boxes do not meet; box.hpp says why that is exact.
@@ -130,7 +128,7 @@ class BatchFilter {
   Rows cull_by_planes(const Rows& rows, FilterStage* stages) const {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
-      for (std::size_t l = 0; l < n; ++l) fetch(ahead_[rows[i + l]]);
+      for (std::size_t l = 0; l < n; ++l) fetch(ahead_.x(rows[i + l]));
       const PointLanes x = points(rows.pack(i));
       const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
       // Computes four sums at a time, since each addition depends on the one before. The total is finite only
@@ -309,22 +307,18 @@ class BatchFilter {
     });
   }
 
+  QueryRows queries_, ahead_;
   double caution_;  ///< factor of all bounds, at least 1
-  const Query* queries_ = nullptr;
-  const Query* ahead_ = nullptr;
   // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
   std::array<OfBatch, 4 * weight_count> W_;  ///< the same for each weight
 };
 
 template <int n>
-void filter_batch(const Query* queries, std::size_t count, double caution, FilterStage* stages,
-                  const Query* ahead) {
-  std::fill_n(stages, count, FilterStage::undecided);
-  BatchFilter<n, Kind::vertex_triangle> vertex_triangle(caution);
-  vertex_triangle.run(queries, count, stages, ahead);
-  BatchFilter<n, Kind::edge_edge> edge_edge(caution);
-  edge_edge.run(queries, count, stages, ahead);
+void filter_batch(const QueryRows& queries, double caution, FilterStage* stages, const QueryRows& ahead) {
+  std::fill_n(stages, queries.size(), FilterStage::undecided);
+  BatchFilter<n, Kind::vertex_triangle>(queries, caution, ahead).run(stages);
+  BatchFilter<n, Kind::edge_edge>(queries, caution, ahead).run(stages);
 }
 
 }  // namespace nearmiss::certified

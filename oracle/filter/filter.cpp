@@ -63,14 +63,14 @@ FilterBatch* filter_with(Instructions instructions) {
   }
 }
 
-void filter_all(std::span<const Query> queries, double caution, std::span<FilterStage> stages,
+void filter_all(const QueryRows& queries, double caution, std::span<FilterStage> stages,
                 Instructions instructions) {
   const PlainArithmetic guard;
   FilterBatch* const filter_batch = filter_with(instructions);
   for (std::size_t first = 0; first < queries.size(); first += batch_size) {
     const std::size_t count = std::min(batch_size, queries.size() - first);
     const std::size_t ahead = std::min(first + batch_size, queries.size() - count);
-    filter_batch(&queries[first], count, caution, &stages[first], &queries[ahead]);
+    filter_batch(queries.part(first, count), caution, &stages[first], queries.part(ahead, count));
   }
 }
 
@@ -111,15 +111,17 @@ std::optional<KnownTime> time_of_contact(const Query& query, double width) {
                          width < rough_time ? Asked::when_precisely : Asked::when);
 }
 
-void filter(std::span<const Query> queries, std::span<FilterStage> stages, Instructions instructions) {
+void filter(const QueryRows& queries, std::span<FilterStage> stages, Instructions instructions) {
   certified::filter_all(queries, 1, stages, instructions);
   for (std::size_t i = 0; i < queries.size(); ++i)
-    if (stages[i] == FilterStage::undecided)
-      stages[i] = boxes_meet(queries[i]) ? filter(queries[i]) : FilterStage::boxes;
+    if (stages[i] == FilterStage::undecided) {
+      const Query query = queries[i];
+      stages[i] = boxes_meet(query) ? filter(query) : FilterStage::boxes;
+    }
 }
 
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages) {
-  certified::filter_all(queries, caution, stages, chosen_instructions());
+  certified::filter_all(QueryRows(queries), caution, stages, chosen_instructions());
 }
 
 }  // namespace nearmiss

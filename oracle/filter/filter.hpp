@@ -9,6 +9,7 @@
 
 #include "ccd/instructions.hpp"
 #include "ccd/query.hpp"
+#include "ccd/query_rows.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 
 namespace nearmiss {
@@ -49,8 +50,12 @@ inline constexpr double rough_time = 0x1p-30;
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
 /// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the answers.
-void filter(std::span<const Query> queries, std::span<FilterStage> stages,
+void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
+inline void filter(std::span<const Query> queries, std::span<FilterStage> stages,
+                   Instructions instructions = chosen_instructions()) {
+  filter(QueryRows(queries), stages, instructions);
+}
 
 /// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries
 /// that it decides are not near their bounds.

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "ccd/query.hpp"
+#include "ccd/query_rows.hpp"
 #include "oracle/filter/filter.hpp"
 
 namespace nearmiss::certified {
@@ -12,10 +12,10 @@ namespace nearmiss::certified {
 inline constexpr std::size_t batch_size = 128;
 
 /// Decides at most batch_size queries, with every error bound multiplied by `caution`, or leaves them
-/// `undecided`. All instruction sets give the same stages. At the same time, `count` queries at `ahead` are
+/// `undecided`. All instruction sets give the same stages. At the same time, the queries in `ahead`, as many, are
 /// prefetched.
-using FilterBatch = void(const Query* queries, std::size_t count, double caution, FilterStage* stages,
-                         const Query* ahead);
+using FilterBatch = void(const QueryRows& queries, double caution, FilterStage* stages,
+                         const QueryRows& ahead);
 
 FilterBatch filter_with_sse2;
 FilterBatch filter_with_avx2;    ///< requires has(Instructions::avx2)

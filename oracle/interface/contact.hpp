@@ -20,28 +20,29 @@ namespace nearmiss {
 /// size() of 2.
 class ExactCCD {
  public:
-  bool point_triangle_ccd(const auto& p_t0, const auto& t0_t0, const auto& t1_t0, const auto& t2_t0, const auto& p_t1,
-                          const auto& t0_t1, const auto& t1_t1, const auto& t2_t1, double& toi, double min_distance = 0,
-                          double tmax = 1) const noexcept {
-    return first_contact(Kind::vertex_triangle, toi, min_distance, tmax, p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1,
-                         t2_t1);
+  bool point_triangle_ccd(const auto& p_t0, const auto& t0_t0, const auto& t1_t0, const auto& t2_t0,
+                          const auto& p_t1, const auto& t0_t1, const auto& t1_t1, const auto& t2_t1,
+                          double& toi, double min_distance = 0, double tmax = 1) const noexcept {
+    return first_contact(Kind::vertex_triangle, toi, min_distance, tmax, p_t0, t0_t0, t1_t0, t2_t0, p_t1,
+                         t0_t1, t1_t1, t2_t1);
   }
 
-  bool edge_edge_ccd(const auto& ea0_t0, const auto& ea1_t0, const auto& eb0_t0, const auto& eb1_t0, const auto& ea0_t1,
-                     const auto& ea1_t1, const auto& eb0_t1, const auto& eb1_t1, double& toi, double min_distance = 0,
-                     double tmax = 1) const noexcept {
-    return first_contact(Kind::edge_edge, toi, min_distance, tmax, ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1,
-                         eb1_t1);
+  bool edge_edge_ccd(const auto& ea0_t0, const auto& ea1_t0, const auto& eb0_t0, const auto& eb1_t0,
+                     const auto& ea0_t1, const auto& ea1_t1, const auto& eb0_t1, const auto& eb1_t1,
+                     double& toi, double min_distance = 0, double tmax = 1) const noexcept {
+    return first_contact(Kind::edge_edge, toi, min_distance, tmax, ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1,
+                         ea1_t1, eb0_t1, eb1_t1);
   }
 
   /// A point and an edge, which is a degenerate triangle.
-  bool point_edge_ccd(const auto& p_t0, const auto& e0_t0, const auto& e1_t0, const auto& p_t1, const auto& e0_t1,
-                      const auto& e1_t1, double& toi, double min_distance = 0, double tmax = 1) const noexcept {
+  bool point_edge_ccd(const auto& p_t0, const auto& e0_t0, const auto& e1_t0, const auto& p_t1,
+                      const auto& e0_t1, const auto& e1_t1, double& toi, double min_distance = 0,
+                      double tmax = 1) const noexcept {
     return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, toi, min_distance, tmax);
   }
 
-  bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1, double& toi,
-                       double min_distance = 0, double tmax = 1) const noexcept {
+  bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1,
+                       double& toi, double min_distance = 0, double tmax = 1) const noexcept {
     return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, toi, min_distance, tmax);
   }
 
@@ -56,7 +57,8 @@ class ExactCCD {
       return static_cast<double>(point[k]);
   }
 
-  static bool first_contact(Kind kind, double& toi, double min_distance, double tmax, const auto&... points) noexcept {
+  static bool first_contact(Kind kind, double& toi, double min_distance, double tmax,
+                            const auto&... points) noexcept {
     std::array<double, 24> x;
     std::size_t next = 0;
     const auto add = [&](const auto& point) {

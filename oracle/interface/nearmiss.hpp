@@ -20,8 +20,8 @@ namespace nearmiss {
 /// What a function returns.
 enum class Status : int {
   ok = NEARMISS_OK,
-  not_finite = NEARMISS_NOT_FINITE,        ///< all queries are answered, some by Answer::none or NaN
-  bad_argument = NEARMISS_BAD_ARGUMENT,    ///< nothing is answered: a span of another length, or a null pointer
+  not_finite = NEARMISS_NOT_FINITE,      ///< all queries are answered, some by Answer::none or NaN
+  bad_argument = NEARMISS_BAD_ARGUMENT,  ///< nothing is answered: a span of another length, or a null pointer
   out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< some queries are not answered
 };
 
@@ -84,7 +84,9 @@ class Queries {
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:
-  static int to_c(Kind kind) { return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE; }
+  static int to_c(Kind kind) {
+    return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
+  }
   [[nodiscard]] Queries with_separations(const double* h, std::ptrdiff_t stride) const noexcept {
     Queries queries = *this;
     queries.layout_.separation = h;
@@ -108,7 +110,8 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
 /// nearmiss_collides(): whether each query is a collision, and, if wanted, what decided it.
 inline Status collides(const Queries& queries, std::span<std::int8_t> answers,
                        std::span<std::uint8_t> decided_by = {}) noexcept {
-  if (!detail::fits(queries, answers) || !detail::fits(queries, decided_by, true)) return Status::bad_argument;
+  if (!detail::fits(queries, answers) || !detail::fits(queries, decided_by, true))
+    return Status::bad_argument;
   if (queries.size() == 0) return Status::ok;
   return static_cast<Status>(nearmiss_collides(&queries.layout(), answers.data(), decided_by.data()));
 }

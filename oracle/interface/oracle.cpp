@@ -65,6 +65,7 @@ struct Enclosures {
 
 using nearmiss::FilterStage;
 using nearmiss::Query;
+using nearmiss::QueryRows;
 using nearmiss::interface::Answers;
 using nearmiss::interface::Enclosures;
 
@@ -72,18 +73,19 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
   if (answers == nullptr) return NEARMISS_BAD_ARGUMENT;
   using nearmiss::interface::asks_for_contact;
   const Answers to{answers, decided_by};
-  return nearmiss::interface::for_blocks(queries, [&](std::span<const Query> block, std::size_t first) {
+  return nearmiss::interface::for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, nearmiss::interface::block_size> stages;
-    const bool side_by_side = asks_for_contact(*queries) && block.size() >= nearmiss::interface::fewest_side_by_side;
+    const bool side_by_side =
+        asks_for_contact(*queries) && block.size() >= nearmiss::interface::fewest_side_by_side;
     if (side_by_side) nearmiss::filter(block, stages);
     int status = NEARMISS_OK;
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (side_by_side && stages[i] != FilterStage::undecided)
         to.set(first + i, nearmiss::is_collision(stages[i]), stages[i]);
-      else if (!nearmiss::interface::is_answerable(block[i]))
+      else if (const Query query = block[i]; !nearmiss::interface::is_answerable(query))
         status = to.refuse(first + i);
       else
-        to.set(first + i, side_by_side ? nearmiss::settle(block[i], stages[i]) : nearmiss::decide(block[i]));
+        to.set(first + i, side_by_side ? nearmiss::settle(query, stages[i]) : nearmiss::decide(query));
     }
     return status;
   });
@@ -120,11 +122,14 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
       });
 }
 
-int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo, double* hi) {
+int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
+                               double* hi) {
   if (lo == nullptr || !(relative_width >= 0)) return NEARMISS_BAD_ARGUMENT;
   const Enclosures to{lo, hi};
   return nearmiss::interface::for_each_query(
       queries,
-      [&](const Query& query, std::size_t q) { to.set(q, nearmiss::minimum_distance(query, std::min(relative_width, 0.5))); },
+      [&](const Query& query, std::size_t q) {
+        to.set(q, nearmiss::minimum_distance(query, std::min(relative_width, 0.5)));
+      },
       [&](std::size_t q) { to.refuse(q); });
 }

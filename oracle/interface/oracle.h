@@ -1,8 +1,9 @@
 /* Exact answers for queries in the caller's memory. C99.
  *
  * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones, too. Nearly all
- * queries are decided in double arithmetic with certified error bounds, and only the others in exact arithmetic, which allocates
- * memory and takes microseconds to milliseconds. An allocation that fails inside GMP ends the program.
+ * queries are decided in double arithmetic with certified error bounds, without memory from the heap. Exact arithmetic, which decides
+ * the others and whether primitives touch at t = 0 or t = 1 where double cannot, allocates memory and takes microseconds to
+ * milliseconds. An allocation that fails inside GMP ends the program.
  *
  * All functions may be called from many threads at once; each call works in its own thread. They set the processor's rounding mode
  * if need be and restore it, and neither print nor throw. */
@@ -36,7 +37,8 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 /* The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi, or as small as doubles
  * allow; both are 0 if the primitives touch, and NaN if there is no answer. Separations are ignored. `relative_width` must
  * be at least 1e-9. `hi` may be null. */
-int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo, double* hi);
+int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
+                               double* hi);
 
 #ifdef __cplusplus
 }

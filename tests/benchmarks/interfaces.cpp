@@ -43,12 +43,17 @@ struct Input {
 
 template <class Ask>
 void measure(const std::string& name, std::size_t count, const Ask& ask) {
-  benchmark::RegisterBenchmark((name + "/" + std::to_string(count)).c_str(), [count, ask](benchmark::State& state) {
-    for (auto _ : state) ask();
-    state.counters["ns"] = benchmark::Counter(1e-9 * static_cast<double>(count),
-                                              benchmark::Counter::kIsIterationInvariantRate |
-                                                  benchmark::Counter::kInvert);
-  })->Repetitions(15)->ReportAggregatesOnly()->MinTime(0.05);
+  benchmark::RegisterBenchmark(
+      (name + "/" + std::to_string(count)).c_str(),
+      [count, ask](benchmark::State& state) {
+        for (auto _ : state) ask();
+        state.counters["ns"] =
+            benchmark::Counter(1e-9 * static_cast<double>(count),
+                               benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      })
+      ->Repetitions(15)
+      ->ReportAggregatesOnly()
+      ->MinTime(0.05);
 }
 
 void measure_all(Kind kind, std::size_t count) {

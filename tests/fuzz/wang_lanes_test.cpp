@@ -31,7 +31,7 @@ bool equal(const Verdict& a, const Verdict& b) {
 
 std::vector<Verdict> in_lanes(std::span<const Query> queries, Instructions instructions) {
   std::vector<Verdict> verdicts(queries.size(), Verdict::accepted(Stage::unknown, 7));
-  wang_in_lanes(queries, verdicts, instructions);
+  wang_in_lanes(QueryRows(queries), verdicts, instructions);
   return verdicts;
 }
 

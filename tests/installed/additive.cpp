@@ -13,20 +13,20 @@ class Exact final : public ipc::NarrowPhaseCCD {
   using AnyPoint = Eigen::ConstRef<ipc::VectorMax3d>;
 
  public:
-  bool point_point_ccd(AnyPoint a0, AnyPoint b0, AnyPoint a1, AnyPoint b1, double& toi, const double min_distance,
-                       const double tmax) const override {
+  bool point_point_ccd(AnyPoint a0, AnyPoint b0, AnyPoint a1, AnyPoint b1, double& toi,
+                       const double min_distance, const double tmax) const override {
     return ccd_.point_point_ccd(a0, b0, a1, b1, toi, min_distance, tmax);
   }
-  bool point_edge_ccd(AnyPoint p0, AnyPoint a0, AnyPoint b0, AnyPoint p1, AnyPoint a1, AnyPoint b1, double& toi,
-                      const double min_distance, const double tmax) const override {
+  bool point_edge_ccd(AnyPoint p0, AnyPoint a0, AnyPoint b0, AnyPoint p1, AnyPoint a1, AnyPoint b1,
+                      double& toi, const double min_distance, const double tmax) const override {
     return ccd_.point_edge_ccd(p0, a0, b0, p1, a1, b1, toi, min_distance, tmax);
   }
-  bool point_triangle_ccd(Point p0, Point a0, Point b0, Point c0, Point p1, Point a1, Point b1, Point c1, double& toi,
-                          const double min_distance, const double tmax) const override {
+  bool point_triangle_ccd(Point p0, Point a0, Point b0, Point c0, Point p1, Point a1, Point b1, Point c1,
+                          double& toi, const double min_distance, const double tmax) const override {
     return ccd_.point_triangle_ccd(p0, a0, b0, c0, p1, a1, b1, c1, toi, min_distance, tmax);
   }
-  bool edge_edge_ccd(Point a0, Point b0, Point c0, Point d0, Point a1, Point b1, Point c1, Point d1, double& toi,
-                     const double min_distance, const double tmax) const override {
+  bool edge_edge_ccd(Point a0, Point b0, Point c0, Point d0, Point a1, Point b1, Point c1, Point d1,
+                     double& toi, const double min_distance, const double tmax) const override {
     return ccd_.edge_edge_ccd(a0, b0, c0, d0, a1, b1, c1, d1, toi, min_distance, tmax);
   }
 
@@ -48,9 +48,12 @@ int main() {
   };
   double toi = 7;
   expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi) && toi == 0.5, "point_triangle_ccd");
-  expect(ccd.point_triangle_ccd(rows.row(0).transpose(), a, b, c, rows.row(1).transpose(), a, b, c, toi, 0.5) && toi == 0.25,
-         "rows of a matrix, with a minimum distance");
-  expect(!ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0, 0.25), "point_triangle_ccd until 0.25");
+  expect(
+      ccd.point_triangle_ccd(rows.row(0).transpose(), a, b, c, rows.row(1).transpose(), a, b, c, toi, 0.5) &&
+          toi == 0.25,
+      "rows of a matrix, with a minimum distance");
+  expect(!ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0, 0.25),
+         "point_triangle_ccd until 0.25");
   const Eigen::Vector3d p(-1, 0, 1), q(1, 0, 1), r(0, -1, 0), s(0, 1, 0), p1(-1, 0, -3), q1(1, 0, -3);
   expect(ccd.edge_edge_ccd(p, q, r, s, p1, q1, r, s, toi) && toi == 0.25, "edge_edge_ccd");
   const Eigen::Vector2d u(0, 1), v(-1, 0), w(1, 0), u1(0, -1);

@@ -39,7 +39,8 @@ void write_block(std::span<const Query> queries, bool is_timed) {
   write(x);
   write_each<double>(queries, [](const Query& query) { return query.separation; });
   write_each<std::int8_t>(queries, [](const Query& query) { return exact->decide(query).hit; });
-  write_each<std::int8_t>(queries, [](const Query& query) { return wang->decide(with_separation(query, 0)).hit; });
+  write_each<std::int8_t>(queries,
+                          [](const Query& query) { return wang->decide(with_separation(query, 0)).hit; });
   write_each<double>(queries, [](const Query& query) { return wang->distance_bound(query); });
   if (!is_timed) return;
   std::vector<double> times[2], distances[2];
@@ -68,7 +69,7 @@ int main(int count_of_arguments, char** arguments) {
   std::vector<Query> of_kind[2];
   std::size_t blocks = 0;
   const auto write_kind = [&](std::vector<Query>& queries) {
-    if (!queries.empty()) write_block(queries, blocks++ % 16 < 2);
+    if (!queries.empty()) write_block(queries, blocks++ % 128 < 2);
     queries.clear();
   };
   const auto& families = all_families();

@@ -10,7 +10,8 @@ static size_t differences = 0;
 
 static void compare(const char* what, const void* found, const void* expected, size_t size, size_t count) {
   for (size_t i = 0; i < count; ++i)
-    if (memcmp((const char*)found + i * size, (const char*)expected + i * size, size) != 0 && ++differences < 10)
+    if (memcmp((const char*)found + i * size, (const char*)expected + i * size, size) != 0 &&
+        ++differences < 10)
       fprintf(stderr, "%s of query %zu of a block differs\n", what, i);
 }
 

@@ -5,17 +5,22 @@
 //     double x[n][2][4][3], h[n]
 //     int8 collides[n], wang[n]; double bound[n]            of wang without a separation
 //     if timed: double lo[n], hi[n] of the earliest times; lo[n], hi[n] of the smallest distances
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <nearmiss/nearmiss.hpp>
+#include <new>
+#include <random>
 #include <thread>
 #include <vector>
 
 namespace {
 
 std::atomic<std::size_t> differences = 0;
+std::atomic<std::size_t> allocations = 0;
 
 template <class T>
 std::vector<T> numbers(std::size_t count) {
@@ -38,6 +43,18 @@ void compare(const char* what, const std::vector<T>& found, const std::vector<T>
   compare(what, std::span<const T>(found), std::span<const T>(expected));
 }
 
+}  // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+
+namespace {
+
 struct Block {
   nearmiss::Kind kind;
   std::size_t n;
@@ -52,6 +69,28 @@ void ask(const nearmiss::Queries& queries, const Block& block, const char* layou
   compare(layout, answers, block.collides);
   expect(nearmiss::wang(queries, answers) == nearmiss::Status::ok, "status of wang");
   compare("wang", answers, block.wang);
+}
+
+/// Random queries, none of which needs exact arithmetic, are answered without memory from the heap.
+void allocates_nothing() {
+  using nearmiss::Queries;
+  constexpr std::size_t n = 10000;
+  std::mt19937 random(1);
+  std::vector<double> x(24 * n), h(n);
+  for (double& each : x) each = std::ldexp(static_cast<double>(random()), -32);
+  std::vector<std::int8_t> answers(n);
+  std::vector<std::uint8_t> decided_by(n);
+  for (const nearmiss::Kind kind : nearmiss::kinds) {
+    const Queries queries = Queries::packed(kind, x);
+    const std::size_t before = allocations;
+    (void)nearmiss::collides(queries, answers, decided_by);
+    (void)nearmiss::collides(queries.with_separations(h), answers);
+    (void)nearmiss::wang(queries, answers);
+    expect(allocations == before, "memory is allocated");
+    expect(std::count(decided_by.begin(), decided_by.end(), NEARMISS_BY_EXACT) == 0,
+           "exact arithmetic is needed");
+    expect(std::count(answers.begin(), answers.end(), NEARMISS_COLLISION) > 100, "there are few collisions");
+  }
 }
 
 void ask_in_all_layouts(const Block& block) {
@@ -127,24 +166,34 @@ int main() {
   std::size_t asked = 0;
   while (std::fread(head, sizeof head, 1, stdin) == 1) {
     const auto n = static_cast<std::size_t>(head[1]);
-    Block block{head[0] == NEARMISS_EDGE_EDGE ? nearmiss::Kind::edge_edge : nearmiss::Kind::vertex_triangle, n,
-                numbers<double>(24 * n), numbers<double>(n), numbers<std::int8_t>(n), numbers<std::int8_t>(n),
-                numbers<double>(n), {}, {}};
+    Block block{head[0] == NEARMISS_EDGE_EDGE ? nearmiss::Kind::edge_edge : nearmiss::Kind::vertex_triangle,
+                n,
+                numbers<double>(24 * n),
+                numbers<double>(n),
+                numbers<std::int8_t>(n),
+                numbers<std::int8_t>(n),
+                numbers<double>(n),
+                {},
+                {}};
     if (head[2] != 0) {
       block.times = numbers<double>(2 * n);
       block.distances = numbers<double>(2 * n);
     }
     asked += n;
     // Two threads ask the same at once.
-    std::thread other([&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
+    std::thread other(
+        [&] { ask(nearmiss::Queries::packed(block.kind, block.x), block, "packed, beside another thread"); });
     ask_in_all_layouts(block);
     other.join();
   }
 
+  allocates_nothing();
   std::vector<std::int8_t> few(1);
   const std::vector<double> two(48);
   expect(nearmiss::collides(nearmiss::Queries::packed(nearmiss::Kind::edge_edge, two), few) ==
-             nearmiss::Status::bad_argument, "a span that is too short");
-  std::printf("C++, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked, differences.load());
+             nearmiss::Status::bad_argument,
+         "a span that is too short");
+  std::printf("C++, nearmiss %s: %zu queries, %zu differences\n", nearmiss_version(), asked,
+              differences.load());
   return differences == 0 ? 0 : 1;
 }

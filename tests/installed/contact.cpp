@@ -29,9 +29,12 @@ int main() {
   const nearmiss::ExactCCD ccd;
   const Point a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, above{0.25, 0.25, 1}, below{0.25, 0.25, -1};
   double toi = 7;
-  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi) && toi == 0.5, "a vertex meets a triangle at 0.5");
-  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0.5) && toi == 0.25, "comes within 0.5 at 0.25");
-  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0, 0.5) && toi == 0.5, "meets in [0, 0.5]");
+  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi) && toi == 0.5,
+         "a vertex meets a triangle at 0.5");
+  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0.5) && toi == 0.25,
+         "comes within 0.5 at 0.25");
+  expect(ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0, 0.5) && toi == 0.5,
+         "meets in [0, 0.5]");
   expect(!ccd.point_triangle_ccd(above, a, b, c, below, a, b, c, toi, 0, std::nextafter(0.5, 0.0)) && toi > 1,
          "does not meet before 0.5");
   expect(!ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi), "does not move");
@@ -41,13 +44,15 @@ int main() {
   expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi) && toi == 1. / 3, "at 1/3");
   const double before = toi, after = std::nextafter(toi, 1.0);
   expect(!ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi, 0, before), "not before 1/3");
-  expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi, 0, after) && toi == before, "until the double after 1/3");
+  expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi, 0, after) && toi == before,
+         "until the double after 1/3");
 
   const Point p{-1, 0, 1}, q{1, 0, 1}, r{0, -1, 0}, s{0, 1, 0}, p1{-1, 0, -3}, q1{1, 0, -3};
   expect(ccd.edge_edge_ccd(p, q, r, s, p1, q1, r, s, toi) && toi == 0.25, "two edges meet");
   expect(ccd.edge_edge_ccd(p, q, r, s, p1, q1, r, s, toi, 1), "two edges are near from the start");
   expect(toi == 0, "at the start");
-  expect(ccd.point_edge_ccd(above, a, b, below, a, b, toi, 0.25) && toi == 0.5, "a vertex comes within 0.25 of an edge");
+  expect(ccd.point_edge_ccd(above, a, b, below, a, b, toi, 0.25) && toi == 0.5,
+         "a vertex comes within 0.25 of an edge");
   expect(ccd.point_point_ccd(above, a, Point{0, 0, -1}, a, toi, 0.1875), "two vertices come near");
   expect(!ccd.point_point_ccd(above, a, Point{0.25, 0.25, -1}, a, toi, 0.1875), "two vertices do not");
   const Flat u{0, 1}, v{-1, 0}, w{1, 0}, u1{0, -1};

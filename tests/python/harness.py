@@ -1,5 +1,6 @@
 """Reads the queries and answers that answered_queries writes, in the format of tests/installed/answers.cpp."""
 
+import os
 import subprocess
 from dataclasses import dataclass
 from typing import Optional
@@ -22,7 +23,10 @@ class Block:
 
 
 def answered_queries(program, count, seed):
-    data = subprocess.run([program, str(count), str(seed)], capture_output=True, check=True).stdout
+    # A program with sanitizers has their runtime already (CMakeLists.txt).
+    environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
+    command = [program, str(count), str(seed)]
+    data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout
     at = 0
 
     def read(dtype, *shape):

@@ -1,0 +1,179 @@
+// The functions of ccd/interface and oracle/interface: what they refuse, and what they leave as it was. tests/installed compares their
+// answers with the harness's.
+#include "oracle/interface/nearmiss.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ccd/arithmetic.hpp"
+#include "ccd/nearmiss_subject.h"
+#include "tests/arithmetic_modes.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A vertex that falls through a triangle at t = 1/2.
+constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
+                                         0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+TEST(Interface, SaysWhichQueriesAreNotFinite) {
+  for (const std::size_t count : {1U, 3U, 7U, 300U})  // alone, in a few, and in blocks
+    for (const double odd : {infinity, -infinity, nan}) {
+      std::vector<double> x;
+      for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
+      x[24 * (count - 1) + 23] = odd;
+      const Queries queries = Queries::packed(Kind::vertex_triangle, x);
+      std::vector<std::int8_t> answers(count), expected(count, NEARMISS_COLLISION);
+      expected.back() = NEARMISS_NO_ANSWER;
+      EXPECT_EQ(collides(queries, answers), Status::not_finite);
+      EXPECT_EQ(answers, expected);
+      EXPECT_EQ(wang(queries, answers), Status::not_finite);
+      EXPECT_EQ(answers, expected);
+      std::vector<double> lo(count), hi(count);
+      EXPECT_EQ(earliest_times(queries, lo, hi), Status::not_finite);
+      EXPECT_TRUE(std::isnan(lo.back()) && std::isnan(hi.back()));
+      EXPECT_EQ(smallest_distances(queries, lo), Status::not_finite);
+      EXPECT_TRUE(std::isnan(lo.back()));
+      EXPECT_EQ(wang_bounds(queries, lo), Status::not_finite);
+      EXPECT_TRUE(std::isnan(lo.back()));
+      EXPECT_EQ(times_of_impact(queries, answers, lo), Status::not_finite);
+      EXPECT_EQ(answers, expected);
+      EXPECT_EQ(lo.back(), 0);
+    }
+}
+
+TEST(Interface, RefusesSeparationsThatAreNone) {
+  for (const double h : {-1.0, nan, infinity, -std::numeric_limits<double>::denorm_min()}) {
+    EXPECT_EQ(collides(Kind::vertex_triangle, falling, h), Answer::none) << h;
+    EXPECT_TRUE(std::isnan(earliest_time(Kind::vertex_triangle, falling, h).lo)) << h;
+  }
+  EXPECT_EQ(collides(Kind::vertex_triangle, falling, -0.0), Answer::collision);
+  std::int8_t answer = 7;
+  const double h = 1;
+  EXPECT_EQ(wang(Queries::packed(Kind::vertex_triangle, falling).with_separation(h), {&answer, 1}),
+            Status::bad_argument);
+  EXPECT_EQ(answer, 7);
+}
+
+TEST(Interface, EachQueryMayHaveItsOwnSeparation) {
+  std::vector<double> x(falling.begin(), falling.end());
+  x[14] = 0.5;  // stops at a distance of 1/2
+  x.insert(x.end(), x.begin(), x.end());
+  x.insert(x.end(), x.begin(), x.end());
+  const std::array h{0.0, 0.25, 0.5, 0.75};
+  const Queries queries = Queries::packed(Kind::vertex_triangle, x).with_separations(h);
+  std::array<std::int8_t, 4> answers{};
+  EXPECT_EQ(collides(queries, answers), Status::ok);
+  EXPECT_THAT(answers, ElementsAre(0, 0, 1, 1));
+  std::array<double, 4> toi{};
+  EXPECT_EQ(times_of_impact(queries, answers, toi), Status::ok);
+  EXPECT_THAT(toi, ElementsAre(infinity, infinity, 1, 0.5));
+  EXPECT_EQ(times_of_impact(queries, answers, toi, 0.75), Status::ok);
+  EXPECT_THAT(answers, ElementsAre(0, 0, 0, 1));
+}
+
+TEST(Interface, RefusesArgumentsAndWritesNothing) {
+  nearmiss_queries queries = nearmiss_packed(NEARMISS_EDGE_EDGE, 1, falling.data());
+  std::int8_t answer = 7;
+  double number = 7;
+  const auto expect_refused = [&] {
+    EXPECT_EQ(nearmiss_collides(&queries, &answer, nullptr), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_wang(&queries, &answer), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_wang_bound(&queries, &number), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_earliest_time(&queries, 0, &number, nullptr), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_time_of_impact(&queries, 1, &answer, &number), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_smallest_distance(&queries, 0.1, &number, nullptr), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(answer, 7);
+    EXPECT_EQ(number, 7);
+  };
+  for (const int kind : {0, 3, -1}) {
+    queries.kind = kind;
+    expect_refused();
+  }
+  queries.kind = NEARMISS_EDGE_EDGE;
+  queries.type = 2;
+  expect_refused();
+  queries.type = NEARMISS_DOUBLE;
+  queries.end = nullptr;
+  expect_refused();
+  queries = nearmiss_packed(NEARMISS_EDGE_EDGE, 1, nullptr);
+  expect_refused();
+  queries = nearmiss_packed(NEARMISS_EDGE_EDGE, 1, falling.data());
+  EXPECT_EQ(nearmiss_collides(&queries, nullptr, nullptr), NEARMISS_BAD_ARGUMENT);
+  for (const double width : {-1.0, nan}) {
+    EXPECT_EQ(nearmiss_earliest_time(&queries, width, &number, nullptr), NEARMISS_BAD_ARGUMENT);
+    EXPECT_EQ(nearmiss_smallest_distance(&queries, width, &number, nullptr), NEARMISS_BAD_ARGUMENT);
+  }
+  for (const double tmax : {1.5, nan})
+    EXPECT_EQ(nearmiss_time_of_impact(&queries, tmax, &answer, &number), NEARMISS_BAD_ARGUMENT);
+  EXPECT_EQ(answer, 7);
+  EXPECT_EQ(number, 7);
+}
+
+TEST(Interface, AnswersNoQueriesAtAll) {
+  const Queries none = Queries::packed(Kind::edge_edge, std::span<const double>());
+  EXPECT_EQ(none.size(), 0);
+  EXPECT_EQ(collides(none, {}), Status::ok);
+  EXPECT_EQ(wang_bounds(none, {}), Status::ok);
+  std::int8_t answer = 7;
+  EXPECT_EQ(collides(none, {&answer, 1}), Status::bad_argument);
+  EXPECT_EQ(nearmiss_collides(&none.layout(), &answer, nullptr), NEARMISS_OK);
+  EXPECT_EQ(answer, 7);
+}
+
+TEST(Interface, TheSmallestDistanceIsAsNarrowAsAsked) {
+  std::array<double, 24> x = falling;
+  x[12] = 0.7;
+  x[14] = 1. / 3;  // the vertex ends above the triangle
+  for (const double width : {0.5, 1e-3, 1e-9, 1e-15, 0.0, 1e300}) {
+    const Interval distance = smallest_distance(Kind::vertex_triangle, x, width);
+    EXPECT_LE(distance.lo, 1. / 3);
+    EXPECT_GE(distance.hi, 1. / 3);
+    EXPECT_LE(distance.hi - distance.lo, std::max(width, 1e-15) * distance.hi) << width;
+  }
+}
+
+TEST(Interface, AnswersInEveryModeOfTheProcessorAndRestoresIt) {
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+    for (const bool flushes : {false, true}) {
+      const testing::HostileArithmetic mode(rounding, flushes);
+      const std::string before = odd_arithmetic();
+      const bool hits = collides(Kind::vertex_triangle, falling) == Answer::collision &&
+                        wang(Kind::vertex_triangle, falling) == Answer::collision;
+      const double time = earliest_time(Kind::vertex_triangle, falling).hi;
+      const double distance = smallest_distance(Kind::vertex_triangle, falling).hi;
+      static constexpr double tiny = std::numeric_limits<double>::denorm_min();
+      std::int8_t answer = 7;
+      const Status status =
+          wang(Queries::packed(Kind::vertex_triangle, falling).with_separation(tiny), {&answer, 1});
+      EXPECT_EQ(odd_arithmetic(), before);
+      EXPECT_TRUE(hits) << before;
+      EXPECT_EQ(time, 0.5) << before;
+      EXPECT_EQ(distance, 0) << before;
+      EXPECT_EQ(status, Status::bad_argument) << before;
+    }
+}
+
+TEST(Interface, EveryStatusHasAMessageOfItsOwn) {
+  std::vector<std::string> messages;
+  for (int status = -1; status < 4; ++status) messages.emplace_back(nearmiss_message(status));
+  EXPECT_THAT(messages, Each(::testing::Not("")));
+  EXPECT_EQ(std::set<std::string>(messages.begin(), messages.end()).size(), messages.size());
+}
+
+}  // namespace
+}  // namespace nearmiss
