@@ -1,7 +1,5 @@
 #include "fuzz/trial/campaign.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -28,38 +26,6 @@ struct Slice {
   TrialResult result = {};
   bool done = false;  ///< otherwise it was stopped
 };
-
-/// The first case of a kind in a block.
-std::uint64_t first_of(const CaseBlock& block, Kind kind) {
-  return block.first + (kind_of(block.first) == kind ? 0 : 1);
-}
-
-/// The cases of one kind in a block.
-Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop) {
-  Batch batch;
-  batch.kind = kind;
-  batch.family = block.family->name;
-  batch.timed = block.family->timed;
-  batch.compare_all = block.family->compare_all;
-  const std::uint64_t first = first_of(block, kind);
-  batch.first_number = first;
-  batch.step = kinds.size();
-  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds.size() + 1);
-  const QueryMaker make(*block.family, plan.seed);
-  for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
-    stop.check();
-    batch.queries.push_back(make(index));
-  }
-  if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
-  batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
-    return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);
-  };
-  if (block.family->factors != nullptr)
-    batch.factors = [factors = block.family->factors, seed = plan.seed, first](std::size_t i) {
-      return factors(seed, first + kinds.size() * i);
-    };
-  return batch;
-}
 
 bool are_shrunk(const std::vector<Finding>& findings) {
   return std::all_of(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; });

@@ -1,5 +1,7 @@
 #include "fuzz/trial/case_order.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -110,6 +112,36 @@ std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std
     cases += each == own ? index + 1 : each < own ? block.last : block.first;
   }
   return cases;
+}
+
+std::uint64_t first_of(const CaseBlock& block, Kind kind) {
+  return block.first + (kind_of(block.first) == kind ? 0 : 1);
+}
+
+Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop) {
+  Batch batch;
+  batch.kind = kind;
+  batch.family = block.family->name;
+  batch.timed = block.family->timed;
+  batch.compare_all = block.family->compare_all;
+  const std::uint64_t first = first_of(block, kind);
+  batch.first_number = first;
+  batch.step = kinds.size();
+  batch.queries.reserve(static_cast<std::size_t>(block.cases()) / kinds.size() + 1);
+  const QueryMaker make(*block.family, plan.seed);
+  for (std::uint64_t index = first; index < block.last; index += kinds.size()) {
+    stop.check();
+    batch.queries.push_back(make(index));
+  }
+  if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
+  batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
+    return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);
+  };
+  if (block.family->factors != nullptr)
+    batch.factors = [factors = block.family->factors, seed = plan.seed, first](std::size_t i) {
+      return factors(seed, first + kinds.size() * i);
+    };
+  return batch;
 }
 
 CasesOfShard::CasesOfShard(const CampaignPlan& plan, std::uint64_t done) : plan_(plan), round_(plan.shard) {

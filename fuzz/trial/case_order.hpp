@@ -26,6 +26,12 @@ struct CaseBlock {
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
+/// The first case of a kind in a block.
+std::uint64_t first_of(const CaseBlock& block, Kind kind);
+
+/// The cases of one kind in a block. Throws Stopped.
+Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop);
+
 /// The number of cases in a plan's shard; 0 if there is no end.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 

@@ -6,6 +6,10 @@
 #include <random>
 #include <string_view>
 
+#if !__has_include("reports/page/node_modules/vega-embed/build/vega-embed.min.js")
+#error "reports/page/node_modules is missing: run tools/setup, or npm ci in reports/page"
+#endif
+
 // The executable contains the files of the page: NEARMISS_ASSET(name, file) defines name_begin and name_end.
 #define NEARMISS_ASSET(name, file)          \
   asm(".pushsection .rodata, \"a\"\n" #name \

@@ -1,0 +1,159 @@
+"""What the Python package refuses, what it says about it, and what else runs during a call."""
+
+import signal
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import nearmiss
+
+X = np.random.default_rng(1).random((3000, 2, 4, 3))
+FUNCTIONS = {
+    'collides': nearmiss.collides,
+    'earliest_time': nearmiss.earliest_time,
+    'time_of_impact': nearmiss.time_of_impact,
+    'smallest_distance': nearmiss.smallest_distance,
+    'wang': nearmiss.wang,
+    'wang_bound': nearmiss.wang_bound,
+}
+
+
+class Refusals(unittest.TestCase):
+    def expect(self, error, message, function, *arguments, **named):
+        with self.assertRaises(error) as caught:
+            function(*arguments, **named)
+        self.assertEqual(str(caught.exception), message)
+
+    def test_of_a_coordinate_that_is_not_finite_name_the_first_query(self):
+        for value in (np.nan, np.inf, -np.inf):
+            for dtype in (np.float64, np.float32):
+                for far in (0, 1e9):  # where the boxes are apart
+                    x = X.astype(dtype)
+                    x[1234, 0, 0, 0] += far
+                    x[1234, 1, 2, 1] = value
+                    x[2345, 0, 0, 0] = value
+                    for kind in nearmiss.Kind:
+                        for name, function in FUNCTIONS.items():
+                            with self.subTest(value=value, dtype=dtype, kind=kind, function=name):
+                                self.expect(
+                                    ValueError,
+                                    'query 1234 has a coordinate that is not finite',
+                                    function,
+                                    kind,
+                                    x,
+                                )
+
+    def test_of_separations(self):
+        h = np.zeros(len(X))
+        for value in (-1.0, np.nan, np.inf):
+            h[17] = value
+            self.expect(
+                ValueError,
+                f'query 17 has the separation {value}, expected a finite number that is not negative',
+                nearmiss.collides,
+                'vt',
+                X,
+                h,
+            )
+        wanted = 'separation has shape (2,), expected a number or (3000,)'
+        self.expect(ValueError, wanted, nearmiss.earliest_time, 'vt', X, [0, 0])
+        wanted = 'separation has shape (1,), expected a number'
+        self.expect(ValueError, wanted, nearmiss.collides, 'vt', X[0], [0])
+
+    def test_of_kinds(self):
+        for kind in ('vv', 1, None, 'VT'):
+            wanted = f"kind is {kind!r}, expected 'vt' or 'ee'"
+            self.expect(ValueError, wanted, nearmiss.wang, kind, X)
+
+    def test_of_shapes(self):
+        for shape in ((7, 3), (3, 8), (24,), (), (5, 24), (5, 2, 4, 2), (2, 2, 2, 4, 3)):
+            wanted = 'x has shape ' + str(shape).replace('(', r'\(').replace(')', r'\)')
+            with self.assertRaisesRegex(ValueError, wanted):
+                nearmiss.collides('vt', np.zeros(shape))
+
+    def test_of_types(self):
+        for dtype in ('complex128', 'longdouble', 'bool', 'U3', 'object'):
+            with self.assertRaisesRegex(TypeError, 'expected float64, float32 or integers'):
+                nearmiss.collides('vt', np.zeros((2, 4, 3), dtype))
+
+    def test_of_integers_that_would_be_rounded(self):
+        for number in (2**53 + 1, -(2**53) - 1):
+            x = np.zeros((8, 3), np.int64)
+            x[3, 1] = number
+            wanted = 'x has an integer beyond 2^53, which may be no double'
+            self.expect(ValueError, wanted, nearmiss.wang, 'ee', x)
+
+    def test_of_meshes(self):
+        v = X[0, 0]
+        for pairs, error, message in (
+            ([[0, 1, 2, 4]], ValueError, 'pair 0 has the vertex 4, expected a number from 0 to 3'),
+            ([[0, 1, 2, 3], [0, -1, 2, 3]], ValueError, 'pair 1 has the vertex -1, expected a '),
+            (np.array([[2**40, 1, 2, 3]]), ValueError, 'pair 0 has the vertex 1099511627776,'),
+            ([[0, 1, 2]], ValueError, 'pairs has shape (1, 3), expected (n, 4)'),
+            ([[0.0, 1, 2, 3]], TypeError, 'pairs has the type float64, expected integers'),
+        ):
+            with self.assertRaises(error) as caught:
+                nearmiss.collides('vt', nearmiss.MeshPairs(pairs, v, v))
+            self.assertIn(message, str(caught.exception))
+        good = [[0, 1, 2, 3]]
+        with self.assertRaisesRegex(ValueError, 'but end has shape'):
+            nearmiss.collides('vt', nearmiss.MeshPairs(good, v, v[:3]))
+        with self.assertRaisesRegex(ValueError, r'start has shape \(4, 2\), expected \(v, 3\)'):
+            nearmiss.collides('vt', nearmiss.MeshPairs(good, v[:, :2], v))
+
+    def test_of_options(self):
+        wanted = 'tmax is 1.5, expected a number that is at most 1'
+        self.expect(ValueError, wanted, nearmiss.time_of_impact, 'vt', X, 0, 1.5)
+        wanted = 'width is nan, expected a number that is not negative'
+        self.expect(ValueError, wanted, nearmiss.earliest_time, 'vt', X, width=np.nan)
+        wanted = 'relative_width is 1e-10, expected at least 1e-9'
+        self.expect(ValueError, wanted, nearmiss.smallest_distance, 'vt', X, relative_width=1e-10)
+
+
+def many_queries():
+    """One query ten million times, without its memory."""
+    return np.broadcast_to(X[0], (10**7, 2, 4, 3))
+
+
+class DuringACall(unittest.TestCase):
+    def test_other_threads_run(self):
+        """Another thread counts. Python never takes its lock away from a thread here, so the other one counts during a call only if
+        the call releases the lock."""
+        count, calls = 0, 0
+        is_over = threading.Event()
+
+        def count_up():
+            nonlocal count
+            while not is_over.is_set():
+                count += 1
+                time.sleep(0)  # releases the lock
+
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(1000)
+        thread = threading.Thread(target=count_up)
+        thread.start()
+        queries = nearmiss._queries.Asked('vt', many_queries()).queries
+        counted = 0
+        while counted == 0 and calls < 100:
+            before = count
+            nearmiss._interface.collides(queries)
+            counted = count - before
+            calls += 1
+        is_over.set()
+        thread.join()
+        self.assertGreater(counted, 0)
+
+    def test_a_signal_ends_it(self):
+        main = threading.main_thread().ident
+        thread = threading.Thread(target=lambda: signal.pthread_kill(main, signal.SIGINT))
+        with self.assertRaises(KeyboardInterrupt):
+            thread.start()
+            while True:
+                nearmiss.smallest_distance('vt', many_queries())
+
+
+if __name__ == '__main__':
+    unittest.main()

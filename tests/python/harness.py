@@ -1,0 +1,47 @@
+"""Reads the queries and answers that answered_queries writes, in the format of tests/installed/answers.cpp."""
+
+import os
+import subprocess
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+KINDS = {1: 'vt', 2: 'ee'}
+
+
+@dataclass
+class Block:
+    kind: str
+    x: np.ndarray  # (n, 2, 4, 3)
+    separation: np.ndarray
+    collides: np.ndarray
+    wang: np.ndarray
+    bound: np.ndarray
+    times: Optional[np.ndarray] = None  # (2, n), lo and hi
+    distances: Optional[np.ndarray] = None
+
+
+def answered_queries(program, count, seed):
+    # A program with sanitizers has their runtime already (CMakeLists.txt).
+    environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
+    command = [program, str(count), str(seed)]
+    data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout
+    at = 0
+
+    def read(dtype, *shape):
+        nonlocal at
+        array = np.frombuffer(data, dtype, int(np.prod(shape)), at)
+        at += array.nbytes
+        return array.reshape(shape).copy()  # aligned
+
+    blocks = []
+    while at < len(data):
+        kind, n, timed = read(np.int32, 3)
+        x, separation = read(float, n, 2, 4, 3), read(float, n)
+        collides, wang = read(np.int8, n) == 1, read(np.int8, n) == 1
+        block = Block(KINDS[kind], x, separation, collides, wang, read(float, n))
+        if timed:
+            block.times, block.distances = read(float, 2, n), read(float, 2, n)
+        blocks.append(block)
+    return blocks

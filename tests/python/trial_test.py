@@ -1,0 +1,238 @@
+"""Puts Python functions on trial.
+Usage: trial_test.py NEARMISS
+"""
+
+import json
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import nearmiss
+
+NEARMISS = sys.argv.pop()
+
+
+def sampled(kind, x, separation):
+    """A CCD that looks at 16 times of the step, and takes primitives for touching if their boxes do."""
+    split = 1 if kind == 'vt' else 2
+    hits = np.zeros(len(x), bool)
+    for t in np.linspace(0, 1, 16):
+        now = (1 - t) * x[:, 0] + t * x[:, 1]
+        a, b = now[:, :split], now[:, split:]
+        hits |= ((a.max(1) >= b.min(1)) & (b.max(1) >= a.min(1))).all(1)
+    return hits
+
+
+def exact(kind, x, separation):
+    return nearmiss.collides(kind, x, separation)
+
+
+def exact_times(kind, x, separation):
+    return nearmiss.time_of_impact(kind, x, separation)
+
+
+def never(kind, x, separation):
+    return np.zeros(len(x), bool)
+
+
+class Trial(unittest.TestCase):
+    def test_finds_the_misses_of_a_naive_function(self):
+        result = nearmiss.trial(sampled, 3000)
+        counts = result.counts('sampled')
+        self.assertEqual(counts.queries, 3000)
+        self.assertGreater(counts.missed, 100)
+        self.assertGreater(counts.false_positives, 100)
+        misses = result.findings[result.findings.what == 'false-negative']
+        self.assertEqual(len(misses), counts.missed)
+        for kind in ('vt', 'ee'):
+            of_kind = misses[misses.kind == kind]
+            self.assertTrue(nearmiss.collides(kind, of_kind.x, of_kind.separation).all())
+            self.assertFalse(sampled(kind, of_kind.x, of_kind.separation).any())
+
+    def test_shrinks_findings_to_simple_queries_that_still_fail(self):
+        findings = nearmiss.trial(sampled, 1000, shrunk=2).findings
+        self.assertTrue(findings.is_shrunk.any())
+        for signature in set(findings.signature):
+            of_signature = findings[findings.signature == signature].is_shrunk
+            self.assertEqual(of_signature.sum(), min(2, len(of_signature)))
+        for kind in ('vt', 'ee'):
+            shrunk = findings[findings.is_shrunk & (findings.kind == kind)]
+            self.assertTrue(nearmiss.collides(kind, shrunk.shrunk).all())
+            self.assertFalse(sampled(kind, shrunk.shrunk, shrunk.shrunk_separation).any())
+            zeros = (shrunk.shrunk == 0).sum((1, 2, 3)) >= (shrunk.x == 0).sum((1, 2, 3))
+            self.assertTrue(zeros.all())
+        rest = findings[~findings.is_shrunk]
+        np.testing.assert_array_equal(rest.x, rest.shrunk)
+
+    def test_finds_nothing_about_exact_answers(self):
+        of_exact = nearmiss.Subject(exact, takes_separation=True)
+        of_times = nearmiss.Subject(exact_times, time='lower-bound', takes_separation=True)
+        result = nearmiss.trial([of_exact, of_times], 4000, list(nearmiss.families()))
+        self.assertEqual(len(result.findings), 0)
+        self.assertEqual(result.findings.x.shape, (0, 2, 4, 3))
+        for subject in ('exact', 'exact_times'):
+            counts = result.counts(subject)
+            self.assertEqual((counts.queries, counts.missed, counts.late), (4000, 0, 0))
+            self.assertEqual(counts.false_positives, 0)
+
+    def test_counts_as_the_command_line_does(self):
+        result = nearmiss.trial(['basic', 'wang'], 3000, seed=7)
+        command = [NEARMISS, 'fuzz', '--subject', 'basic,wang', '--family', 'all']
+        command += ['--cases', '3000', '--seed', '7', '--json', '-']
+        report = json.loads(subprocess.run(command, capture_output=True).stdout)
+        for subject, by_kind in report['subjects'].items():
+            for kind, expected in by_kind.items():
+                counts = result.counts(subject, kind=kind)
+                self.assertEqual(counts.queries, expected['queries'])
+                self.assertEqual(counts.collisions, expected['collisions'])
+                self.assertEqual(counts.missed, expected['false_negatives'])
+                self.assertEqual(counts.false_positives, expected['false_positives'])
+
+    def test_counts_families_and_kinds(self):
+        result = nearmiss.trial([sampled, 'wang'], 500, ['uniform', 'aspect@8'])
+        self.assertEqual(result.subjects, ['sampled', 'wang'])
+        self.assertEqual(set(result.families), {'uniform', 'aspect@8'})
+        parts = [
+            result.counts('sampled', kind=kind, family=family)
+            for kind in ('vt', 'ee')
+            for family in result.families
+        ]
+        self.assertEqual(sum(parts, nearmiss.Counts()), result.counts('sampled'))
+        self.assertIn('sampled', repr(result))
+
+    def test_finds_late_times(self):
+        def late(kind, x, separation):
+            hits, times = exact_times(kind, x, separation)
+            return hits, np.minimum(np.nextafter(times, 2), 1)
+
+        result = nearmiss.trial(nearmiss.Subject(late, time='lower-bound'), 500)
+        findings = result.findings
+        self.assertGreater(result.counts('late').late, 100)
+        self.assertEqual(len(findings[findings.what == 'late']), result.counts('late').late)
+        of_estimate = nearmiss.trial(nearmiss.Subject(late, time='estimate'), 500)
+        self.assertEqual(of_estimate.counts('late').late, 0)
+
+    def test_counts_collisions_without_a_time(self):
+        def no_time(kind, x, separation):
+            return exact(kind, x, separation), np.full(len(x), np.nan)
+
+        result = nearmiss.trial(nearmiss.Subject(no_time, time='estimate'), 200, shrunk=0)
+        self.assertGreater(result.counts('no_time').no_answer, 50)
+        self.assertEqual(set(result.findings.what), {'fault'})
+
+    def test_asks_only_the_kinds_and_separations_of_a_subject(self):
+        asked = []
+
+        def noting(kind, x, separation):
+            self.assertEqual(x.shape, (len(separation), 2, 4, 3))
+            asked.append((kind, (separation > 0).any()))
+            return never(kind, x, separation)
+
+        families = ['uniform', 'uniform~0.5']
+        nearmiss.trial(nearmiss.Subject(noting, kinds=['ee']), 100, families, shrunk=0)
+        self.assertEqual(set(asked), {('ee', False)})
+        asked.clear()
+        nearmiss.trial(nearmiss.Subject(noting, takes_separation=True), 100, families, shrunk=0)
+        self.assertEqual(len(set(asked)), 4)
+
+    def test_passes_exceptions_on(self):
+        class Mine(Exception):
+            pass
+
+        for exception in (Mine('as it is'), KeyboardInterrupt(), ValueError('mine')):
+            calls = 0
+
+            def fails(kind, x, separation):
+                nonlocal calls
+                calls += 1
+                if calls > when:
+                    raise exception
+                return never(kind, x, separation)
+
+            for when in (0, 5, 300):  # the last one while findings are shrunk
+                calls = 0
+                with self.assertRaises(type(exception)) as caught:
+                    nearmiss.trial(fails, 500, shrunk=3)
+                self.assertIs(caught.exception, exception)
+
+    def test_ends_at_a_signal(self):
+        calls = 0
+
+        def interrupted(kind, x, separation):
+            nonlocal calls
+            calls += 1
+            if calls == 10:
+                signal.raise_signal(signal.SIGINT)
+            return never(kind, x, separation)
+
+        with self.assertRaises(KeyboardInterrupt):
+            nearmiss.trial(interrupted, 1000)
+        self.assertEqual(calls, 10)
+
+    def test_says_what_a_function_should_return(self):
+        for answer, time, error, message in (
+            (lambda n: np.zeros(n), 'none', TypeError, 'answers of type float64, expected bool'),
+            (lambda n: np.zeros(n + 1, bool), 'none', ValueError, r'answers of shape \(\d+,\)'),
+            (lambda n: None, 'none', TypeError, 'answers of type object, expected bool'),
+            (lambda n: np.zeros(n, bool), 'estimate', TypeError, r'expected \(bools, times\)'),
+            (lambda n: (np.zeros(n, bool), 0.5), 'estimate', ValueError, r'times of shape \(\)'),
+        ):
+            subject = nearmiss.Subject(lambda kind, x, h: answer(len(x)), 'mine', time)
+            with self.assertRaisesRegex(error, 'mine returned .*' + message):
+                nearmiss.trial(subject, 100)
+
+    def test_refuses_what_it_does_not_know(self):
+        for message, arguments in (
+            ('unknown subject', ['bassic']),
+            ('unknown family', [never, 100, ['unifrom']]),
+            ('expected different ones', [[never, never]]),
+            ('expected at least one', [never, 0]),
+            ('expected at least one', [never, 10, []]),
+            ('seed is -1, expected', [never, 10, ['uniform'], -1]),
+            ("found the name 'a:b'", [nearmiss.Subject(never, 'a:b')]),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                nearmiss.trial(*arguments)
+        with self.assertRaisesRegex(ValueError, 'expected one of none, estimate, lower-bound'):
+            nearmiss.Subject(never, time='exact')
+        with self.assertRaisesRegex(ValueError, "expected 'vt' or 'ee'"):
+            nearmiss.Subject(never, kinds=['vv'])
+
+
+class Queries(unittest.TestCase):
+    def test_are_those_of_the_command_line(self):
+        for family, kind in (('uniform', 'vt'), ('aspect@8~0.5', 'ee')):
+            x, separation = nearmiss.queries(family, kind, 20, seed=3)
+            command = [NEARMISS, 'family', family, '--kind', kind, '--count', '40', '--seed', '3']
+            text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+            rows = [list(map(float.fromhex, line.split())) for line in text.splitlines()]
+            expected = x.reshape(20, 24)
+            if '~' in family:
+                expected = np.column_stack([expected, separation])
+            np.testing.assert_array_equal(rows, expected)
+
+
+class WithoutTrials(unittest.TestCase):
+    def test_an_import_error_says_why(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(nearmiss.__file__).parent
+            copy = pathlib.Path(folder) / 'nearmiss'
+            shutil.copytree(package, copy, ignore=shutil.ignore_patterns('_trial.cpython*'))
+            program = 'import nearmiss; print(nearmiss.__version__); nearmiss.trial("wang")'
+            run = subprocess.run(
+                [sys.executable, '-c', program], cwd=folder, capture_output=True, text=True,
+                env={'PYTHONPATH': folder},
+            )  # fmt: skip
+        self.assertEqual(run.stdout.strip(), nearmiss.__version__)
+        message = 'this nearmiss has no trials, because it was built without the component tools'
+        self.assertEqual(run.stderr.splitlines()[-1], f'ImportError: {message}')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,45 @@
+"""Checks the types of the Python package, of a program that uses it, and that its stubs describe what is built.
+Usage: types_test.py PYTHON_FOLDER, which contains the package
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FOLDER = sys.argv.pop()
+USER = pathlib.Path(__file__).with_name('user.py')
+
+
+class Types(unittest.TestCase):
+    def check(self, *command):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.run(
+                [sys.executable, '-m', *command], cwd=folder, capture_output=True, text=True,
+                env=os.environ | {'MYPYPATH': FOLDER, 'PYTHONPATH': FOLDER},
+            )  # fmt: skip
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def test_of_a_program_that_uses_the_package(self):
+        self.check('mypy', '--strict', USER)
+
+    def test_of_the_package(self):
+        self.check('mypy', '--strict', '-p', 'nearmiss')
+
+    def test_of_stubs_are_those_of_the_modules(self):
+        self.check(
+            'mypy.stubtest', 'nearmiss', '--allowlist', USER.with_name('stubtest.allowlist')
+        )
+
+    def test_are_noticed_if_they_are_wrong(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wrong = pathlib.Path(folder) / 'wrong.py'
+            wrong.write_text(USER.read_text() + "nearmiss.wang('vv', x)\n")
+            with self.assertRaisesRegex(AssertionError, 'Argument 1 to "wang"'):
+                self.check('mypy', '--strict', wrong)
+
+
+if __name__ == '__main__':
+    unittest.main()

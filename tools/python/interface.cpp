@@ -1,0 +1,197 @@
+// nearmiss._interface: the functions of the C interface over NumPy arrays, whose shapes and types the package's Python code has checked
+// (src/nearmiss/_queries.py).
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "oracle/interface/nearmiss.h"
+
+namespace nearmiss::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Queries in arrays, which it keeps alive. `start` and `end` have the same strides, and the shape (n, 4, 3), or (v, 3) if the pairs of
+/// a mesh are given.
+class Queries {
+ public:
+  Queries(int kind, py::array start, py::array end, std::optional<py::array> pairs, py::array separation)
+      : start_(std::move(start)),
+        end_(std::move(end)),
+        pairs_(std::move(pairs)),
+        separation_(std::move(separation)) {
+    const py::ssize_t vertex_axis = pairs_ ? 0 : 1;
+    layout_ = {.kind = kind,
+               .type = start_.itemsize() == sizeof(float) ? NEARMISS_FLOAT : NEARMISS_DOUBLE,
+               .count = static_cast<std::size_t>(pairs_ ? pairs_->shape(0) : start_.shape(0)),
+               .start = start_.data(),
+               .end = end_.data(),
+               .query_stride = pairs_ ? 0 : start_.strides(0),
+               .vertex_stride = start_.strides(vertex_axis),
+               .coordinate_stride = start_.strides(vertex_axis + 1),
+               .vertices = pairs_ ? static_cast<const std::int32_t*>(pairs_->data()) : nullptr,
+               .separation = static_cast<const double*>(separation_.data()),
+               .separation_stride = separation_.ndim() == 0 ? 0 : separation_.strides(0)};
+  }
+
+  [[nodiscard]] std::size_t size() const { return layout_.count; }
+
+  /// Queries first to first + count - 1.
+  [[nodiscard]] nearmiss_queries slice(std::size_t first, std::size_t count) const {
+    nearmiss_queries part = layout_;
+    const auto steps = static_cast<std::ptrdiff_t>(first);
+    part.count = count;
+    part.start = static_cast<const std::byte*>(layout_.start) + steps * layout_.query_stride;
+    part.end = static_cast<const std::byte*>(layout_.end) + steps * layout_.query_stride;
+    if (pairs_) part.vertices = layout_.vertices + 4 * steps;
+    part.separation = separation_of(first);
+    return part;
+  }
+
+  /// Why query q has no answer.
+  [[nodiscard]] std::string fault(std::size_t q) const {
+    const double h = *separation_of(q);
+    const std::string number = std::to_string(q);
+    if (h >= 0 && h < HUGE_VAL) return "query " + number + " has a coordinate that is not finite";
+    return "query " + number + " has the separation " + py::str(py::float_(h)).cast<std::string>() +
+           ", expected a finite number that is not negative";
+  }
+
+ private:
+  [[nodiscard]] const double* separation_of(std::size_t q) const {
+    return reinterpret_cast<const double*>(reinterpret_cast<const std::byte*>(layout_.separation) +
+                                           static_cast<std::ptrdiff_t>(q) * layout_.separation_stride);
+  }
+
+  py::array start_, end_;
+  std::optional<py::array> pairs_;
+  py::array separation_;
+  nearmiss_queries layout_;
+};
+
+/// An array with one element for each query.
+template <class T>
+py::array_t<T> one_for_each(const Queries& queries) {
+  return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
+}
+
+/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run. Handles signals every tenth of a
+/// second. Returns a status other than NEARMISS_OK as soon as there is one.
+template <class Ask>
+int ask_in_parts(const Queries& queries, const Ask& ask) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t queries_of_part = 1024;
+  constexpr std::chrono::milliseconds between_signals{100};
+  const py::gil_scoped_release others_run;
+  auto last = Clock::now();
+  for (std::size_t first = 0; first < queries.size(); first += queries_of_part) {
+    const nearmiss_queries part = queries.slice(first, std::min(queries_of_part, queries.size() - first));
+    if (const int status = ask(part, first); status != NEARMISS_OK) return status;
+    if (Clock::now() - last < between_signals) continue;
+    const py::gil_scoped_acquire none_runs;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    last = Clock::now();
+  }
+  return NEARMISS_OK;
+}
+
+/// Raises the exception of a status. Some part without an answer ends the queries that were asked, so the first one is in it.
+template <class IsAnswered>
+void check(int status, const Queries& queries, const IsAnswered& is_answered) {
+  if (status == NEARMISS_OK) return;
+  if (status == NEARMISS_OUT_OF_MEMORY) throw std::bad_alloc();
+  std::size_t q = 0;
+  while (status == NEARMISS_NOT_FINITE && is_answered(q)) ++q;
+  throw py::value_error(status == NEARMISS_NOT_FINITE ? queries.fault(q) : nearmiss_message(status));
+}
+
+auto has_answer(const std::int8_t* answers) {
+  return [answers](std::size_t q) { return answers[q] != NEARMISS_NO_ANSWER; };
+}
+auto has_number(const double* numbers) {
+  return [numbers](std::size_t q) { return !std::isnan(numbers[q]); };
+}
+
+py::tuple collides(const Queries& queries) {
+  auto answers = one_for_each<std::int8_t>(queries);
+  auto decided_by = one_for_each<std::uint8_t>(queries);
+  auto* const to = answers.mutable_data();
+  auto* const by = decided_by.mutable_data();
+  check(ask_in_parts(queries,
+                     [=](const nearmiss_queries& part, std::size_t first) {
+                       return nearmiss_collides(&part, to + first, by + first);
+                     }),
+        queries, has_answer(to));
+  return py::make_tuple(answers, decided_by);
+}
+
+py::array wang(const Queries& queries) {
+  auto answers = one_for_each<std::int8_t>(queries);
+  auto* const to = answers.mutable_data();
+  check(ask_in_parts(queries, [=](const nearmiss_queries& part,
+                                  std::size_t first) { return nearmiss_wang(&part, to + first); }),
+        queries, has_answer(to));
+  return answers;
+}
+
+py::array wang_bound(const Queries& queries) {
+  auto bounds = one_for_each<double>(queries);
+  auto* const to = bounds.mutable_data();
+  check(ask_in_parts(queries, [=](const nearmiss_queries& part,
+                                  std::size_t first) { return nearmiss_wang_bound(&part, to + first); }),
+        queries, has_number(to));
+  return bounds;
+}
+
+py::tuple time_of_impact(const Queries& queries, double tmax) {
+  auto answers = one_for_each<std::int8_t>(queries);
+  auto times = one_for_each<double>(queries);
+  auto* const to = answers.mutable_data();
+  auto* const toi = times.mutable_data();
+  check(ask_in_parts(queries,
+                     [=](const nearmiss_queries& part, std::size_t first) {
+                       return nearmiss_time_of_impact(&part, tmax, to + first, toi + first);
+                     }),
+        queries, has_answer(to));
+  return py::make_tuple(answers, times);
+}
+
+/// Two numbers that enclose a time or a distance of each query, by a function of the C interface.
+template <int (*enclose)(const nearmiss_queries*, double, double*, double*)>
+py::tuple enclosures(const Queries& queries, double width) {
+  auto lower = one_for_each<double>(queries);
+  auto upper = one_for_each<double>(queries);
+  auto* const lo = lower.mutable_data();
+  auto* const hi = upper.mutable_data();
+  check(
+      ask_in_parts(queries, [=](const nearmiss_queries& part,
+                                std::size_t first) { return enclose(&part, width, lo + first, hi + first); }),
+      queries, has_number(lo));
+  return py::make_tuple(lower, upper);
+}
+
+}  // namespace
+}  // namespace nearmiss::python
+
+PYBIND11_MODULE(_interface, module) {
+  using namespace nearmiss::python;
+  module.attr("version") = nearmiss_version();
+  py::class_<Queries>(module, "Queries")
+      .def(py::init<int, py::array, py::array, std::optional<py::array>, py::array>());
+  module.def("collides", &collides);
+  module.def("earliest_time", &enclosures<nearmiss_earliest_time>);
+  module.def("time_of_impact", &time_of_impact);
+  module.def("smallest_distance", &enclosures<nearmiss_smallest_distance>);
+  module.def("wang", &wang);
+  module.def("wang_bound", &wang_bound);
+}

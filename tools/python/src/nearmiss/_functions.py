@@ -1,0 +1,152 @@
+"""The functions over arrays of queries.
+
+A query is four vertices that move linearly from t = 0 to t = 1. All coordinates have one unit, which is arbitrary; times are
+fractions of the step. Every function takes
+
+kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, or 'ee' for the edges x0x1 and x2x3
+x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or MeshPairs.
+       (2, 4, 3) or (8, 3) is one query, for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read
+       where they are, for any strides; integers are converted to float64.
+
+and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation that is negative or
+not finite. Other Python threads run during a call.
+"""
+
+import enum
+from typing import Any, Literal, NamedTuple, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nearmiss import _interface
+from nearmiss._queries import Asked, KindLike, MeshPairs
+
+
+class DecidedBy(enum.IntEnum):
+    """What decided a query."""
+
+    BOXES = 0  # the boxes that the primitives sweep do not meet
+    FILTER = 1  # double arithmetic with certified bounds
+    EXACT = 2  # exact arithmetic
+
+
+class Interval(NamedTuple):
+    """Two numbers for each query that enclose a time or a distance."""
+
+    lo: NDArray[np.float64]
+    hi: NDArray[np.float64]
+
+
+@overload
+def collides(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = ...,
+    *,
+    decided_by: Literal[False] = ...,
+) -> NDArray[np.bool_]:
+    ...
+
+
+@overload
+def collides(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = ...,
+    *,
+    decided_by: Literal[True],
+) -> tuple[NDArray[np.bool_], NDArray[np.uint8]]:
+    ...
+
+
+def collides(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = 0.0,
+    *,
+    decided_by: bool = False,
+) -> Any:
+    """Whether the distance of the primitives is at most the separation at some t in [0, 1]; 0 asks whether they touch.
+
+    The answer is that of exact arithmetic, also for degenerate, huge and subnormal queries. A smallest distance of exactly the
+    separation counts.
+
+    separation: a number for all queries, or (n,), in the unit of the coordinates
+    decided_by: whether to return (answers, what decided) instead, the latter as values of DecidedBy
+    """
+    asked = Asked(kind, x, separation)
+    answers, deciders = _interface.collides(asked.queries)
+    hits = asked.are_collisions(answers)
+    return (hits, asked.answers(deciders)) if decided_by else hits
+
+
+def earliest_time(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = 0.0,
+    *,
+    width: float = 0.0,
+) -> Interval:
+    """The earliest time t* at which the distance is at most the separation: lo <= t* <= hi.
+
+    lo and hi are the same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
+    impact: nothing happens before it. Both are infinite if there is no collision.
+    """
+    if not width >= 0:
+        raise ValueError(f'width is {width}, expected a number that is not negative')
+    asked = Asked(kind, x, separation)
+    return Interval(*map(asked.answers, _interface.earliest_time(asked.queries, width)))
+
+
+def time_of_impact(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = 0.0,
+    tmax: float = 1.0,
+) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Whether each query is a collision at some t in [0, tmax], and its time of impact.
+
+    The time is the largest double that is not after the earliest time, so nothing happens before it. It is infinite if there is
+    no collision.
+    """
+    if not tmax <= 1:
+        raise ValueError(f'tmax is {tmax}, expected a number that is at most 1')
+    asked = Asked(kind, x, separation)
+    answers, times = _interface.time_of_impact(asked.queries, tmax)
+    return asked.are_collisions(answers), asked.answers(times)
+
+
+def smallest_distance(
+    kind: KindLike, x: Union[ArrayLike, MeshPairs], *, relative_width: float = 1e-3
+) -> Interval:
+    """The smallest distance d over the step, in the unit of the coordinates: lo <= d <= hi.
+
+    hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch. `relative_width`
+    must be at least 1e-9.
+    """
+    if not relative_width >= 1e-9:
+        raise ValueError(f'relative_width is {relative_width}, expected at least 1e-9')
+    asked = Asked(kind, x)
+    return Interval(
+        *map(asked.answers, _interface.smallest_distance(asked.queries, relative_width))
+    )
+
+
+def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
+    """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
+
+    It reports every collision. It may report a query that is none, but none whose primitives stay farther apart than wang_bound().
+    """
+    asked = Asked(kind, x)
+    answers: NDArray[np.bool_] = asked.are_collisions(_interface.wang(asked.queries))
+    return answers
+
+
+def wang_bound(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.float64]:
+    """The distance below which a false positive of wang() must come, in the unit of the coordinates.
+
+    It is about 41 B ε^¼, where B is the size of the pair and ε that of double.
+    """
+    asked = Asked(kind, x)
+    bounds: NDArray[np.float64] = asked.answers(_interface.wang_bound(asked.queries))
+    return bounds

@@ -1,0 +1,148 @@
+"""Checks queries in arrays, and describes them for the C interface. Coordinates are copied only if it cannot read them where they are."""
+
+import enum
+from dataclasses import dataclass
+from typing import Any, Literal, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nearmiss import _interface
+
+Coordinates = Union[NDArray[np.float64], NDArray[np.float32]]
+
+
+class Kind(str, enum.Enum):
+    """The kind of a query: a vertex x0 and a triangle x1 x2 x3, or the edges x0x1 and x2x3."""
+
+    VERTEX_TRIANGLE = 'vt'
+    EDGE_EDGE = 'ee'
+
+
+KindLike = Union[Kind, Literal['vt', 'ee']]
+
+_NUMBERS_OF_KINDS = {Kind.VERTEX_TRIANGLE: 1, Kind.EDGE_EDGE: 2}
+
+
+@dataclass(frozen=True)
+class MeshPairs:
+    """Pairs of a moving mesh, as queries.
+
+    pairs: (n, 4) integers, the numbers of the vertices x0 x1 x2 x3 of each pair
+    start: (v, 3) coordinates of all vertices at t = 0
+    end:   (v, 3) the same at t = 1
+    """
+
+    pairs: ArrayLike
+    start: ArrayLike
+    end: ArrayLike
+
+
+def kind_of(kind: KindLike) -> Kind:
+    """The kind, or a ValueError."""
+    try:
+        return Kind(kind)
+    except ValueError:
+        raise ValueError(f"kind is {kind!r}, expected 'vt' or 'ee'") from None
+
+
+class Asked:
+    """Queries for the C interface, and the shape of their answers."""
+
+    def __init__(
+        self, kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
+    ) -> None:
+        self.is_single = False
+        pairs: Optional[NDArray[np.int32]] = None
+        number = _NUMBERS_OF_KINDS[kind_of(kind)]
+        if isinstance(x, MeshPairs):
+            start, end = _vertices(x.start, 'start'), _vertices(x.end, 'end')
+            if start.shape != end.shape:
+                raise ValueError(f'start has shape {start.shape}, but end has shape {end.shape}')
+            pairs = _checked_pairs(x.pairs, len(start))
+            count = len(pairs)
+        else:
+            start, end = self._halves(numbers(x, 'x'))
+            count = len(start)
+        self.queries = _interface.Queries(
+            number, *_alike(start, end), pairs, _separations(separation, count, self.is_single)
+        )
+
+    def _halves(self, x: Coordinates) -> tuple[Coordinates, Coordinates]:
+        """The vertices at t = 0 and t = 1, both (n, 4, 3)."""
+        by_time = x.shape[-3:] == (2, 4, 3)
+        is_known = by_time or x.shape[-2:] == (8, 3)
+        if not is_known or x.ndim not in (2 + by_time, 3 + by_time):
+            raise ValueError(
+                f'x has shape {x.shape}, expected (n, 2, 4, 3) or (n, 8, 3), or (2, 4, 3) or (8, 3) for one query'
+            )
+        self.is_single = x.ndim == 2 + by_time
+        each: Any = x[np.newaxis] if self.is_single else x
+        return (each[:, 0], each[:, 1]) if by_time else (each[:, :4], each[:, 4:])
+
+    def answers(self, array: NDArray[Any]) -> Any:
+        """The answers to the queries; a NumPy scalar if there is a single one."""
+        return array[0] if self.is_single else array
+
+    def are_collisions(self, answers: NDArray[np.int8]) -> Any:
+        """The same for answers that are 0 or 1, as bools."""
+        return self.answers(answers.view(np.bool_))
+
+
+def numbers(values: ArrayLike, name: str) -> Coordinates:
+    """The values in float64 or float32, as an array whose elements are aligned. Raises TypeError or ValueError instead of rounding."""
+    array = np.asarray(values)
+    if array.dtype not in (np.float64, np.float32):
+        if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
+            raise TypeError(
+                f'{name} has the type {array.dtype}, expected float64, float32 or integers'
+            )
+        if array.dtype.kind in 'iu' and array.size and not _are_doubles(array):
+            raise ValueError(f'{name} has an integer beyond 2^53, which may be no double')
+        array = array.astype(np.float64)
+    return np.require(array, requirements='A')
+
+
+def _are_doubles(integers: NDArray[Any]) -> bool:
+    return -(2**53) <= int(integers.min()) and int(integers.max()) <= 2**53
+
+
+def _vertices(values: ArrayLike, name: str) -> Coordinates:
+    array = numbers(values, name)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f'{name} has shape {array.shape}, expected (v, 3)')
+    return array
+
+
+def _checked_pairs(values: ArrayLike, vertices: int) -> NDArray[np.int32]:
+    """A copy, so that no other thread can change the numbers after they have been checked."""
+    pairs = np.array(values)
+    if pairs.ndim != 2 or pairs.shape[1] != 4:
+        raise ValueError(f'pairs has shape {pairs.shape}, expected (n, 4)')
+    if pairs.dtype.kind not in 'iu':
+        raise TypeError(f'pairs has the type {pairs.dtype}, expected integers')
+    known = min(vertices, 2**31)
+    outside = (pairs < 0) | (pairs >= known)
+    if outside.any():
+        pair, i = np.argwhere(outside)[0]
+        raise ValueError(
+            f'pair {pair} has the vertex {pairs[pair, i]}, expected a number from 0 to {known - 1}'
+        )
+    return np.ascontiguousarray(pairs, np.int32)
+
+
+def _alike(start: Coordinates, end: Coordinates) -> tuple[Coordinates, Coordinates]:
+    """The same coordinates, with one type and the same strides for both."""
+    if start.dtype != end.dtype:
+        start, end = start.astype(np.float64), end.astype(np.float64)
+    if start.strides != end.strides:
+        start, end = np.ascontiguousarray(start), np.ascontiguousarray(end)
+    return start, end
+
+
+def _separations(values: ArrayLike, count: int, is_single: bool) -> NDArray[np.float64]:
+    array = np.require(numbers(values, 'separation'), np.float64, 'A')
+    if array.shape != () and (is_single or array.shape != (count,)):
+        wanted = 'a number' if is_single else f'a number or ({count},)'
+        raise ValueError(f'separation has shape {array.shape}, expected {wanted}')
+    return array

@@ -1,0 +1,238 @@
+"""Puts Python functions on trial: they are asked hard random queries, and their answers are compared with the exact ones."""
+
+import dataclasses
+import importlib
+from dataclasses import dataclass
+from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nearmiss._queries import KindLike, kind_of
+
+_TIME_SORTS = ('none', 'estimate', 'lower-bound')
+
+CCD = Callable[[str, NDArray[np.float64], NDArray[np.float64]], Any]
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A CCD on trial.
+
+    function: gets kind ('vt' or 'ee'), x (n, 2, 4, 3) and separation (n,), and returns bools (n,): whether each query is a
+              collision. It must answer a query in the same way whenever it is asked.
+    name:     in results; by default that of the function
+    time:     if it is not 'none', the function returns (bools, times) instead, with the time of each collision in [0, 1]:
+              'estimate' for a time near the earliest one, 'lower-bound' for one that is not after it
+    kinds:    of the queries that it is asked
+    takes_separation: whether it is asked queries with a separation h > 0
+    """
+
+    function: CCD
+    name: str = ''
+    time: Literal['none', 'estimate', 'lower-bound'] = 'none'
+    kinds: Sequence[KindLike] = ('vt', 'ee')
+    takes_separation: bool = False
+
+    def __post_init__(self) -> None:
+        if self.time not in _TIME_SORTS:
+            raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
+        kinds = tuple(kind_of(kind).value for kind in self.kinds)
+        object.__setattr__(self, 'kinds', kinds)
+        if not self.name:
+            object.__setattr__(self, 'name', getattr(self.function, '__name__', 'function'))
+
+    def _number_of_time_sort(self) -> int:
+        return _TIME_SORTS.index(self.time)
+
+    def _decide(
+        self, kind: str, x: NDArray[np.float64], separation: NDArray[np.float64]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """The function's answers and times, or an exception that says how they differ from what it should return."""
+        answer = self.function(kind, x, separation)
+        times = np.full(len(x), np.nan)
+        if self.time != 'none':
+            if not isinstance(answer, tuple) or len(answer) != 2:
+                raise TypeError(
+                    f'{self.name} returned a {type(answer).__name__}, expected (bools, times)'
+                )
+            answer, times = answer[0], np.asarray(answer[1], np.float64)
+        hits = np.asarray(answer)
+        if hits.dtype != np.bool_:
+            raise TypeError(f'{self.name} returned answers of type {hits.dtype}, expected bool')
+        for array, what in ((hits, 'answers'), (times, 'times')):
+            if array.shape != (len(x),):
+                raise ValueError(
+                    f'{self.name} returned {what} of shape {array.shape}, expected ({len(x)},)'
+                )
+        return hits, times
+
+
+@dataclass(frozen=True)
+class Counts:
+    """What a subject answered."""
+
+    queries: int = 0  # that it was asked
+    collisions: int = 0  # by exact arithmetic, among the queries that it answered
+    missed: int = 0  # collisions that it did not report
+    false_positives: int = 0  # reports of queries that are not collisions
+    late: int = 0  # times of a lower bound that are after the earliest time
+    no_answer: int = 0  # queries without an answer, such as a collision without a time
+    farthest: float = 0.0  # of the false positives: distance divided by the bound of the subject, or of wang if it has none
+
+    def __add__(self, other: 'Counts') -> 'Counts':
+        sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
+        sums['farthest'] = max(self.farthest, other.farthest)
+        return Counts(**sums)
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Queries on which subjects fail, an array for each property. findings[mask] selects some of them.
+
+    x, separation:             the queries: (m, 2, 4, 3) and (m,)
+    shrunk, shrunk_separation: the simplest queries that fail in the same way, where is_shrunk says so; else the queries themselves
+    kind:                      'vt' or 'ee'
+    what:                      'false-negative', 'late', 'fault' or 'refuted-bound' of a subject; or 'oracle-disagreement'
+    subject, family:           names
+    signature:                 what findings of the same kind have in common, such as the features of the first contact
+    provenance:                family:seed:index
+    """
+
+    x: NDArray[np.float64]
+    separation: NDArray[np.float64]
+    shrunk: NDArray[np.float64]
+    shrunk_separation: NDArray[np.float64]
+    is_shrunk: NDArray[np.bool_]
+    kind: NDArray[np.str_]
+    what: NDArray[np.str_]
+    subject: NDArray[np.str_]
+    family: NDArray[np.str_]
+    signature: NDArray[np.str_]
+    provenance: NDArray[np.str_]
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def __getitem__(self, mask: Union[slice, NDArray[Any]]) -> 'Findings':
+        return Findings(**{name: array[mask] for name, array in vars(self).items()})
+
+    def __repr__(self) -> str:
+        return f'<{len(self)} findings>'
+
+
+@dataclass(frozen=True)
+class TrialResult:
+    """The result of a trial: counters by subject, kind and family, and the queries on which subjects fail."""
+
+    rows: Sequence[tuple[str, str, str, Counts]]  # subject, kind, family, counters
+    findings: Findings
+
+    def counts(
+        self, subject: str, *, kind: Optional[KindLike] = None, family: Optional[str] = None
+    ) -> Counts:
+        """The counters of a subject, summed over kinds and families unless they are given."""
+        chosen = None if kind is None else kind_of(kind).value
+        parts = (
+            counts
+            for name, of_kind, of_family, counts in self.rows
+            if name == subject and chosen in (None, of_kind) and family in (None, of_family)
+        )
+        return sum(parts, Counts())
+
+    @property
+    def subjects(self) -> list[str]:
+        return list(dict.fromkeys(row[0] for row in self.rows))
+
+    @property
+    def families(self) -> list[str]:
+        return list(dict.fromkeys(row[2] for row in self.rows))
+
+    def __repr__(self) -> str:
+        """A table with a line for each subject."""
+        names = [field.name for field in dataclasses.fields(Counts)]
+        width = max(map(len, ['subject', *self.subjects]))
+        lines = ['  '.join([f'{"subject":{width}}', *(name.replace('_', ' ') for name in names)])]
+        for subject in self.subjects:
+            counts = dataclasses.astuple(self.counts(subject))
+            cells = (
+                f'{value:>{len(name)},.4g}'
+                if isinstance(value, float)
+                else f'{value:>{len(name)},}'
+                for name, value in zip(names, counts)
+            )
+            lines.append('  '.join([f'{subject:{width}}', *cells]))
+        return '\n'.join(lines)
+
+
+def trial(
+    subjects: Union[Subject, CCD, str, Iterable[Union[Subject, CCD, str]]],
+    cases: int = 10000,
+    families: Optional[Sequence[str]] = None,
+    seed: int = 1,
+    *,
+    shrunk: int = 1,
+) -> TrialResult:
+    """Asks subjects hard random queries, and compares their answers with the exact ones.
+
+    subjects: a Subject or a function like that of a Subject, the name of a built-in subject ('wang', 'basic'), or several of these
+    cases:    total number of queries, divided among the families
+    families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; by default, all that ask for contact. families() lists them.
+    seed:     of the random queries, which are those of `nearmiss fuzz` with the same families, cases and seed
+    shrunk:   number of findings of each signature that are shrunk, which may ask a subject thousands of queries
+
+    Exceptions of a function end the trial, and are passed on.
+    """
+    extension = _extension()
+    several = (
+        [subjects] if isinstance(subjects, (Subject, str)) or callable(subjects) else subjects
+    )
+    chosen = [each if isinstance(each, (Subject, str)) else Subject(each) for each in several]
+    names = [each if isinstance(each, str) else each.name for each in chosen]
+    if len(set(names)) != len(names):
+        raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
+    if families is None:
+        families = [name for name, _, has_separation in extension.families() if not has_separation]
+    if cases < 1 or not families:
+        raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
+    _expect_not_negative(seed=seed, shrunk=shrunk)
+    rows, columns = extension.hold(chosen, list(families), cases, seed, shrunk)
+    return TrialResult(
+        [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
+        Findings(**{name: _column(values) for name, values in columns.items()}),
+    )
+
+
+def _expect_not_negative(**numbers: int) -> None:
+    for name, number in numbers.items():
+        if number < 0:
+            raise ValueError(f'{name} is {number}, expected a number that is not negative')
+
+
+def _column(values: Any) -> NDArray[Any]:
+    if isinstance(values, list) and not values:
+        return np.empty(0, str)
+    return np.asarray(values)
+
+
+def families() -> dict[str, str]:
+    """The families of random queries, and what is hard about each."""
+    return {name: about for name, about, _ in _extension().families()}
+
+
+def queries(
+    family: str, kind: KindLike, count: int, seed: int = 1
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,)."""
+    _expect_not_negative(count=count, seed=seed)
+    x, separation = _extension().queries(family, kind_of(kind).value, count, seed)
+    return x, separation
+
+
+def _extension() -> Any:
+    try:
+        return importlib.import_module('nearmiss._trial')
+    except ModuleNotFoundError:
+        raise ImportError(
+            'this nearmiss has no trials, because it was built without the component tools'
+        ) from None

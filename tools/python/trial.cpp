@@ -1,0 +1,184 @@
+// nearmiss._trial: trials of Python functions. src/nearmiss/_trials.py gives the results their form.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "ccd/arithmetic.hpp"
+#include "ccd/error.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/stop.hpp"
+#include "fuzz/subjects/built_in.hpp"
+#include "fuzz/trial/case_order.hpp"
+#include "fuzz/trial/pace.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "tools/python/function_subject.hpp"
+
+namespace nearmiss::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The subject of a Subject of the Python package, or the built-in one of a name.
+std::unique_ptr<Subject> subject_of(const py::object& each) {
+  if (py::isinstance<py::str>(each)) return make_built_in(each.cast<std::string>());
+  DetectorInfo info;
+  info.name = each.attr("name").cast<std::string>();
+  if (const std::string fault = fault_of_name(info.name); !fault.empty()) throw Error("found " + fault);
+  info.time_sort = static_cast<TimeSort>(each.attr("_number_of_time_sort")().cast<int>());
+  info.takes_separation = each.attr("takes_separation").cast<bool>();
+  for (const Kind kind : kinds)
+    if (each.attr("kinds").contains(short_name(kind)))
+      info.kinds |= kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
+  return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
+}
+
+Subjects subjects_of(const py::list& of) {
+  Subjects subjects;
+  for (const auto& each : of) subjects.push_back(subject_of(py::reinterpret_borrow<py::object>(each)));
+  return subjects;
+}
+
+std::vector<Family> families_of(const std::vector<std::string>& names) {
+  std::vector<Family> chosen;
+  for (const std::string& name : names) chosen.push_back(find_family(name));
+  return chosen;
+}
+
+/// Handles the signals that have come.
+void let_python_handle_signals() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// Asks the subjects the queries of a campaign's plan, in its order.
+TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects) {
+  TrialResult result;
+  CasesOfShard cases(plan, 0);
+  Pace pace;
+  while (const auto block = cases.next(pace)) {
+    const auto start = Stop::Clock::now();
+    for (const Kind kind : kinds) {
+      Batch batch = batch_of(plan, *block, kind, Stop::never());
+      if (batch.queries.empty()) continue;
+      batch.timed = false;
+      result.merge(hold_trial(subjects, batch, plan.comparison));
+    }
+    pace.took(block->family->name, block->cases(), Stop::Clock::now() - start);
+    let_python_handle_signals();
+  }
+  return result;
+}
+
+/// Shrinks the first findings of each signature.
+void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each_signature) {
+  std::map<Signature, std::uint64_t> seen;
+  for (Finding& finding : findings) {
+    if (++seen[signature_of(finding)] > of_each_signature) continue;
+    const auto subject = std::find_if(subjects.begin(), subjects.end(),
+                                      [&](const auto& each) { return each->name() == finding.subject; });
+    finding.shrunk = shrunk_query(finding, subject == subjects.end() ? nullptr : subject->get(),
+                                  Stop::never(), limits_in_campaign);
+    finding.is_shrunk = true;
+    let_python_handle_signals();
+  }
+}
+
+/// The counters of each subject, kind and family.
+py::list counts_of(const Statistics& statistics) {
+  py::list rows;
+  for (const auto& [key, counts] : statistics.counts)
+    rows.append(py::make_tuple(key.subject, short_name(key.kind), key.family, counts.queries,
+                               counts.collisions, counts.false_negatives, counts.false_positives, counts.late,
+                               counts.faults_total(), counts.max_ratio()));
+  return rows;
+}
+
+/// One value of each finding.
+template <class Of>
+py::list column(const std::vector<Finding>& findings, const Of& of) {
+  py::list values;
+  for (const Finding& finding : findings) values.append(of(finding));
+  return values;
+}
+
+std::vector<Query> queries_of(const std::vector<Finding>& findings, Query Finding::*member) {
+  std::vector<Query> queries;
+  for (const Finding& finding : findings) queries.push_back(finding.*member);
+  return queries;
+}
+
+py::dict columns(const std::vector<Finding>& findings) {
+  const std::vector<Query> found = queries_of(findings, &Finding::query);
+  const std::vector<Query> shrunk = queries_of(findings, &Finding::shrunk);
+  py::dict of;
+  of["x"] = coordinates_of(found);
+  of["separation"] = separations_of(found);
+  of["shrunk"] = coordinates_of(shrunk);
+  of["shrunk_separation"] = separations_of(shrunk);
+  of["is_shrunk"] = column(findings, [](const Finding& each) { return each.is_shrunk; });
+  of["kind"] = column(findings, [](const Finding& each) { return short_name(each.query.kind); });
+  of["what"] = column(findings, [](const Finding& each) { return name(each.what); });
+  of["subject"] = column(findings, [](const Finding& each) { return each.subject; });
+  of["family"] = column(findings, [](const Finding& each) { return each.family; });
+  of["signature"] = column(findings, [](const Finding& each) { return each.signature; });
+  of["provenance"] = column(findings, [](const Finding& each) { return each.provenance; });
+  return of;
+}
+
+py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& families, std::uint64_t cases,
+               std::uint64_t seed, std::uint64_t shrunk_of_each_signature) {
+  const PlainArithmetic guard;
+  const Subjects subjects = subjects_of(of_subjects);
+  CampaignPlan plan;
+  plan.families = families_of(families);
+  plan.seed = seed;
+  plan.cases = cases;
+  TrialResult result;
+  {
+    const py::gil_scoped_release others_run;
+    result = decide_all(plan, subjects);
+    shrink(result.findings, subjects, shrunk_of_each_signature);
+  }
+  return py::make_tuple(counts_of(result.statistics), columns(result.findings));
+}
+
+/// The name, the description and whether queries have a separation, of each family.
+std::vector<std::tuple<std::string, std::string, bool>> known_families() {
+  std::vector<std::tuple<std::string, std::string, bool>> known;
+  for (const Family& family : all_families())
+    known.emplace_back(family.name, family.about, family.has_separation);
+  return known;
+}
+
+py::tuple make(const std::string& family, std::string_view kind, std::size_t count, std::uint64_t seed) {
+  std::vector<Query> queries;
+  const Family from = find_family(family);
+  const QueryMaker query(from, seed);
+  for (std::uint64_t index = 0; queries.size() < count; ++index)
+    if (short_name(kind_of(index)) == kind) queries.push_back(query(index));
+  return py::make_tuple(coordinates_of(queries), separations_of(queries));
+}
+
+}  // namespace
+}  // namespace nearmiss::python
+
+PYBIND11_MODULE(_trial, module) {
+  using namespace nearmiss::python;
+  pybind11::register_local_exception<nearmiss::Error>(module, "Error", PyExc_ValueError);
+  module.def("hold", &hold);
+  module.def("families", &known_families);
+  module.def("queries", &make);
+}
