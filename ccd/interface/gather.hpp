@@ -26,7 +26,8 @@ inline bool are_readable(const nearmiss_queries* queries) {
 
 /// Whether all queries have the separation 0.
 inline bool asks_for_contact(const nearmiss_queries& queries) {
-  return queries.separation == nullptr || (queries.separation_stride == 0 && *queries.separation == 0);
+  return queries.count == 0 || queries.separation == nullptr ||
+         (queries.separation_stride == 0 && *queries.separation == 0);
 }
 
 /// Whether a query has an answer.
@@ -123,13 +124,12 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
       visit);
 }
 
-/// The same for any queries, in plain arithmetic and without exceptions; queries are copied if they must be.
+/// The same for any queries, without exceptions, for a caller that has plain arithmetic; queries are copied if they must be.
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
   const Kind kind = queries->kind == NEARMISS_EDGE_EDGE ? Kind::edge_edge : Kind::vertex_triangle;
   try {
-    const PlainArithmetic guard;
     if (lie_in_rows(*queries) && asks_for_contact(*queries)) {
       const QueryRows rows(kind, static_cast<const double*>(queries->start), queries->query_stride,
                            queries->count);

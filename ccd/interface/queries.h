@@ -14,6 +14,12 @@
 extern "C" {
 #endif
 
+#ifdef __cplusplus
+#define NEARMISS_NULL nullptr
+#else
+#define NEARMISS_NULL NULL
+#endif
+
 /* Kinds of queries, as in nearmiss_subject.h. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /**< vertex x0, triangle x1 x2 x3 */
 #define NEARMISS_EDGE_EDGE 2       /**< edges x0x1 and x2x3 */
@@ -35,10 +41,10 @@ extern "C" {
 
 /** Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at
  *
- *     start + v * vertex_stride + k * coordinate_stride     at t = 0, and likewise from `end` at t = 1,
+ *     start + q * query_stride + v * vertex_stride + k * coordinate_stride     at t = 0, and likewise from `end` at t = 1,
  *
- * where v is vertices[4 * q + i], or i if `vertices` is null and then q * query_stride is added. Strides are in bytes, and may be 0
- * or negative. Addresses must be aligned for the type. nearmiss_packed() and nearmiss_of_mesh() fill in the usual cases. */
+ * where v is vertices[4 * q + i], or i if `vertices` is null. Strides are in bytes, and may be 0 or negative. Addresses must be
+ * aligned for the type. nearmiss_packed() and nearmiss_of_mesh() fill in the usual cases. */
 typedef struct {
   int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE */
   int type;                    /**< NEARMISS_DOUBLE or NEARMISS_FLOAT */
@@ -56,16 +62,18 @@ typedef struct {
 /** Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
 static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const double* x) {
   const ptrdiff_t size = sizeof(double);
-  const nearmiss_queries queries = {
-      kind, NEARMISS_DOUBLE, count, x, x ? x + 12 : x, 24 * size, 3 * size, size, NULL, NULL, 0};
+  const nearmiss_queries queries = {kind,           NEARMISS_DOUBLE, count,    x,
+                                    x ? x + 12 : x, 24 * size,       3 * size, size,
+                                    NEARMISS_NULL,  NEARMISS_NULL,   0};
   return queries;
 }
 
 /** nearmiss_packed() in float. */
 static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, const float* x) {
   const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {kind, NEARMISS_FLOAT, count, x, x ? x + 12 : x, 24 * size, 3 * size,
-                                    size, NULL,           NULL,  0};
+  const nearmiss_queries queries = {kind,           NEARMISS_FLOAT, count,    x,
+                                    x ? x + 12 : x, 24 * size,      3 * size, size,
+                                    NEARMISS_NULL,  NEARMISS_NULL,  0};
   return queries;
 }
 
@@ -74,8 +82,8 @@ static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, con
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
   const ptrdiff_t size = sizeof(double);
-  const nearmiss_queries queries = {kind, NEARMISS_DOUBLE, count, start, end, 0, 3 * size,
-                                    size, vertices,        NULL,  0};
+  const nearmiss_queries queries = {kind, NEARMISS_DOUBLE, count,         start, end, 0, 3 * size,
+                                    size, vertices,        NEARMISS_NULL, 0};
   return queries;
 }
 
@@ -83,8 +91,8 @@ static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const in
 static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, const int32_t* vertices,
                                                       const float* start, const float* end) {
   const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {kind,     NEARMISS_FLOAT, count,    start, end, 0,
-                                    3 * size, size,           vertices, NULL,  0};
+  const nearmiss_queries queries = {kind,     NEARMISS_FLOAT, count,    start,         end, 0,
+                                    3 * size, size,           vertices, NEARMISS_NULL, 0};
   return queries;
 }
 
@@ -94,6 +102,8 @@ const char* nearmiss_version(void);
 
 /** A sentence about a value that a function returned. */
 const char* nearmiss_message(int status);
+
+#undef NEARMISS_NULL
 
 #ifdef __cplusplus
 }

@@ -23,13 +23,13 @@ bool reports(const Query& query) {
 
 /// Whether the arguments are usable; wang takes no separation.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
-  const nearmiss::PlainArithmetic guard;  // a subnormal separation is not 0
   return to != nullptr && queries != nullptr && nearmiss::interface::asks_for_contact(*queries);
 }
 
 }  // namespace
 
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
+  const nearmiss::PlainArithmetic guard;
   if (!are_usable(queries, answers)) return NEARMISS_BAD_ARGUMENT;
   return nearmiss::interface::for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<Verdict, nearmiss::interface::block_size> verdicts;
@@ -51,6 +51,7 @@ int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
 }
 
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds) {
+  const nearmiss::PlainArithmetic guard;
   if (!are_usable(queries, bounds)) return NEARMISS_BAD_ARGUMENT;
   const auto tolerances = nearmiss::AllSteps::tolerances(1.0);
   return nearmiss::interface::for_each_query(

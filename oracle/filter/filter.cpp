@@ -116,7 +116,7 @@ void filter(const QueryRows& queries, std::span<FilterStage> stages, Instruction
   for (std::size_t i = 0; i < queries.size(); ++i)
     if (stages[i] == FilterStage::undecided) {
       const Query query = queries[i];
-      stages[i] = boxes_meet(query) ? filter(query) : FilterStage::boxes;
+      if (is_finite(query)) stages[i] = boxes_meet(query) ? filter(query) : FilterStage::boxes;
     }
 }
 

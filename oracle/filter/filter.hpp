@@ -49,7 +49,8 @@ inline constexpr double rough_time = 0x1p-30;
 /// certainly is none. Most are at most `width` wide, or as narrow as doubles allow. It does not include the box test.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the answers.
+/// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the answers. A query
+/// with a coordinate that is not finite is left undecided.
 void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
 inline void filter(std::span<const Query> queries, std::span<FilterStage> stages,

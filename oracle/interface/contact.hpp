@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -50,14 +51,25 @@ class ExactCCD {
   }
 
  private:
-  static double coordinate(const auto& point, std::size_t k) {
+  static double widened(double x) { return x; }
+  /// Exactly, also if the processor takes subnormal floats for 0. What is not finite is infinite.
+  static double widened(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    constexpr std::uint32_t exponent = 0x7f800000;
+    if ((bits & exponent) == exponent) return std::bit_cast<double>(std::uint64_t{0x7ff} << 52);
+    if ((bits & exponent) != 0) return double{x};
+    const double magnitude = static_cast<double>(bits & 0x7fffff) * 0x1p-149;
+    return bits >> 31 == 0 ? magnitude : -magnitude;
+  }
+
+  template <int k>
+  static double coordinate(const auto& point) {
     if constexpr (requires { point.size(); })
-      if (k >= static_cast<std::size_t>(point.size())) return 0;
-    // Eigen's types count with signed numbers.
-    if constexpr (requires { point(std::ptrdiff_t{}); })
-      return static_cast<double>(point(static_cast<std::ptrdiff_t>(k)));
+      if (static_cast<int>(point.size()) <= k) return 0;
+    if constexpr (requires { point(k); })
+      return widened(point(k));
     else
-      return static_cast<double>(point[k]);
+      return widened(point[k]);
   }
 
   static bool first_contact(Kind kind, double& toi, double min_distance, double tmax,
@@ -65,7 +77,9 @@ class ExactCCD {
     std::array<double, 24> x;
     std::size_t next = 0;
     const auto add = [&](const auto& point) {
-      for (std::size_t k = 0; k < 3; ++k) x[next++] = coordinate(point, k);
+      x[next++] = coordinate<0>(point);
+      x[next++] = coordinate<1>(point);
+      x[next++] = coordinate<2>(point);
     };
     (add(points), ...);
     const Queries query = Queries::packed(kind, x).with_separation(min_distance);

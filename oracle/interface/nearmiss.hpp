@@ -7,6 +7,10 @@
 ///     if (nearmiss::collides(pairs, answers) != nearmiss::Status::ok) ...
 #pragma once
 
+#if __cplusplus < 202002L
+#error "nearmiss.hpp needs C++20"
+#endif
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>

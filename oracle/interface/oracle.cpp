@@ -70,6 +70,7 @@ using nearmiss::interface::Answers;
 using nearmiss::interface::Enclosures;
 
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by) {
+  const nearmiss::PlainArithmetic guard;
   if (answers == nullptr) return NEARMISS_BAD_ARGUMENT;
   using nearmiss::interface::asks_for_contact;
   const Answers to{answers, decided_by};
@@ -92,6 +93,7 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
 }
 
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi) {
+  const nearmiss::PlainArithmetic guard;
   if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
   const Enclosures to{lo, hi};
   return nearmiss::interface::for_each_query(
@@ -104,6 +106,7 @@ int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double
 }
 
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi) {
+  const nearmiss::PlainArithmetic guard;
   if (answers == nullptr || toi == nullptr || !(tmax <= 1)) return NEARMISS_BAD_ARGUMENT;
   const Answers to{answers, nullptr};
   return nearmiss::interface::for_each_query(
@@ -124,6 +127,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi) {
+  const nearmiss::PlainArithmetic guard;
   if (lo == nullptr || !(relative_width >= 0)) return NEARMISS_BAD_ARGUMENT;
   const Enclosures to{lo, hi};
   return nearmiss::interface::for_each_query(

@@ -4,7 +4,8 @@
  * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones, too. Nearly all
  * queries are decided in double arithmetic with certified error bounds, without memory from the heap. Exact arithmetic, which decides
  * the others and whether primitives touch at t = 0 or t = 1 where double cannot, allocates memory and takes microseconds to
- * milliseconds. An allocation that fails inside GMP ends the program.
+ * milliseconds; the slowest known queries, with coordinates of very different sizes, take a second. An allocation that fails inside
+ * GMP or CGAL ends the program.
  *
  * All functions may be called from many threads at once; each call works in its own thread. They set the processor's rounding mode
  * if need be and restore it, and neither print nor throw. */
@@ -37,7 +38,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 
 /** The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi, or as small as doubles
  * allow; both are 0 if the primitives touch, and NaN if there is no answer. Separations are ignored. `relative_width` must
- * be at least 1e-9. `hi` may be null. */
+ * not be negative. `hi` may be null. */
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
 

@@ -58,6 +58,14 @@ int main() {
   const Flat u{0, 1}, v{-1, 0}, w{1, 0}, u1{0, -1};
   expect(ccd.point_edge_ccd(u, v, w, u1, v, w, toi) && toi == 0.5, "in the plane");
 
+  // A program compiled with -ffast-math takes subnormal numbers for 0; the points here are apart.
+  using Small = std::array<float, 3>;
+  const Small tiny{0.25F, 0.25F, 1e-40F}, tinier{0.25F, 0.25F, 2e-40F}, fa{0, 0, 0}, fb{1, 0, 0}, fc{0, 1, 0};
+  expect(!ccd.point_triangle_ccd(tiny, fa, fb, fc, tinier, fa, fb, fc, toi), "subnormal floats");
+  const double* const raw = above.data();
+  expect(ccd.point_triangle_ccd(raw, fa, b, fc, below, a, fb, c, toi) && toi == 0.5,
+         "points of several types");
+
   // Where there is no answer, a simulation must not step on.
   const Point nowhere{std::numeric_limits<double>::quiet_NaN(), 0, 0};
   expect(ccd.point_triangle_ccd(nowhere, a, b, c, below, a, b, c, toi) && toi == 0, "not a number");

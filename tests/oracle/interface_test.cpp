@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -32,10 +33,16 @@ constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1,
 
 TEST(Interface, SaysWhichQueriesAreNotFinite) {
   for (const std::size_t count : {1U, 3U, 7U, 300U})  // alone, in a few, and in blocks
-    for (const double odd : {infinity, -infinity, nan}) {
+    for (const auto& [odd, place, is_far] :
+         std::vector<std::tuple<double, std::size_t, bool>>{{infinity, 23, false},
+                                                            {-infinity, 0, false},
+                                                            {nan, 12, false},
+                                                            {nan, 0, true},
+                                                            {infinity, 21, true}}) {
       std::vector<double> x;
       for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
-      x[24 * (count - 1) + 23] = odd;
+      if (is_far) x[24 * (count - 1) + 14] = 9;  // the boxes do not meet
+      x[24 * (count - 1) + place] = odd;
       const Queries queries = Queries::packed(Kind::vertex_triangle, x);
       std::vector<std::int8_t> answers(count), expected(count, NEARMISS_COLLISION);
       expected.back() = NEARMISS_NO_ANSWER;
@@ -166,6 +173,38 @@ TEST(Interface, AnswersInEveryModeOfTheProcessorAndRestoresIt) {
       EXPECT_EQ(distance, 0) << before;
       EXPECT_EQ(status, Status::bad_argument) << before;
     }
+}
+
+TEST(Interface, ComparesArgumentsWithoutTraps) {
+  feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+  const nearmiss_queries query = nearmiss_packed(NEARMISS_VERTEX_TRIANGLE, 1, falling.data());
+  double number = 7;
+  std::int8_t answer = 7;
+  const std::array found{nearmiss_earliest_time(&query, nan, &number, nullptr),
+                         nearmiss_smallest_distance(&query, nan, &number, nullptr),
+                         nearmiss_time_of_impact(&query, nan, &answer, &number)};
+  const bool hit = collides(Kind::vertex_triangle, falling) == Answer::collision;
+  fedisableexcept(FE_ALL_EXCEPT);
+  EXPECT_THAT(found, Each(NEARMISS_BAD_ARGUMENT));
+  EXPECT_TRUE(hit);
+  testing::HostileArithmetic mode(FE_TONEAREST, true);
+  EXPECT_EQ(nearmiss_earliest_time(&query, -std::numeric_limits<double>::denorm_min(), &number, nullptr),
+            NEARMISS_BAD_ARGUMENT);
+}
+
+TEST(Interface, VerticesAndTheStrideOfQueriesAreAddedUp) {
+  const std::vector<std::int32_t> vertices{0, 1, 2, 3, 3, 2, 1, 0};
+  std::vector<double> x(falling.begin(), falling.end());
+  for (const std::size_t vertex : {3U, 2U, 1U, 0U})  // the second query at t = 0, in the other order
+    x.insert(x.end(), &falling[3 * vertex], &falling[3 * vertex] + 3);
+  for (const std::size_t vertex : {3U, 2U, 1U, 0U})
+    x.insert(x.end(), &falling[12 + 3 * vertex], &falling[12 + 3 * vertex] + 3);
+  nearmiss_queries queries = nearmiss_packed(NEARMISS_VERTEX_TRIANGLE, 2, x.data());
+  queries.vertices = vertices.data();
+  std::array<std::int8_t, 2> answers{};
+  std::array<double, 2> toi{};
+  EXPECT_EQ(nearmiss_time_of_impact(&queries, 1, answers.data(), toi.data()), NEARMISS_OK);
+  EXPECT_THAT(toi, Each(0.5));
 }
 
 TEST(Interface, EveryStatusHasAMessageOfItsOwn) {
