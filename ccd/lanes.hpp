@@ -12,6 +12,10 @@
 
 #include "ccd/scalar.hpp"
 
+#if defined __clang__ && defined __AVX512F__
+#include <immintrin.h>
+#endif
+
 namespace nearmiss {
 
 /// n doubles; every operation acts on each of them as on a double. For n = 2, 4 and 8 they fill a register if the code that
@@ -28,6 +32,19 @@ struct ScalarIn<std::experimental::simd<double, Abi>> {
 template <class Real>
 [[gnu::always_inline]] inline Real select(const typename Real::mask_type& mask, const Real& a,
                                           const Real& b) {
+#if defined __clang__ && defined __AVX512F__ && defined __AVX512VL__
+  // Compiled by clang, where() of libstdc++ 12 assigns to the wrong lanes if masks are those of AVX-512.
+  constexpr std::size_t n = Real::size();
+  const auto bits = static_cast<__mmask8>(mask.__to_bitset().to_ulong());
+  if constexpr (n == 2)
+    return std::bit_cast<Real>(_mm_mask_blend_pd(bits, std::bit_cast<__m128d>(b), std::bit_cast<__m128d>(a)));
+  if constexpr (n == 4)
+    return std::bit_cast<Real>(
+        _mm256_mask_blend_pd(bits, std::bit_cast<__m256d>(b), std::bit_cast<__m256d>(a)));
+  if constexpr (n == 8)
+    return std::bit_cast<Real>(
+        _mm512_mask_blend_pd(bits, std::bit_cast<__m512d>(b), std::bit_cast<__m512d>(a)));
+#endif
   Real selected = b;
   where(mask, selected) = a;
   return selected;

@@ -36,7 +36,8 @@ extern "C" {
 /* What a function returns. */
 #define NEARMISS_OK 0         /**< all queries are answered */
 #define NEARMISS_NOT_FINITE 1 /**< all queries are answered, some of them by NEARMISS_NO_ANSWER, or by NaN */
-#define NEARMISS_BAD_ARGUMENT 2  /**< nothing is answered: a null pointer, or an unknown kind or type */
+#define NEARMISS_BAD_ARGUMENT \
+  2 /**< nothing is answered: a null pointer, a number out of range, or a separation for wang */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
 /** Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "oracle/interface/nearmiss.hpp"
 
@@ -51,15 +52,22 @@ class ExactCCD {
   }
 
  private:
-  static double widened(double x) { return x; }
   /// Exactly, also if the processor takes subnormal floats for 0. What is not finite is infinite.
-  static double widened(float x) {
+  static double widened_float(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     constexpr std::uint32_t exponent = 0x7f800000;
     if ((bits & exponent) == exponent) return std::bit_cast<double>(std::uint64_t{0x7ff} << 52);
     if ((bits & exponent) != 0) return double{x};
     const double magnitude = static_cast<double>(bits & 0x7fffff) * 0x1p-149;
     return bits >> 31 == 0 ? magnitude : -magnitude;
+  }
+
+  template <class Number>
+  static double widened(const Number& x) {
+    if constexpr (std::is_same_v<Number, float>)
+      return widened_float(x);
+    else
+      return static_cast<double>(x);
   }
 
   template <int k>

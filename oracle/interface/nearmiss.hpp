@@ -97,7 +97,9 @@ class Queries {
 
  private:
   static int to_c(Kind kind) {
-    return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
+    return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE
+           : kind == Kind::edge_edge     ? NEARMISS_EDGE_EDGE
+                                         : 0;
   }
   [[nodiscard]] Queries with_separations(const double* h, std::ptrdiff_t stride) const noexcept {
     Queries queries = *this;

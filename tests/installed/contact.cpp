@@ -62,6 +62,10 @@ int main() {
   using Small = std::array<float, 3>;
   const Small tiny{0.25F, 0.25F, 1e-40F}, tinier{0.25F, 0.25F, 2e-40F}, fa{0, 0, 0}, fb{1, 0, 0}, fc{0, 1, 0};
   expect(!ccd.point_triangle_ccd(tiny, fa, fb, fc, tinier, fa, fb, fc, toi), "subnormal floats");
+  using Grid = std::array<int, 3>;
+  const Grid ga{0, 0, 0}, gb{4, 0, 0}, gc{0, 4, 0}, high_up{1, 1, 1}, low_down{1, 1, -1};
+  expect(ccd.point_triangle_ccd(high_up, ga, gb, gc, low_down, ga, gb, gc, toi) && toi == 0.5,
+         "whole numbers");
   const double* const raw = above.data();
   expect(ccd.point_triangle_ccd(raw, fa, b, fc, below, a, fb, c, toi) && toi == 0.5,
          "points of several types");

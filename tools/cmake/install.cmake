@@ -67,4 +67,6 @@ endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in ${written}/nearmissConfig.cmake INSTALL_DESTINATION ${config})
 write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
-install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT oracle-dev)
+foreach(component ccd-dev oracle-dev)  # either may be installed alone
+  install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT ${component})
+endforeach()

@@ -1,0 +1,85 @@
+// Compares operations of Lanes with those of double, lane by lane; a compiler's own test, which is built with several of them
+// (lanes_test.sh). Exit code 1 if an operation differs.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "ccd/lanes.hpp"
+
+namespace nearmiss {
+namespace {
+
+bool differs = false;
+
+template <int n>
+class Operations {
+  using Real = Lanes<n>;
+  using Numbers = std::array<double, n>;
+
+ public:
+  void run() {
+    for (int i = 0; i < 1000; ++i) {
+      const Numbers x = numbers();
+      const Numbers y = numbers();
+      const Real a = gather<Real>([&](std::size_t lane) { return x[lane]; });
+      const Real b = gather<Real>([&](std::size_t lane) { return y[lane]; });
+      const auto compare = [&](const char* what, const auto& lanes, const auto& of_double) {
+        for (std::size_t lane = 0; lane < n; ++lane)
+          if (static_cast<double>(lanes[lane]) != static_cast<double>(of_double(x[lane], y[lane])))
+            report(what);
+      };
+      compare("a", a, [](double p, double) { return p; });
+      compare("a + b", a + b, [](double p, double q) { return p + q; });
+      compare("-a * b", -a * b, [](double p, double q) { return -p * q; });
+      compare("|a|", abs(a), [](double p, double) { return std::abs(p); });
+      compare("sqrt", sqrt(abs(a)), [](double p, double) { return std::sqrt(std::abs(p)); });
+      compare("min", min(a, b), [](double p, double q) { return std::min(p, q); });
+      compare("max", max(a, b), [](double p, double q) { return std::max(p, q); });
+      compare("a < b", a < b, [](double p, double q) { return p < q; });
+      compare("a <= b", a <= b, [](double p, double q) { return p <= q; });
+      compare("a == b", a == b, [](double p, double q) { return p == q; });
+      compare("&", (a < b) & (a > 0), [](double p, double q) { return p < q && p > 0; });
+      compare("|", (a < b) | (a > 0), [](double p, double q) { return p < q || p > 0; });
+      compare("!", !(a < b), [](double p, double q) { return !(p < q); });
+      compare("select", select(a < b, a, b), [](double p, double q) { return p < q ? p : q; });
+      compare("a / b", a / select(b == 0, Real(1), b),
+              [](double p, double q) { return p / (q == 0 ? 1 : q); });
+    }
+    std::array<Numbers, n> rows;
+    for (Numbers& row : rows) row = numbers();
+    std::array<Real, n> columns;
+    load_transposed<n>([&](std::size_t row) { return rows[row].data(); }, columns.data());
+    for (std::size_t row = 0; row < n; ++row)
+      for (std::size_t column = 0; column < n; ++column)
+        if (columns[column][row] != rows[row][column]) report("load_transposed");
+  }
+
+ private:
+  Numbers numbers() {
+    Numbers made;
+    for (double& each : made)
+      each = (static_cast<int>(random_() % 9) - 4) / 3.0;  // some are equal, some are 0
+    return made;
+  }
+  static void report(const char* what) {
+    std::printf("%d lanes: %s\n", n, what);
+    differs = true;
+  }
+
+  std::mt19937 random_{1};
+};
+
+}  // namespace
+}  // namespace nearmiss
+
+int main() {
+  nearmiss::Operations<2>().run();
+#ifdef __AVX2__
+  nearmiss::Operations<4>().run();
+#endif
+#ifdef __AVX512F__
+  nearmiss::Operations<8>().run();
+#endif
+  return nearmiss::differs ? 1 : 0;
+}
