@@ -14,11 +14,13 @@
 extern "C" {
 #endif
 
+/** \cond */
 #ifdef __cplusplus
 #define NEARMISS_NULL nullptr
 #else
 #define NEARMISS_NULL NULL
 #endif
+/** \endcond */
 
 /* Kinds of queries, as in nearmiss_subject.h. */
 #define NEARMISS_VERTEX_TRIANGLE 1 /**< vertex x0, triangle x1 x2 x3 */

@@ -18,7 +18,7 @@ mv "$folder/first" "$folder/prefix"
 
 # Other packages' headers of the same names must not matter.
 ! grep -rE '#include "(ccd|oracle)/' "$folder/prefix/include" || fail "an installed header includes a path of the source tree"
-! grep -rlE 'CGAL|boost|gmp' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
+! grep -rlE '#include <(CGAL|boost|gmp)' "$folder/prefix/include" || fail "an installed header needs a library that users need not have"
 
 peers=
 for each in "$here"/../../../shared/peers "$here"/../../../../shared/peers; do [[ ! -d $each/additive ]] || peers=$each; done

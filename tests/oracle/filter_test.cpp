@@ -1,6 +1,7 @@
 // The filter never gives a wrong answer, decides what it should, and is the same for one query and for many.
 #include "oracle/filter/filter.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,8 +149,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
       EXPECT_EQ(filter(query), FilterStage::undecided);
     }
     const auto stages = filter_all(queries, widest_instructions());
-    for (std::size_t i = 0; i < queries.size(); ++i)
-      EXPECT_EQ(stages[i], boxes_meet(queries[i]) ? FilterStage::undecided : FilterStage::boxes);
+    EXPECT_THAT(stages, ::testing::Each(FilterStage::undecided));
   }
 }
 
