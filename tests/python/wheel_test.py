@@ -1,4 +1,4 @@
-"""Builds the wheel of the source tree, without a network, installs it in a new virtual environment, and uses it there.
+"""Packs the modules of a build folder as a wheel, without a network, installs it in a new virtual environment, and uses it there.
 Usage: wheel_test.py BUILD
 """
 
@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-BUILD = pathlib.Path(sys.argv.pop())
+BUILD = pathlib.Path(sys.argv.pop()).resolve()
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / 'tools/python'
 USE = '''
 import nearmiss
@@ -23,6 +23,7 @@ assert nearmiss.trial('basic', 500).counts('basic').missed > 0
 
 def run(*command):
     environment = {key: value for key, value in os.environ.items() if key != 'PYTHONPATH'}
+    environment['NEARMISS_BUILD'] = str(BUILD)
     done = subprocess.run(command, cwd='/', capture_output=True, text=True, env=environment)
     if done.returncode != 0:
         raise AssertionError(done.stdout + done.stderr)

@@ -1,33 +1,44 @@
 """Builds the extension modules with CMake, in build/wheel of the source tree.
 
-The environment variable NEARMISS_COMPONENTS='oracle;python' leaves out trials, and the libraries that only they need.
+The environment variable NEARMISS_COMPONENTS='oracle;python' leaves out trials, and the libraries that only they need. NEARMISS_BUILD
+names a build folder that has the modules already.
 """
 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 root = pathlib.Path(__file__).resolve().parents[2]
-build = root / 'build/wheel'
+built = os.environ.get('NEARMISS_BUILD')
+build = pathlib.Path(built) if built else root / 'build/wheel'
 
 
 class CMakeBuild(build_ext):
     def run(self):
+        if not built:
+            self.build_modules()
+        with tempfile.TemporaryDirectory() as prefix:
+            cmake('--install', build, '--component', 'python', '--strip', '--prefix', prefix)
+            (package,) = pathlib.Path(prefix).rglob('nearmiss/__init__.py')
+            destination = pathlib.Path(self.build_lib) / 'nearmiss'
+            shutil.copytree(package.parent, destination, dirs_exist_ok=True)
+
+    def build_modules(self):
         components = os.environ.get('NEARMISS_COMPONENTS', 'oracle;tools;python')
         generator = ['-G', 'Ninja'] if not (build / 'CMakeCache.txt').exists() else []
         cmake(
             '-S', root, '-B', build, *generator,
-            f'-DNEARMISS_COMPONENTS={components}', '-DNEARMISS_PYTHON_DIR=.',
+            f'-DNEARMISS_COMPONENTS={components}',
             '-DCMAKE_BUILD_TYPE=Release', f'-DPython_EXECUTABLE={sys.executable}',
         )  # fmt: skip
         cmake('--build', build, '--target', 'nearmiss_python')
-        prefix = pathlib.Path(self.build_lib).resolve()
-        cmake('--install', build, '--component', 'python', '--strip', '--prefix', prefix)
 
 
 def cmake(*arguments):
