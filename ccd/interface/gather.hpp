@@ -35,11 +35,16 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
+/// Whether the 12 coordinates of a query at one time, of type T, lie one after the other.
+template <class T>
+bool has_packed_points(const nearmiss_queries& queries) {
+  return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
+         queries.vertices == nullptr;
+}
+
 /// Whether all coordinates of a query are doubles that lie one after the other.
 inline bool lie_in_rows(const nearmiss_queries& queries) {
-  constexpr std::ptrdiff_t size = sizeof(double);
-  return queries.type == NEARMISS_DOUBLE && queries.coordinate_stride == size &&
-         queries.vertex_stride == 3 * size && queries.vertices == nullptr &&
+  return queries.type == NEARMISS_DOUBLE && has_packed_points<double>(queries) &&
          static_cast<const double*>(queries.start) + 12 == queries.end;
 }
 
@@ -48,9 +53,7 @@ template <class T>
 class Reader {
  public:
   explicit Reader(const nearmiss_queries& queries)
-      : queries_(queries),
-        is_packed_(queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
-                   queries.vertices == nullptr) {}
+      : queries_(queries), is_packed_(has_packed_points<T>(queries)) {}
 
   void read(std::size_t q, Query& query) const {
     const auto offset = static_cast<std::ptrdiff_t>(q);

@@ -62,41 +62,39 @@ typedef struct {
   ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all have one */
 } nearmiss_queries;
 
+/** Queries whose vertices have three coordinates, one after the other. `query_size` is the number of coordinates from one query to the
+ * next. */
+static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t count, const int32_t* vertices,
+                                                  const void* start, const void* end, ptrdiff_t query_size) {
+  const ptrdiff_t of_float = sizeof(float);
+  const ptrdiff_t of_double = sizeof(double);
+  const ptrdiff_t size = type == NEARMISS_FLOAT ? of_float : of_double;
+  const nearmiss_queries queries = {kind,     type, count,    start,         end, query_size * size,
+                                    3 * size, size, vertices, NEARMISS_NULL, 0};
+  return queries;
+}
+
 /** Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. */
 static inline nearmiss_queries nearmiss_packed(int kind, size_t count, const double* x) {
-  const ptrdiff_t size = sizeof(double);
-  const nearmiss_queries queries = {kind,           NEARMISS_DOUBLE, count,    x,
-                                    x ? x + 12 : x, 24 * size,       3 * size, size,
-                                    NEARMISS_NULL,  NEARMISS_NULL,   0};
-  return queries;
+  return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, NEARMISS_NULL, x, x ? x + 12 : x, 24);
 }
 
 /** nearmiss_packed() in float. */
 static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, const float* x) {
-  const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {kind,           NEARMISS_FLOAT, count,    x,
-                                    x ? x + 12 : x, 24 * size,      3 * size, size,
-                                    NEARMISS_NULL,  NEARMISS_NULL,  0};
-  return queries;
+  return nearmiss_of_points(kind, NEARMISS_FLOAT, count, NEARMISS_NULL, x, x ? x + 12 : x, 24);
 }
 
 /** Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have three coordinates for
  * each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three numbers, change vertex_stride. */
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
-  const ptrdiff_t size = sizeof(double);
-  const nearmiss_queries queries = {kind, NEARMISS_DOUBLE, count,         start, end, 0, 3 * size,
-                                    size, vertices,        NEARMISS_NULL, 0};
-  return queries;
+  return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, vertices, start, end, 0);
 }
 
 /** nearmiss_of_mesh() in float. */
 static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, const int32_t* vertices,
                                                       const float* start, const float* end) {
-  const ptrdiff_t size = sizeof(float);
-  const nearmiss_queries queries = {kind,     NEARMISS_FLOAT, count,    start,         end, 0,
-                                    3 * size, size,           vertices, NEARMISS_NULL, 0};
-  return queries;
+  return nearmiss_of_points(kind, NEARMISS_FLOAT, count, vertices, start, end, 0);
 }
 
 /** The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep working without being

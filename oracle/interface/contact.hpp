@@ -15,8 +15,8 @@ namespace nearmiss {
 
 /// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at some t in [0, tmax], and
 /// sets `toi` to the largest double that is not after the first such t. So nothing happens in [0, toi), and no rescaling is needed. If
-/// there is no such t, `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a collision
-/// with toi = 0, because a simulation must not step on.
+/// there is no such t, `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a
+/// collision with toi = 0, because a simulation must not step on.
 ///
 /// Points may have any type with operator[] or operator(), and have three coordinates, or two, of which the third is 0, if they have a
 /// size() of 2.

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 
 #include "ccd/kind.hpp"
 #include "oracle/interface/nearmiss.h"
@@ -90,7 +89,7 @@ class Queries {
 
   /// Number of queries.
   [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
-  /// Where the queries are, as the C functions take it.
+  /// The layout, as the C functions take it.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
   /// The same, to be changed.
   nearmiss_queries& layout() noexcept { return layout_; }
@@ -119,54 +118,64 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
   return to.size() == queries.size() || (may_be_empty && to.empty());
 }
 
+/// Calls a C function with the layout, unless spans do not fit or there is nothing to ask: an empty span may be a null pointer.
+template <class Call>
+Status ask(const Queries& queries, bool fit, const Call& call) {
+  if (!fit) return Status::bad_argument;
+  return queries.size() == 0 ? Status::ok : static_cast<Status>(call(&queries.layout()));
+}
+
 }  // namespace detail
 
 /// nearmiss_collides(): whether each query is a collision, and, if wanted, what decided it.
 inline Status collides(const Queries& queries, std::span<std::int8_t> answers,
                        std::span<std::uint8_t> decided_by = {}) noexcept {
-  if (!detail::fits(queries, answers) || !detail::fits(queries, decided_by, true))
-    return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(nearmiss_collides(&queries.layout(), answers.data(), decided_by.data()));
+  const bool fit = detail::fits(queries, answers) && detail::fits(queries, decided_by, true);
+  return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
+    return nearmiss_collides(layout, answers.data(), decided_by.data());
+  });
 }
 
 /// nearmiss_earliest_time(): the earliest time of each collision, with a `width` of 0 to the nearest double below.
 inline Status earliest_times(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
                              double width = 0) noexcept {
-  if (!detail::fits(queries, lo) || !detail::fits(queries, hi, true)) return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(nearmiss_earliest_time(&queries.layout(), width, lo.data(), hi.data()));
+  const bool fit = detail::fits(queries, lo) && detail::fits(queries, hi, true);
+  return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
+    return nearmiss_earliest_time(layout, width, lo.data(), hi.data());
+  });
 }
 
 /// nearmiss_time_of_impact(): whether each query is a collision in [0, tmax], and the largest double that is not after it.
 inline Status times_of_impact(const Queries& queries, std::span<std::int8_t> answers, std::span<double> toi,
                               double tmax = 1) noexcept {
-  if (!detail::fits(queries, answers) || !detail::fits(queries, toi)) return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(nearmiss_time_of_impact(&queries.layout(), tmax, answers.data(), toi.data()));
+  const bool fit = detail::fits(queries, answers) && detail::fits(queries, toi);
+  return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
+    return nearmiss_time_of_impact(layout, tmax, answers.data(), toi.data());
+  });
 }
 
 /// nearmiss_smallest_distance(): the smallest distance over the step.
 inline Status smallest_distances(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
                                  double relative_width = 1e-3) noexcept {
-  if (!detail::fits(queries, lo) || !detail::fits(queries, hi, true)) return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(
-      nearmiss_smallest_distance(&queries.layout(), relative_width, lo.data(), hi.data()));
+  const bool fit = detail::fits(queries, lo) && detail::fits(queries, hi, true);
+  return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
+    return nearmiss_smallest_distance(layout, relative_width, lo.data(), hi.data());
+  });
 }
 
 /// nearmiss_wang(): whether the failure-proof CCD reports each query.
 inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexcept {
-  if (!detail::fits(queries, answers)) return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(nearmiss_wang(&queries.layout(), answers.data()));
+  const bool fit = detail::fits(queries, answers);
+  return detail::ask(queries, fit,
+                     [&](const nearmiss_queries* layout) { return nearmiss_wang(layout, answers.data()); });
 }
 
 /// nearmiss_wang_bound(): the largest distance of a false positive of wang.
 inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noexcept {
-  if (!detail::fits(queries, bounds)) return Status::bad_argument;
-  if (queries.size() == 0) return Status::ok;
-  return static_cast<Status>(nearmiss_wang_bound(&queries.layout(), bounds.data()));
+  const bool fit = detail::fits(queries, bounds);
+  return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
+    return nearmiss_wang_bound(layout, bounds.data());
+  });
 }
 
 /// One query: x0 x1 x2 x3 at t = 0, then at t = 1.

@@ -25,7 +25,7 @@ std::uint8_t decider(FilterStage stage) {
 /// Fewer queries are decided faster one by one.
 constexpr std::size_t fewest_side_by_side = 4;
 
-/// Where answers go.
+/// The arrays of answers.
 struct Answers {
   std::int8_t* answers;
   std::uint8_t* decided_by;
@@ -46,19 +46,29 @@ struct Answers {
   }
 };
 
-/// Where enclosures go.
-struct Enclosures {
-  double *lo, *hi;
-
-  void set(std::size_t q, const Enclosure& enclosure) const {
+/// Encloses a number of each query, at most about `width` wide: lo[q] <= enclosure_of(query) <= hi[q].
+template <class EnclosureOf>
+int enclose(const nearmiss_queries* queries, double width, double* lo, double* hi,
+            const EnclosureOf& enclosure_of) {
+  const PlainArithmetic guard;
+  if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
+  const auto set = [&](std::size_t q, const Enclosure& enclosure) {
     lo[q] = enclosure.lo;
     if (hi != nullptr) hi[q] = enclosure.hi;
-  }
-  void refuse(std::size_t q) const {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    set(q, {nan, nan});
-  }
-};
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return for_each_query(
+      queries, [&](const Query& query, std::size_t q) { set(q, enclosure_of(query)); },
+      [&](std::size_t q) {
+        set(q, {nan, nan});
+      });
+}
+
+/// t* of a query, at most `width` wide; infinite if there is no collision.
+Enclosure enclosed_time(const Query& query, double width) {
+  auto time = earliest_time(query);
+  return time ? time->enclosure(width) : Enclosure{HUGE_VAL, HUGE_VAL};
+}
 
 }  // namespace
 }  // namespace nearmiss::interface
@@ -67,7 +77,6 @@ using nearmiss::FilterStage;
 using nearmiss::Query;
 using nearmiss::QueryRows;
 using nearmiss::interface::Answers;
-using nearmiss::interface::Enclosures;
 
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by) {
   const nearmiss::PlainArithmetic guard;
@@ -93,16 +102,9 @@ int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t*
 }
 
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi) {
-  const nearmiss::PlainArithmetic guard;
-  if (lo == nullptr || !(width >= 0)) return NEARMISS_BAD_ARGUMENT;
-  const Enclosures to{lo, hi};
-  return nearmiss::interface::for_each_query(
-      queries,
-      [&](const Query& query, std::size_t q) {
-        auto time = nearmiss::earliest_time(query);
-        to.set(q, time ? time->enclosure(width) : nearmiss::Enclosure{HUGE_VAL, HUGE_VAL});
-      },
-      [&](std::size_t q) { to.refuse(q); });
+  return nearmiss::interface::enclose(queries, width, lo, hi, [&](const Query& query) {
+    return nearmiss::interface::enclosed_time(query, width);
+  });
 }
 
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi) {
@@ -112,9 +114,8 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
   return nearmiss::interface::for_each_query(
       queries,
       [&](const Query& query, std::size_t q) {
-        auto time = nearmiss::earliest_time(query);
         // A time that is no double is at most tmax if the next double is.
-        const auto enclosure = time ? time->enclosure() : nearmiss::Enclosure{HUGE_VAL, HUGE_VAL};
+        const auto enclosure = nearmiss::interface::enclosed_time(query, 0);
         const bool is_collision = enclosure.hi <= tmax;
         answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
         toi[q] = is_collision ? enclosure.lo : HUGE_VAL;
@@ -127,13 +128,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi) {
-  const nearmiss::PlainArithmetic guard;
-  if (lo == nullptr || !(relative_width >= 0)) return NEARMISS_BAD_ARGUMENT;
-  const Enclosures to{lo, hi};
-  return nearmiss::interface::for_each_query(
-      queries,
-      [&](const Query& query, std::size_t q) {
-        to.set(q, nearmiss::minimum_distance(query, std::min(relative_width, 0.5)));
-      },
-      [&](std::size_t q) { to.refuse(q); });
+  return nearmiss::interface::enclose(queries, relative_width, lo, hi, [&](const Query& query) {
+    return nearmiss::minimum_distance(query, std::min(relative_width, 0.5));
+  });
 }

@@ -70,7 +70,7 @@ int main() {
   expect(ccd.point_triangle_ccd(raw, fa, b, fc, below, a, fb, c, toi) && toi == 0.5,
          "points of several types");
 
-  // Where there is no answer, a simulation must not step on.
+  // Without an answer, a simulation must not step on.
   const Point nowhere{std::numeric_limits<double>::quiet_NaN(), 0, 0};
   expect(ccd.point_triangle_ccd(nowhere, a, b, c, below, a, b, c, toi) && toi == 0, "not a number");
   expect(ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi, -1) && toi == 0, "a negative distance");
