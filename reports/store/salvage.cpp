@@ -44,7 +44,7 @@ void count_findings(Campaign& campaign) {
 
 Salvage salvage_campaign(const std::filesystem::path& file) {
   return naming(file, [&] {
-    SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
+    SQLite::Database db = open_to_read(file);
     db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
     const SQLite::Transaction one_save(db);  // another process may save meanwhile
     db.exec("PRAGMA schema_version");        // throws if this is no database

@@ -47,10 +47,15 @@ bool is_damage(const std::exception& error) {
   return reason->getErrorCode() == SQLITE_CORRUPT || reason->getErrorCode() == SQLITE_ERROR;
 }
 
-/// Whether SQLite fails because the writer of a store was killed, and its log is in a folder that cannot be written.
-bool has_locked_log(const fs::path& file, const std::exception& error) {
+/// The log beside a store whose writer was killed, if SQLite fails because it cannot write in its folder; otherwise "".
+std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
-  return reason != nullptr && reason->getErrorCode() == SQLITE_CANTOPEN && fs::exists(file.string() + "-wal");
+  if (reason == nullptr) return "";
+  const int code = reason->getErrorCode();
+  if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) return "";
+  for (const char* ending : {"-wal", "-journal"})
+    if (const fs::path log = log_of(file, ending); fs::exists(log)) return log.filename().string();
+  return "";
 }
 
 /// Opens a store of at least this version, and runs `act` with it and its version. If it is damaged, the Error also says how much a salvage would save.
@@ -59,15 +64,15 @@ auto reading(const fs::path& file, int oldest, const Act& act) {
   expect_regular_file(file);
   return naming(file, [&] {
     try {
-      SQLite::Database db(file.string(), SQLite::OPEN_READONLY);
+      SQLite::Database db = open_to_read(file);
       const SQLite::Transaction one_save(db);  // another process may save meanwhile
       return act(db, version_of(db, oldest));
     } catch (const std::exception& error) {
-      if (has_locked_log(file, error))
-        throw Error(fmt::format(
-            "found the log {}-wal in a folder that cannot be written, expected write permission or "
-            "a copy of both files elsewhere",
-            file.filename().string()));
+      if (const std::string log = locked_log(file, error); !log.empty())
+        throw Error(
+            fmt::format("found the log {} in a folder that cannot be written, expected write permission or "
+                        "a copy of both files elsewhere",
+                        log));
       if (!is_damage(error)) throw;
       throw Error(fmt::format("damaged: {}; {}", error.what(), advice(file)));
     }
@@ -137,7 +142,7 @@ bool Store::exists(const fs::path& file) { return fs::exists(file) && !is_empty_
 
 void Store::remove(const fs::path& file) {
   std::error_code ignored;
-  for (const char* part : {"", "-wal", "-shm"}) fs::remove(file.string() + part, ignored);
+  for (const char* part : {"", "-wal", "-shm", "-journal"}) fs::remove(file.string() + part, ignored);
 }
 
 Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)

@@ -1,14 +1,22 @@
-// The kind and the version of a store's file, and the way in which errors name it.
+// How a store's file is opened, its kind and version, and the way in which errors name it.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "ccd/error.hpp"
 
 namespace nearmiss {
+
+/// The log with this ending that SQLite keeps beside a store while it is written, and that a killed writer leaves there.
+std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
+
+/// Opens a store to read it. It is changed only if its writer was killed while it changed the file itself: then
+/// SQLite takes back the half-done change, by the journal beside the store.
+SQLite::Database open_to_read(const std::filesystem::path& file);
 
 /// Marks an empty database as a store of this version.
 void write_version(SQLite::Database& db);

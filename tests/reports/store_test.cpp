@@ -32,6 +32,8 @@ TEST_F(StoreTest, AKillDuringItsCreationLeavesNoStore) {
   sqlite3_close(db);
   EXPECT_GT(std::filesystem::file_size(file("a.db")), 0);
   EXPECT_FALSE(Store::exists(file("a.db")));
+  EXPECT_THAT([&] { load_campaign(file("a.db")); },
+              ThrowsMessage<Error>(HasSubstr("a.db: found an empty database")));
   { const Store store(file("a.db"), {{"command", "fuzz"}}, {}); }
   EXPECT_TRUE(Store::exists(file("a.db")));
   EXPECT_THAT(
@@ -39,6 +41,25 @@ TEST_F(StoreTest, AKillDuringItsCreationLeavesNoStore) {
         Store(file("a.db"), {{"command", "fuzz"}}, {});
       },
       ThrowsMessage<Error>(HasSubstr("a.db: exists already")));
+}
+
+TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
+  { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
+  std::filesystem::create_directory(file("killed"));
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(file("a.db").c_str(), &db), SQLITE_OK);
+  // Without a cache, the change is in the file before it is committed, as after a kill.
+  const char* const half_a_change =
+      "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
+      "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "
+      "SELECT i FROM n";
+  ASSERT_EQ(sqlite3_exec(db, half_a_change, nullptr, nullptr, nullptr), SQLITE_OK);
+  for (const char* name : {"a.db", "a.db-journal"}) copy_file(file(name), file("killed") / name);
+  sqlite3_close(db);
+  ASSERT_NE(read("a.db"), read("killed/a.db"));
+  create_symlink(file("killed") / "a.db", file("link.db"));
+  EXPECT_EQ(load_campaign(file("link.db")).statistics, some_statistics("wang"));
+  EXPECT_EQ(read("a.db"), read("killed/a.db"));
 }
 
 TEST_F(StoreTest, AFileOfAnotherKindIsNotReplaced) {

@@ -111,7 +111,7 @@ class Campaign:
     def files(self, store=None):
         """The files of a store that exist."""
         store = store or self.store
-        names = [f'{store.name}{end}' for end in ('', '-wal', '-shm', '.lock')]
+        names = [f'{store.name}{end}' for end in ('', '-wal', '-shm', '-journal', '.lock')]
         return [store.with_name(name) for name in names if store.with_name(name).exists()]
 
     def check_progress(self):
