@@ -24,10 +24,31 @@ inline bool are_readable(const nearmiss_queries* queries) {
          (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
 }
 
+/// A number in the caller's memory, wherever it lies.
+template <class Number>
+Number number_at(const void* base, std::ptrdiff_t offset) {
+  Number value;
+  std::memcpy(&value, static_cast<const std::byte*>(base) + offset, sizeof value);
+  return value;
+}
+
+/// The separation of query q, if separations are given.
+inline double separation_of(const nearmiss_queries& queries, std::size_t q) {
+  return number_at<double>(queries.separation, static_cast<std::ptrdiff_t>(q) * queries.separation_stride);
+}
+
+/// Whether `count` queries from the query `first` on have the separation 0.
+inline bool ask_for_contact(const nearmiss_queries& queries, std::size_t first, std::size_t count) {
+  if (queries.separation == nullptr) return true;
+  if (queries.separation_stride == 0) count = std::min<std::size_t>(count, 1);
+  for (std::size_t q = first; q < first + count; ++q)
+    if (separation_of(queries, q) != 0) return false;
+  return true;
+}
+
 /// Whether all queries have the separation 0.
-inline bool asks_for_contact(const nearmiss_queries& queries) {
-  return queries.count == 0 || queries.separation == nullptr ||
-         (queries.separation_stride == 0 && *queries.separation == 0);
+inline bool ask_for_contact(const nearmiss_queries& queries) {
+  return ask_for_contact(queries, 0, queries.count);
 }
 
 /// Whether a query has an answer.
@@ -61,19 +82,10 @@ class Reader {
                 &query.x[0]);
     read_points(q, static_cast<const std::byte*>(queries_.end) + offset * queries_.query_stride,
                 &query.x[12]);
-    if (queries_.separation != nullptr)
-      query.separation = number<double>(reinterpret_cast<const std::byte*>(queries_.separation) +
-                                        offset * queries_.separation_stride);
+    if (queries_.separation != nullptr) query.separation = separation_of(queries_, q);
   }
 
  private:
-  template <class Number>
-  static Number number(const std::byte* at) {
-    Number value;
-    std::memcpy(&value, at, sizeof value);
-    return value;
-  }
-
   void read_points(std::size_t q, const std::byte* first, double* x) const {
     if (is_packed_) {
       std::array<T, 12> numbers;
@@ -84,8 +96,9 @@ class Reader {
     for (std::size_t i = 0; i < 4; ++i) {
       const std::ptrdiff_t vertex =
           queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i) : queries_.vertices[4 * q + i];
-      const std::byte* const point = first + vertex * queries_.vertex_stride;
-      for (std::ptrdiff_t k = 0; k < 3; ++k) *x++ = number<T>(point + k * queries_.coordinate_stride);
+      const std::ptrdiff_t point = vertex * queries_.vertex_stride;
+      for (std::ptrdiff_t k = 0; k < 3; ++k)
+        *x++ = number_at<T>(first, point + k * queries_.coordinate_stride);
     }
   }
 
@@ -133,7 +146,7 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
   const Kind kind = queries->kind == NEARMISS_EDGE_EDGE ? Kind::edge_edge : Kind::vertex_triangle;
   try {
-    if (lie_in_rows(*queries) && asks_for_contact(*queries)) {
+    if (lie_in_rows(*queries) && ask_for_contact(*queries)) {
       const QueryRows rows(kind, static_cast<const double*>(queries->start), queries->query_stride,
                            queries->count);
       return for_parts(

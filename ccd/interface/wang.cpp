@@ -23,7 +23,7 @@ bool reports(const Query& query) {
 
 /// Whether the arguments are usable; wang takes no separation.
 bool are_usable(const nearmiss_queries* queries, const void* to) {
-  return to != nullptr && queries != nullptr && nearmiss::interface::asks_for_contact(*queries);
+  return to != nullptr && queries != nullptr && nearmiss::interface::ask_for_contact(*queries);
 }
 
 }  // namespace

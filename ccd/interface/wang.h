@@ -2,8 +2,8 @@
  * The failure-proof CCD of Wang (2014) for queries in the caller's memory. C99.
  *
  * It reports every collision, also in degenerate and extreme queries. It may report a pair that does not collide, but none whose
- * primitives stay farther apart than nearmiss_wang_bound() says. It takes no separation: `separation` must be null, or point
- * to one 0 for all queries (a stride of 0). Anything else is NEARMISS_BAD_ARGUMENT.
+ * primitives stay farther apart than nearmiss_wang_bound() says. It takes no separation: every separation
+ * must be 0, or the result is NEARMISS_BAD_ARGUMENT.
  *
  * All functions may be called from many threads at once, set the processor's rounding mode if need be and restore it, and neither
  * allocate, print nor throw. */

@@ -9,6 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/subjects/beside.hpp"
+#include "reports/text/shell.hpp"
 
 namespace nearmiss {
 
@@ -41,8 +42,8 @@ bool is_built(const Peer& peer) {
 
 std::string how_to_build(const Peer& peer) {
   return peer.package.empty()
-             ? fmt::format("run tools/peers DIR {}, with the folder of the authors' source trees",
-                           peer.object)
+             ? fmt::format("run tools/peers --output {} DIR {}, with the folder of the authors' source trees",
+                           shell_quoted(path_beside("peers")), peer.object)
              : fmt::format("install {}, remove the build folder, and run tools/setup", peer.package);
 }
 

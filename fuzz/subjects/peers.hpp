@@ -21,7 +21,7 @@ std::span<const Peer> peers();
 /// The path of its plug-in.
 std::string path_of(const Peer& peer);
 bool is_built(const Peer& peer);
-/// How to build it, as an instruction: "run tools/peers DIR ...".
+/// How to build it, as an instruction: "run tools/peers ...".
 std::string how_to_build(const Peer& peer);
 
 /// The plug-in that a name stands for: "tight-inclusion:tolerance=1e-3" is

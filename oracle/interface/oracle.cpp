@@ -81,12 +81,11 @@ using nearmiss::interface::Answers;
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by) {
   const nearmiss::PlainArithmetic guard;
   if (answers == nullptr) return NEARMISS_BAD_ARGUMENT;
-  using nearmiss::interface::asks_for_contact;
   const Answers to{answers, decided_by};
   return nearmiss::interface::for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, nearmiss::interface::block_size> stages;
-    const bool side_by_side =
-        asks_for_contact(*queries) && block.size() >= nearmiss::interface::fewest_side_by_side;
+    const bool side_by_side = block.size() >= nearmiss::interface::fewest_side_by_side &&
+                              nearmiss::interface::ask_for_contact(*queries, first, block.size());
     if (side_by_side) nearmiss::filter(block, stages);
     int status = NEARMISS_OK;
     for (std::size_t i = 0; i < block.size(); ++i) {

@@ -57,9 +57,13 @@ debian sh -c 'gcc -std=c99 nearmiss/tests/installed/answers.c $(pkg-config --cfl
 install "$(cd "$root" && ls ./nearmiss_*.deb)"
 debian /nearmiss/tests/installed/tools_test.sh /usr
 debian sh -c 'cd /tmp && nearmiss demo'
+install "$(cd "$root" && ls ./python3-nearmiss_*.deb)"
+debian python3 -B nearmiss/tests/python/trial_test.py /usr/bin/nearmiss
 get purge -y nearmiss
 answers /tmp/without_tools
 get remove -y libnearmiss-dev libnearmiss1 pkg-config
+debian sh -c 'python3 -B /nearmiss/tests/installed/answers.py </queries'
+get remove -y python3-nearmiss
 get autoremove -y --purge
 rm -rf "$root"/tmp/*
 files >"$folder/after"

@@ -74,6 +74,28 @@ cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.." >"$fo
 cmake -S "$here/../.." -B "$folder/plain" >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
+# The templates alone need only Eigen, and nothing is compiled for them.
+cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON >"$folder/log" 2>&1 && cmake --install "$folder/headers" --prefix "$folder/only" >>"$folder/log" ||
+  fail "$(tail "$folder/log")"
+mkdir "$folder/alone"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(alone CXX)' 'find_package(nearmiss 1 REQUIRED COMPONENTS ccd)' \
+  'add_executable(alone alone.cpp)' 'target_link_libraries(alone nearmiss::ccd)' >"$folder/alone/CMakeLists.txt"
+cat >"$folder/alone/alone.cpp" <<'END'
+#include <nearmiss/ccd/wang.hpp>
+using nearmiss::Kind;
+int main() {
+  const nearmiss::Query touching{.kind = Kind::vertex_triangle, .x = {}};
+  return nearmiss::wang<Kind::vertex_triangle, double, nearmiss::WangOptions{}>(touching).hit ? 0 : 1;
+}
+END
+cmake -S "$folder/alone" -B "$folder/alone/b" -DCMAKE_PREFIX_PATH="$folder/only" >"$folder/log" 2>&1 && cmake --build "$folder/alone/b" >>"$folder/log" 2>&1 &&
+  "$folder/alone/b/alone" || fail "$(tail "$folder/log")"
+
+# What is asked for must be there.
+! cmake -S "$here/../.." -B "$folder/unknown" -DNEARMISS_COMPONENTS=ccd,oracle >"$folder/log" 2>&1 || fail "cmake accepts unknown components"
+grep -q "found 'ccd,oracle', expected some of ccd, oracle" "$folder/log" || fail "$(cat "$folder/log")"
+
 # The program finds its own files in the prefix, also while the build folder has them. The worker is replaced by a script that notes
 # its call, and a published CCD by an empty file.
 "$here/tools_test.sh" "$folder/prefix"

@@ -93,6 +93,30 @@ TEST(Interface, EachQueryMayHaveItsOwnSeparation) {
   EXPECT_THAT(answers, ElementsAre(0, 0, 0, 1));
 }
 
+TEST(Interface, SeparationsOfZeroAskForContact) {
+  constexpr std::size_t count = 300;  // more than a block
+  std::vector<double> x;
+  for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
+  x[14] = 0.5;                     // the first one stops at a distance of 1/2
+  x[24 * (count - 1) + 14] = 0.5;  // and so does the last one
+  std::vector<double> h(count);
+  const Queries queries = Queries::packed(Kind::vertex_triangle, x).with_separations(h);
+  std::vector<std::int8_t> expected(count, 1);
+  expected.front() = expected.back() = 0;
+  std::vector<std::int8_t> answers(count);
+  EXPECT_EQ(collides(queries, answers), Status::ok);
+  EXPECT_EQ(answers, expected);
+  answers.clear();
+  answers.resize(count);
+  EXPECT_EQ(wang(queries, answers), Status::ok);
+  EXPECT_EQ(answers, expected);
+  h.back() = 0.5;
+  expected.back() = 1;
+  EXPECT_EQ(collides(queries, answers), Status::ok);
+  EXPECT_EQ(answers, expected);
+  EXPECT_EQ(wang(queries, answers), Status::bad_argument);
+}
+
 TEST(Interface, RefusesArgumentsAndWritesNothing) {
   nearmiss_queries queries = nearmiss_packed(NEARMISS_EDGE_EDGE, 1, falling.data());
   std::int8_t answer = 7;

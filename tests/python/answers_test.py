@@ -161,9 +161,9 @@ class Options(unittest.TestCase):
 
     def test_relative_width_is_that_of_distances(self):
         x = np.random.default_rng(1).random((100, 2, 4, 3))
-        for width in (0.1, 1e-9):
+        for width in (0.1, 1e-9, 0):
             lo, hi = nearmiss.smallest_distance('ee', x, relative_width=width)
-            self.assertTrue((hi - lo <= width * hi).all())
+            self.assertTrue((hi - lo <= np.maximum(width * hi, np.spacing(lo))).all())
 
     def test_one_separation_is_that_of_all_queries(self):
         x = np.stack([self.falls, self.falls - [[[0, 0, 0]], [[0, 0, -2.5]]]])

@@ -109,8 +109,8 @@ class Refusals(unittest.TestCase):
         self.expect(ValueError, wanted, nearmiss.time_of_impact, 'vt', X, 0, 1.5)
         wanted = 'width is nan, expected a number that is not negative'
         self.expect(ValueError, wanted, nearmiss.earliest_time, 'vt', X, width=np.nan)
-        wanted = 'relative_width is 1e-10, expected at least 1e-9'
-        self.expect(ValueError, wanted, nearmiss.smallest_distance, 'vt', X, relative_width=1e-10)
+        wanted = 'relative_width is -1.0, expected a number that is not negative'
+        self.expect(ValueError, wanted, nearmiss.smallest_distance, 'vt', X, relative_width=-1.0)
 
 
 def many_queries():

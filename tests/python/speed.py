@@ -1,9 +1,12 @@
-"""Measures what the Python package adds to the C function on the same memory: ns of processor time per query of the uniform family,
-medians of 15 runs that take turns, and their ratio.
-Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release/oracle/libnearmiss.so
+"""Measures what each interface adds to the harness's own call, in ns of processor time per query: the Python package and the C function,
+on the same memory, for a million queries of the uniform family. All take turns. Prints medians of 15 runs, and their ratios to the
+harness; times of impact, which the harness asks one by one, and float32, which it does not take, are compared with the C function on
+the same memory.
+Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
 import ctypes
+import pathlib
 import statistics
 import sys
 import time
@@ -14,7 +17,10 @@ import nearmiss
 
 COUNT, RUNS = 10**6, 15
 
-library = ctypes.CDLL(sys.argv[1])
+build = pathlib.Path(sys.argv[1])
+library = ctypes.CDLL(build / 'oracle/libnearmiss.so')
+harness = ctypes.CDLL(build / 'tests/benchmarks/libharness.so')
+harness.harness_new.restype = ctypes.c_void_p
 
 
 class Queries(ctypes.Structure):
@@ -35,53 +41,76 @@ class Queries(ctypes.Structure):
     ]
 
 
+def pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+def queries_of(number, array):
+    size = array.itemsize
+    return Queries(
+        number, array.dtype != float, len(array), array.ctypes.data, array.ctypes.data + 12 * size,
+        24 * size, 3 * size, size, None, None, 0,
+    )  # fmt: skip
+
+
 def duration(call):
     start = time.process_time()
     call()
     return 1e9 * (time.process_time() - start)
 
 
-def compare(name, by_python, by_c, count):
-    times = [(duration(by_python), duration(by_c)) for _ in range(RUNS)]
-    python, c = (statistics.median(each) / count for each in zip(*times))
-    print(f'{name:32} {python:8.1f} {c:8.1f} {python / c:7.3f}', flush=True)
+def compare(name, count, reference, **calls):
+    """Prints the time of each call, and its ratio to that of the reference."""
+    every = [reference, *calls.values()]
+    times = [[duration(call) for call in every] for _ in range(RUNS)]
+    base, *others = (statistics.median(each) / count for each in zip(*times))
+    columns = [f'{each:8.1f} {each / base:6.3f}' for each in others]
+    columns = dict(zip(calls, columns))
+    print(f'{name:28} {base:9.1f}   {columns.get("c", ""):15}   {columns["python"]}', flush=True)
 
 
-def measure(kind, number):
+def measure_answers(kind, number, array):
+    asked = queries_of(number, array)
+
+    for name, subject, rest in (('collides', b'exact-decision', [None]), ('wang', b'wang', [])):
+        in_c, in_python = getattr(library, f'nearmiss_{name}'), getattr(nearmiss, name)
+
+        def ask_c():
+            in_c(ctypes.byref(asked), pointer(np.empty(len(array), np.int8)), *rest)
+
+        def ask_python():
+            in_python(kind, array)
+
+        of = f'{name}, {kind}, {array.dtype}'
+        if array.dtype != float:
+            compare(of, len(array), ask_c, python=ask_python)
+            continue
+        handle = ctypes.c_void_p(
+            harness.harness_new(subject, number, pointer(array), ctypes.c_size_t(len(array)))
+        )
+        compare(of, len(array), lambda: harness.harness_decide(handle), c=ask_c, python=ask_python)
+        harness.harness_delete(handle)
+
+
+def measure_times(kind, number, array):
+    asked = queries_of(number, array)
+
+    def ask_c():
+        lo, hi = np.empty(len(array)), np.empty(len(array))
+        library.nearmiss_earliest_time(
+            ctypes.byref(asked), ctypes.c_double(0), pointer(lo), pointer(hi)
+        )
+
+    compare(
+        f'earliest_time, {kind}, {array.dtype}', len(array), ask_c,
+        python=lambda: nearmiss.earliest_time(kind, array),
+    )  # fmt: skip
+
+
+print(f'{"ns per query":28} reference   C       ratio     Python  ratio')
+for kind, number in (('vt', 1), ('ee', 2)):
     x, _ = nearmiss.queries('uniform', kind, COUNT)
     single = x.astype(np.float32)
-    for array, type_number in ((x, 0), (single, 1)):
-        size = array.itemsize
-        queries = Queries(
-            number, type_number, COUNT, array.ctypes.data, array.ctypes.data + 12 * size,
-            24 * size, 3 * size, size, None, None, 0,
-        )  # fmt: skip
-        of = f'{kind}, {array.dtype}'
-        asked = ctypes.byref(queries)
-
-        def answers_of(function, *rest):
-            answers = np.empty(queries.count, np.int8)
-            pointer = answers.ctypes.data_as(ctypes.c_void_p)
-            return function(asked, pointer, *rest)
-
-        queries.count = COUNT
-        for name, rest in (('collides', [None]), ('wang', [])):
-            in_c, in_python = getattr(library, f'nearmiss_{name}'), getattr(nearmiss, name)
-            compare(
-                f'{name}, {of}', lambda: in_python(kind, array), lambda: answers_of(in_c, *rest), COUNT
-            )  # fmt: skip
-        few = queries.count = COUNT // 20  # a time takes longer than an answer
-
-        def times():
-            lo, hi = np.empty(few), np.empty(few)
-            to = (each.ctypes.data_as(ctypes.c_void_p) for each in (lo, hi))
-            library.nearmiss_earliest_time(asked, ctypes.c_double(0), *to)
-
-        compare(
-            f'earliest_time, {of}', lambda: nearmiss.earliest_time(kind, array[:few]), times, few
-        )  # fmt: skip
-
-
-print(f'{"ns per query":32}   Python        C   ratio')
-measure('vt', 1)
-measure('ee', 2)
+    measure_answers(kind, number, x)
+    measure_answers(kind, number, single)
+    measure_times(kind, number, x[: COUNT // 20])  # a time takes longer than an answer

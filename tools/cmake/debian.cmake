@@ -46,12 +46,17 @@ macro(nearmiss_package name section)
   file(READ ${PROJECT_SOURCE_DIR}/tools/debian/${name}.txt CPACK_DEBIAN_${GROUP}_DESCRIPTION)
 endmacro()
 
-# A package of another language needs a component that installs its files, and one more line here.
 nearmiss_package(libnearmiss1 libs oracle)
 nearmiss_package(libnearmiss-dev libdevel oracle-dev ccd-dev)
 nearmiss_package(nearmiss science tools)
+nearmiss_package(python3-nearmiss python python)
 set(control shlibs symbols triggers)
 list(TRANSFORM control PREPEND ${PROJECT_SOURCE_DIR}/tools/debian/ OUTPUT_VARIABLE CPACK_DEBIAN_LIBNEARMISS1_PACKAGE_CONTROL_EXTRA)
 set(CPACK_DEBIAN_LIBNEARMISS_DEV_PACKAGE_DEPENDS "libnearmiss1 (= ${version}), libeigen3-dev")
 set(CPACK_DEBIAN_NEARMISS_PACKAGE_SUGGESTS "libnearmiss-dev")
+# The modules are built for one version of Python.
+math(EXPR next "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON3_NEARMISS_PACKAGE_DEPENDS
+  "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next}), python3-numpy (>= 1:1.22)")
+set(CPACK_DEBIAN_PYTHON3_NEARMISS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/tools/debian/python3/postinst ${PROJECT_SOURCE_DIR}/tools/debian/python3/prerm)
 include(CPack)

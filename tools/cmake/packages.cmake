@@ -1,5 +1,8 @@
 # The libraries that nearmiss builds on, all from Debian 12; tools/packages.txt gives the reasons.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(NEARMISS_HEADERS_ONLY)
+  return()
+endif()
 find_package(CGAL REQUIRED QUIET)
 find_package(Boost 1.74 REQUIRED)
 if(NEARMISS_ENVIRONMENT)

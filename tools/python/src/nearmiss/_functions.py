@@ -121,11 +121,12 @@ def smallest_distance(
 ) -> Interval:
     """The smallest distance d over the step, in the unit of the coordinates: lo <= d <= hi.
 
-    hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch. `relative_width`
-    must be at least 1e-9.
+    hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch.
     """
-    if not relative_width >= 1e-9:
-        raise ValueError(f'relative_width is {relative_width}, expected at least 1e-9')
+    if not relative_width >= 0:
+        raise ValueError(
+            f'relative_width is {relative_width}, expected a number that is not negative'
+        )
     asked = Asked(kind, x)
     return Interval(
         *map(asked.answers, _interface.smallest_distance(asked.queries, relative_width))

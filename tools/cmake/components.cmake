@@ -1,0 +1,21 @@
+# What NEARMISS_COMPONENTS asks for.
+set(known ccd oracle tools python tests)
+foreach(component IN LISTS NEARMISS_COMPONENTS)
+  if(NOT component IN_LIST known)
+    list(JOIN known ", " known)
+    message(FATAL_ERROR "NEARMISS_COMPONENTS: found '${component}', expected some of ${known}, with ';' between them")
+  endif()
+endforeach()
+if("tests" IN_LIST NEARMISS_COMPONENTS)
+  foreach(component IN LISTS known)
+    if(NOT component IN_LIST NEARMISS_COMPONENTS)
+      message(FATAL_ERROR "NEARMISS_COMPONENTS: found tests without ${component}, expected all components, which they test")
+    endif()
+  endforeach()
+endif()
+
+# The component ccd is made of headers, and needs only Eigen.
+set(NEARMISS_HEADERS_ONLY OFF)
+if(NEARMISS_COMPONENTS STREQUAL ccd AND NOT NEARMISS_ENVIRONMENT AND NOT NEARMISS_LIBFUZZER)
+  set(NEARMISS_HEADERS_ONLY ON)
+endif()
