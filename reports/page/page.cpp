@@ -33,6 +33,7 @@ NEARMISS_ASSET(nearmiss_page_cases, NEARMISS_PAGE "/cases.js");
 NEARMISS_ASSET(nearmiss_page_scenes, NEARMISS_PAGE "/scenes.js");
 NEARMISS_ASSET(nearmiss_page_ladder, NEARMISS_PAGE "/ladder.js");
 NEARMISS_ASSET(nearmiss_page_charts, NEARMISS_PAGE "/charts.js");
+NEARMISS_ASSET(nearmiss_page_options, NEARMISS_PAGE "/options.js");
 NEARMISS_ASSET(nearmiss_page_scorecard, NEARMISS_PAGE "/scorecard.js");
 NEARMISS_ASSET(nearmiss_page_js, NEARMISS_PAGE "/page.js");
 NEARMISS_ASSET(nearmiss_page_vega, NEARMISS_PAGE "/node_modules/vega/build/vega.min.js");
@@ -92,6 +93,7 @@ std::string report_page(const nlohmann::ordered_json& report) {
                                       between(nearmiss_page_cases_begin, nearmiss_page_cases_end),
                                       between(nearmiss_page_scenes_begin, nearmiss_page_scenes_end),
                                       between(nearmiss_page_ladder_begin, nearmiss_page_ladder_end),
+                                      between(nearmiss_page_options_begin, nearmiss_page_options_end),
                                       between(nearmiss_page_scorecard_begin, nearmiss_page_scorecard_end),
                                       between(nearmiss_page_js_begin, nearmiss_page_js_end)})
     scripts += fmt::format("<script nonce=\"{}\">\n{}\n</script>", nonce, each);

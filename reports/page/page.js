@@ -269,6 +269,7 @@ drawHow();
 const charts = [
   ["error-time-section", drawErrorTime, Object.keys(report.error_against_time.subjects).length > 0],
   ["earliness", drawEarliness, earlinessRows().length > 0],
+  ["options-section", drawOptions, report.option_sweeps !== undefined],
   ["misses-section", drawMisses, missRows().some((row) => row.false_negatives > 0)],
   ["rates-section", drawRates, rateRows().length > 0],
   ["distances-section", drawDistances, countRows(false).some((row) => row.false_positives > 0)],

@@ -10,7 +10,7 @@ const axe = readFileSync(new URL("../../../reports/page/node_modules/axe-core/ax
 /** axe-core finds nothing, in both themes and on a phone. */
 export async function hasNoBarriers(browser) {
   const [light, dark, phone] = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 800 } }];
-  for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light]])
+  for (const [name, ...all] of [["found", light, dark, phone], ["timed", dark], ["many", phone], ["clean", light], ["later", dark], ["decided", light], ["options", light, dark]])
     for (const options of all) {
       const page = await open(browser, pageOf(name), options);
       await page.evaluate(axe);

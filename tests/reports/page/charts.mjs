@@ -1,7 +1,7 @@
 // Tests charts of sweeps, of claims of no distance, and of deciders.
 import assert from "node:assert/strict";
 import { dirname, join } from "node:path";
-import { count, jsonOf, makeReport, nearmiss, open, pageOf } from "./session.mjs";
+import { count, jsonOf, makeReport, nearmiss, open, pageOf, run } from "./session.mjs";
 
 export async function showsSweeps(browser) {
   const page = await open(browser, makeReport("swept",
@@ -14,6 +14,23 @@ export async function showsSweeps(browser) {
     .map((field) => steps.filter((step) => step[field] > 0).length);
   assert.ok(shown[0] >= 6); // basic misses at all values
   assert.equal(await count(page, "#sweeps .role-scope .mark-rect.role-mark path"), 4 * 12 + shown.reduce((a, b) => a + b));
+  await page.close();
+}
+
+/** A row of charts for each option, with a point for each class and value that has the number. */
+export async function showsValuesOfOptions(browser) {
+  const plugin = join(dirname(nearmiss), "plugins", "sampling.so");
+  run("tightness", "--subject", `wang,${plugin}:tolerance=*`, "--values", "0,0.01,1", "--cases", "1200", "--db", "options.db");
+  run("report", "options.db", "-o", "options");
+  const page = await open(browser, pageOf("options"));
+  const steps = jsonOf("options").option_sweeps["sampling:tolerance=*"];
+  assert.equal(steps.length, 9);
+  const timed = steps.filter((step) => step.time_sort !== "none").length;
+  assert.equal(await count(page, "#options .mark-symbol.role-mark path"), 3 * 9 + timed);
+  const titles = await page.locator("#options .role-title-text text").allTextContents();
+  assert.deepEqual(titles, ["missed, among collisions", "false positives, among non-collisions", "early, 99 % at most", "ns a query", "sampling:tolerance=*"]);
+  const ends = await page.locator("#options .role-axis-label text").allTextContents();
+  assert.ok(ends.includes("100 %") && ends.includes("0"));
   await page.close();
 }
 

@@ -1,0 +1,41 @@
+// Draws what the values of an option of a subject trade for what.
+"use strict";
+
+const optionRates = {
+  false_negative_rate: { title: "missed, among collisions", digits: "share" },
+  late_rate: { title: "late, among promised times", digits: "share" },
+  false_positive_rate: { title: "false positives, among non-collisions", digits: "share" },
+  early: { title: "early, 99 % at most", digits: "number" },
+  ns_per_query: { title: "ns a query", digits: "number" },
+};
+
+/** The steps of each sweep of an option, with the numbers that the charts show. */
+const optionSteps = () => Object.entries(report.option_sweeps).map(([pattern, steps]) => [pattern, steps.map((step) => ({ ...step,
+  late_rate: step.times_promised > 0 ? step.late / step.times_promised : null, early: step.time_sort === "none" ? null : step.q99_early[1] }))]);
+
+function drawOptions() {
+  const sweeps = optionSteps();
+  const classes = ["ordinary", "degenerate", "extreme", "unclassified"].filter((name) => sweeps.some(([, steps]) => steps.some((step) => step.class === name)));
+  const shown = Object.entries(optionRates).filter(([field]) => sweeps.some(([, steps]) => steps.some((step) => step[field] > 0)));
+  const hue = { field: "class", type: "nominal", title: "class of families", scale: { domain: classes, range: palette } };
+  const tooltip = [{ field: "value" }, { field: "class" }, { field: "queries" }, { field: "collisions" }, { field: "false_negatives", title: "missed" },
+    { field: "late" }, { field: "false_positives", title: "false positives" }, { field: "without_answer", title: "without an answer" },
+    { field: "ns_per_query", title: "ns a query", ...digits(4) }];
+  const panel = (steps) => ([field, { title, digits: form }]) => {
+    const [across, up] = [logAxis(steps.map((step) => step.value)), logAxis(steps.map((step) => step[field]).filter((value) => value !== null))];
+    const rows = steps.filter((step) => step[field] !== null).map((step) => ({ ...step, across: across.at(step.value), up: up.at(step[field]) }));
+    const labels = form === "share" ? { labelExpr: up.axis.labelExpr.replace("digits(datum.value, 3)", "share(datum.value)") } : {};
+    return {
+      title, width: Math.max(200, Math.min(300, (element("how").clientWidth - 80 * shown.length) / shown.length)), height: 200, data: { values: rows },
+      mark: { type: "line", point: { filled: true, size: 50 } },
+      encoding: {
+        x: { field: "across", type: "quantitative", title: "value", scale: across.scale, axis: across.axis },
+        y: { field: "up", type: "quantitative", title: null, scale: up.scale, axis: { ...up.axis, ...labels } },
+        color: hue, tooltip,
+      },
+    };
+  };
+  return draw("options", "For each value of an option, the rates of misses and of false positives, and the run time.", {
+    vconcat: sweeps.map(([pattern, steps]) => ({ title: { text: pattern, anchor: "start", offset: 12 }, hconcat: shown.map(panel(steps)) })),
+  });
+}
