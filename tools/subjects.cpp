@@ -9,6 +9,7 @@
 
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
+#include "ccd/plugin.hpp"
 #include "fuzz/libfuzzer/targets.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
@@ -47,9 +48,13 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
 }
 
+/// Prints the targets with the name of the subject as they take it. They run a published CCD by its path, and no program, since
+/// libFuzzer sees no other process's coverage.
 void print_targets(const std::string& name) {
-  for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*make_any_subject(name)))
-    fmt::print("{} {}\n", target.name, name);
+  const auto subject = make_any_subject(name);
+  if (is_program(name)) return;
+  for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*subject))
+    fmt::print("{} {}\n", target.name, plugin_of_peer(name).value_or(name));
 }
 
 /// What a published CCD is, or why it cannot be put on trial.

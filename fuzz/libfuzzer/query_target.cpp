@@ -103,11 +103,12 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
 /// The same, but a default query if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
-/// Throws Error if the target is not for this subject.
+/// Throws Error if there is no such subject, or if the target is not for it.
 void expect_subject() {
-  if (target.needs_lower_bounds && subject().time_sort() != TimeSort::lower_bound)
+  const Subject& on_trial = subject();
+  if (target.needs_lower_bounds && on_trial.time_sort() != TimeSort::lower_bound)
     throw Error(fmt::format("{}: promises no lower bound of the time, expected a subject that does",
-                            subject().name()));
+                            on_trial.name()));
 }
 
 }  // namespace

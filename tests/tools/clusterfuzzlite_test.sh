@@ -52,7 +52,11 @@ for target in "$@"; do
   grep -q "^Done 4 runs" log || fail "fuzz_$target does not run without seeds"
   try -runs=$((seeds + 100)) seeds
   grep -q "seed corpus: files: $seeds " log || { cat log; fail "fuzz_$target does not read its seeds"; }
-  if [[ $target == read_* ]]; then
+  if [[ $target != read_* ]]; then
+    code=0
+    env -i NEARMISS_SUBJECT=none "$exe" -runs=1 &>log || code=$?
+    ((code == 2)) && grep -q "^unknown subject 'none'" log || { cat log; fail "fuzz_$target does not refuse an unknown subject"; }
+  else
     grep -q "^Dictionary: [1-9]" log || fail "fuzz_$target has no dictionary"
   fi
   echo "fuzz_$target: $seeds seeds, $(grep '^Done' log)"

@@ -6,6 +6,7 @@ namespace {
 
 using testing::CommandLine;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
 TEST_F(CommandLine, SubjectsAreListed) {
@@ -30,6 +31,10 @@ TEST_F(CommandLine, SubjectsHaveALibFuzzerTargetForEachPromise) {
             "refuted_bound defect:middle\n"
             "false_negative " +
                 plugin("sampling") + "\n");
+  EXPECT_THAT(run("subjects --targets fcl-newton").out,
+              MatchesRegex("false_negative /.*/peers/fcl.so:fcl-newton\n"));
+  write("program.sh", R"(printf 'nearmiss 2\nname p\nkinds vt ee\n\n'; exec cat >/dev/null)");
+  EXPECT_EQ(run("subjects --targets basic 'pipe:sh program.sh'").out, "false_negative basic\n");
   expect_refused("subjects --targets none", {"'none'"});
 }
 
