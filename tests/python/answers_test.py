@@ -6,7 +6,7 @@ import sys
 import unittest
 
 import numpy as np
-from harness import answered_queries
+from harness import answered_queries, processor_mode
 
 import nearmiss
 
@@ -169,6 +169,30 @@ class Options(unittest.TestCase):
         x = np.stack([self.falls, self.falls - [[[0, 0, 0]], [[0, 0, -2.5]]]])
         same(nearmiss.collides('vt', x, 0.5), nearmiss.collides('vt', x, [0.5, 0.5]))
         self.assertEqual(nearmiss.earliest_time('vt', self.falls, 0.25).lo, 0.25)
+
+    def test_do_not_depend_on_the_processors_mode(self):
+        near, far = np.zeros((2, 2, 4, 3))
+        for x, z in ((near, 2e-40), (far, 1e-39)):
+            x[:] = [[0, 0, z], [-1, -1, 0], [1, -1, 0], [0, 1, 0]]
+        h = np.float32(3e-40)
+        swapped = near.astype('>f4')
+        ends = [near[0].astype(np.float32), near[0]]
+        plain = nearmiss.queries('near-underflow', 'vt', 50)[0]
+        for mode in (0x8040, 0x2000, 0x4000, 0x6000):  # flushes subnormals, or rounds otherwise
+            with processor_mode(mode):
+                hits = [
+                    nearmiss.collides('vt', near, h),
+                    nearmiss.collides('vt', far, h),
+                    nearmiss.collides('vt', swapped),
+                    nearmiss.collides('vt', nearmiss.MeshPairs([[0, 1, 2, 3]], *ends))[0],
+                ]
+                x = nearmiss.queries('near-underflow', 'vt', 50)[0]
+            self.assertEqual([bool(hit) for hit in hits], [True, False, False, False])
+            same(x, plain)
+            with processor_mode(mode), self.assertRaisesRegex(ValueError, 'separation -5e-324'):
+                nearmiss.collides('vt', near, -5e-324)
+            with processor_mode(mode), self.assertRaisesRegex(ValueError, 'width is -5e-324'):
+                nearmiss.earliest_time('vt', near, width=-5e-324)
 
 
 if __name__ == '__main__':

@@ -85,6 +85,18 @@ class Refusals(unittest.TestCase):
             x[3, 1] = number
             wanted = 'x has an integer beyond 2^53, which may be no double'
             self.expect(ValueError, wanted, nearmiss.wang, 'ee', x)
+            mixed = x.tolist()
+            mixed[0][0] = 0.5
+            self.expect(ValueError, wanted, nearmiss.wang, 'ee', mixed)
+            halves = [x[:4].astype(np.uint64 if number > 0 else np.int64), np.zeros((4, 3))]
+            self.expect(ValueError, wanted, nearmiss.wang, 'ee', halves)
+        wanted = 'separation has an integer beyond 2^53, which may be no double'
+        self.expect(ValueError, wanted, nearmiss.collides, 'vt', X[:2], [2**53 + 1, 0.5])
+
+    def test_of_masked_elements(self):
+        wanted = 'x has masked elements, expected none'
+        self.expect(ValueError, wanted, nearmiss.collides, 'vt', np.ma.masked_all((8, 3)))
+        nearmiss.collides('vt', np.ma.masked_array(X))
 
     def test_of_meshes(self):
         v = X[0, 0]
@@ -105,12 +117,23 @@ class Refusals(unittest.TestCase):
             nearmiss.collides('vt', nearmiss.MeshPairs(good, v[:, :2], v))
 
     def test_of_options(self):
-        wanted = 'tmax is 1.5, expected a number that is at most 1'
-        self.expect(ValueError, wanted, nearmiss.time_of_impact, 'vt', X, 0, 1.5)
-        wanted = 'width is nan, expected a number that is not negative'
-        self.expect(ValueError, wanted, nearmiss.earliest_time, 'vt', X, width=np.nan)
-        wanted = 'relative_width is -1.0, expected a number that is not negative'
-        self.expect(ValueError, wanted, nearmiss.smallest_distance, 'vt', X, relative_width=-1.0)
+        asks = (
+            ('tmax', 'a number that is at most 1', nearmiss.time_of_impact, (1.5, np.nan)),
+            ('width', 'a number that is not negative', nearmiss.earliest_time, (-5e-324, np.nan)),
+            (
+                'relative_width',
+                'a number that is not negative',
+                nearmiss.smallest_distance,
+                (-1.0, np.float32(-1)),
+            ),
+        )
+        for name, wanted, function, values in asks:
+            for error, wrong in ((ValueError, values), (TypeError, (None, '1', 1j, np.zeros(2)))):
+                for value in wrong:
+                    message = f'{name} is {value!r}, expected {wanted}'
+                    self.expect(error, message, function, 'vt', X, **{name: value})
+            for value in (0, np.float32(0), np.array(0.0), True):
+                function('vt', X[:1], **{name: value})
 
 
 def many_queries():

@@ -1,5 +1,7 @@
 """Reads the queries and answers that answered_queries writes, in the format of tests/installed/answers.cpp."""
 
+import contextlib
+import ctypes
 import os
 import subprocess
 from dataclasses import dataclass
@@ -45,3 +47,18 @@ def answered_queries(program, count, seed):
             block.times, block.distances = read(float, 2, n), read(float, 2, n)
         blocks.append(block)
     return blocks
+
+
+@contextlib.contextmanager
+def processor_mode(bits):
+    """Sets bits of the processor's control register MXCSR during a `with` block, through the C library's own environment."""
+    libm = ctypes.CDLL('libm.so.6')
+    saved, changed = ((ctypes.c_uint32 * 8)() for _ in range(2))  # the last one is MXCSR
+    libm.fegetenv(saved)
+    libm.fegetenv(changed)
+    changed[7] |= bits
+    libm.fesetenv(changed)
+    try:
+        yield
+    finally:
+        libm.fesetenv(saved)

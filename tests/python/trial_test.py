@@ -76,6 +76,7 @@ class Trial(unittest.TestCase):
         result = nearmiss.trial([of_exact, of_times], 4000, list(nearmiss.families()))
         self.assertEqual(len(result.findings), 0)
         self.assertEqual(result.findings.x.shape, (0, 2, 4, 3))
+        self.assertEqual(len(result.findings[~result.findings.is_shrunk]), 0)
         for subject in ('exact', 'exact_times'):
             counts = result.counts(subject)
             self.assertEqual((counts.queries, counts.missed, counts.late), (4000, 0, 0))
@@ -187,6 +188,39 @@ class Trial(unittest.TestCase):
             with self.assertRaisesRegex(error, 'mine returned .*' + message):
                 nearmiss.trial(subject, 100)
 
+    def test_takes_one_name_for_several(self):
+        subject = nearmiss.Subject(never, kinds='ee')
+        result = nearmiss.trial(subject, 100, 'uniform', shrunk=0)
+        self.assertEqual(result.families, ['uniform'])
+        self.assertEqual(result.counts('never').queries, result.counts('never', kind='ee').queries)
+
+    def test_findings_are_selected_many_at_once(self):
+        findings = nearmiss.trial(never, 100, 'uniform', shrunk=0).findings
+        self.assertEqual(len(findings[[0, 2]]), 2)
+        self.assertEqual(len(findings[:3]), 3)
+        for select in (lambda: findings[0], lambda: list(findings)):
+            with self.assertRaisesRegex(TypeError, 'found 0, expected a mask, a slice or'):
+                select()
+
+    def test_refuses_other_types(self):
+        for message, make in (
+            ('function is None, expected a function', lambda: nearmiss.Subject(None)),
+            ('name is 5, expected a string', lambda: nearmiss.Subject(never, name=5)),
+            (
+                "takes_separation is 'no', expected a bool",
+                lambda: nearmiss.Subject(never, takes_separation='no'),
+            ),
+            ('subjects is None, expected a Subject', lambda: nearmiss.trial(None)),
+            ("subjects is b'wang', expected a Subject", lambda: nearmiss.trial(b'wang')),
+            ('function is 5, expected a function', lambda: nearmiss.trial([5])),
+            ('cases is 10000.0, expected an integer', lambda: nearmiss.trial(never, 1e4)),
+            ('families has 5, expected names', lambda: nearmiss.trial(never, 10, [5])),
+            ('family is 5, expected a name', lambda: nearmiss.queries(5, 'vt', 1)),
+            ('count is 1.5, expected an', lambda: nearmiss.queries('uniform', 'vt', 1.5)),
+        ):
+            with self.assertRaisesRegex(TypeError, message):
+                make()
+
     def test_refuses_what_it_does_not_know(self):
         for message, arguments in (
             ('unknown subject', ['bassic']),
@@ -195,10 +229,13 @@ class Trial(unittest.TestCase):
             ('expected at least one', [never, 0]),
             ('expected at least one', [never, 10, []]),
             ('seed is -1, expected', [never, 10, ['uniform'], -1]),
+            ('found no subject', [[]]),
+            ('shrunk is 18446744073709551616, expected', [never, 10, 'uniform', 1, 2**64]),
+            (r"found the name '\\ud800'", [nearmiss.Subject(never, '\ud800')]),
             ("found the name 'a:b'", [nearmiss.Subject(never, 'a:b')]),
         ):
             with self.assertRaisesRegex(ValueError, message):
-                nearmiss.trial(*arguments)
+                nearmiss.trial(*arguments[:4], **dict(zip(['shrunk'], arguments[4:])))
         with self.assertRaisesRegex(ValueError, 'expected one of none, estimate, lower-bound'):
             nearmiss.Subject(never, time='exact')
         with self.assertRaisesRegex(ValueError, "expected 'vt' or 'ee'"):

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "ccd/arithmetic.hpp"
 #include "oracle/interface/nearmiss.h"
 
 namespace nearmiss::python {
@@ -60,6 +61,7 @@ class Queries {
 
   /// Why query q has no answer.
   [[nodiscard]] std::string fault(std::size_t q) const {
+    const PlainArithmetic guard;
     const double h = *separation_of(q);
     const std::string number = std::to_string(q);
     if (h >= 0 && h < HUGE_VAL) return "query " + number + " has a coordinate that is not finite";
@@ -77,6 +79,16 @@ class Queries {
   std::optional<py::array> pairs_;
   py::array separation_;
   nearmiss_queries layout_;
+};
+
+/// Makes arithmetic plain for a `with` block, in which NumPy converts numbers.
+class PlainBlock {
+ public:
+  void enter() { guard_.emplace(); }
+  void exit() { guard_.reset(); }
+
+ private:
+  std::optional<PlainArithmetic> guard_;
 };
 
 /// An array with one element for each query.
@@ -188,6 +200,10 @@ PYBIND11_MODULE(_interface, module) {
   module.attr("version") = nearmiss_version();
   py::class_<Queries>(module, "Queries")
       .def(py::init<int, py::array, py::array, std::optional<py::array>, py::array>());
+  py::class_<PlainBlock>(module, "PlainArithmetic")
+      .def(py::init<>())
+      .def("__enter__", &PlainBlock::enter)
+      .def("__exit__", [](PlainBlock& block, const py::args& /*why*/) { block.exit(); });
   module.def("collides", &collides);
   module.def("earliest_time", &enclosures<nearmiss_earliest_time>);
   module.def("time_of_impact", &time_of_impact);

@@ -106,7 +106,7 @@ py::list counts_of(const Statistics& statistics) {
   return rows;
 }
 
-/// One value of each finding.
+/// One text of each finding.
 template <class Of>
 py::list column(const std::vector<Finding>& findings, const Of& of) {
   py::list values;
@@ -128,7 +128,10 @@ py::dict columns(const std::vector<Finding>& findings) {
   of["separation"] = separations_of(found);
   of["shrunk"] = coordinates_of(shrunk);
   of["shrunk_separation"] = separations_of(shrunk);
-  of["is_shrunk"] = column(findings, [](const Finding& each) { return each.is_shrunk; });
+  py::array_t<bool> is_shrunk(static_cast<py::ssize_t>(findings.size()));
+  std::transform(findings.begin(), findings.end(), is_shrunk.mutable_data(),
+                 [](const Finding& each) { return each.is_shrunk; });
+  of["is_shrunk"] = is_shrunk;
   of["kind"] = column(findings, [](const Finding& each) { return short_name(each.query.kind); });
   of["what"] = column(findings, [](const Finding& each) { return name(each.what); });
   of["subject"] = column(findings, [](const Finding& each) { return each.subject; });
@@ -164,6 +167,7 @@ std::vector<std::tuple<std::string, std::string, bool>> known_families() {
 }
 
 py::tuple make(const std::string& family, std::string_view kind, std::size_t count, std::uint64_t seed) {
+  const PlainArithmetic guard;
   std::vector<Query> queries;
   const Family from = find_family(family);
   const QueryMaker query(from, seed);

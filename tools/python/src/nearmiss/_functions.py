@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nearmiss import _interface
-from nearmiss._queries import Asked, KindLike, MeshPairs
+from nearmiss._queries import Asked, KindLike, MeshPairs, at_most_1, not_negative
 
 
 class DecidedBy(enum.IntEnum):
@@ -92,8 +92,7 @@ def earliest_time(
     lo and hi are the same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
     impact: nothing happens before it. Both are infinite if there is no collision.
     """
-    if not width >= 0:
-        raise ValueError(f'width is {width}, expected a number that is not negative')
+    width = not_negative('width', width)
     asked = Asked(kind, x, separation)
     return Interval(*map(asked.answers, _interface.earliest_time(asked.queries, width)))
 
@@ -109,8 +108,7 @@ def time_of_impact(
     The time is the largest double that is not after the earliest time, so nothing happens before it. It is infinite if there is
     no collision.
     """
-    if not tmax <= 1:
-        raise ValueError(f'tmax is {tmax}, expected a number that is at most 1')
+    tmax = at_most_1('tmax', tmax)
     asked = Asked(kind, x, separation)
     answers, times = _interface.time_of_impact(asked.queries, tmax)
     return asked.are_collisions(answers), asked.answers(times)
@@ -123,10 +121,7 @@ def smallest_distance(
 
     hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch.
     """
-    if not relative_width >= 0:
-        raise ValueError(
-            f'relative_width is {relative_width}, expected a number that is not negative'
-        )
+    relative_width = not_negative('relative_width', relative_width)
     asked = Asked(kind, x)
     return Interval(
         *map(asked.answers, _interface.smallest_distance(asked.queries, relative_width))

@@ -7,6 +7,10 @@ from nearmiss._queries import Coordinates
 
 version: str
 
+class PlainArithmetic:
+    def __enter__(self) -> None: ...
+    def __exit__(self, *why: object) -> None: ...
+
 class Queries:
     def __init__(
         self,

@@ -1,8 +1,9 @@
 """Checks queries in arrays, and describes them for the C interface. Coordinates are copied only if it cannot read them where they are."""
 
 import enum
+import numbers
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, Union
+from typing import Any, Callable, Literal, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,8 +54,14 @@ class Asked:
         self, kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
     ) -> None:
         self.is_single = False
-        pairs: Optional[NDArray[np.int32]] = None
         number = _NUMBERS_OF_KINDS[kind_of(kind)]
+        with _interface.PlainArithmetic():  # NumPy converts numbers
+            self.queries = self._read(number, x, separation)
+
+    def _read(
+        self, number: int, x: Union[ArrayLike, MeshPairs], separation: ArrayLike
+    ) -> _interface.Queries:
+        pairs: Optional[NDArray[np.int32]] = None
         if isinstance(x, MeshPairs):
             start, end = _vertices(x.start, 'start'), _vertices(x.end, 'end')
             if start.shape != end.shape:
@@ -62,9 +69,9 @@ class Asked:
             pairs = _checked_pairs(x.pairs, len(start))
             count = len(pairs)
         else:
-            start, end = self._halves(numbers(x, 'x'))
+            start, end = self._halves(_numbers(x, 'x'))
             count = len(start)
-        self.queries = _interface.Queries(
+        return _interface.Queries(
             number, *_alike(start, end), pairs, _separations(separation, count, self.is_single)
         )
 
@@ -89,8 +96,32 @@ class Asked:
         return self.answers(answers.view(np.bool_))
 
 
-def numbers(values: ArrayLike, name: str) -> Coordinates:
+def not_negative(name: str, value: Any) -> float:
+    """The value of an option as a double. Raises TypeError or ValueError, also with its name."""
+    return _option(name, value, 'a number that is not negative', lambda number: number >= 0)
+
+
+def at_most_1(name: str, value: Any) -> float:
+    """The same for another option."""
+    return _option(name, value, 'a number that is at most 1', lambda number: number <= 1)
+
+
+def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool]) -> float:
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    with _interface.PlainArithmetic():
+        refused = f'{name} is {value!r}, expected {expected}'
+        if not isinstance(value, numbers.Real):
+            raise TypeError(refused)
+        if not is_one(float(value)):
+            raise ValueError(refused)
+        return float(value)
+
+
+def _numbers(values: ArrayLike, name: str) -> Coordinates:
     """The values in float64 or float32, as an array whose elements are aligned. Raises TypeError or ValueError instead of rounding."""
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise ValueError(f'{name} has masked elements, expected none')
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
@@ -98,17 +129,30 @@ def numbers(values: ArrayLike, name: str) -> Coordinates:
                 f'{name} has the type {array.dtype}, expected float64, float32 or integers'
             )
         if array.dtype.kind in 'iu' and array.size and not _are_doubles(array):
-            raise ValueError(f'{name} has an integer beyond 2^53, which may be no double')
+            raise ValueError(_beyond_doubles % name)
         array = array.astype(np.float64)
+    elif isinstance(values, Sequence) and not _has_exact_integers(values):
+        raise ValueError(_beyond_doubles % name)
     return np.require(array, requirements='A')
+
+
+_beyond_doubles = '%s has an integer beyond 2^53, which may be no double'
 
 
 def _are_doubles(integers: NDArray[Any]) -> bool:
     return -(2**53) <= int(integers.min()) and int(integers.max()) <= 2**53
 
 
+def _has_exact_integers(values: ArrayLike) -> bool:
+    """Whether no integer of nested sequences was rounded because there are other numbers beside it."""
+    elements = np.asarray(values, object).flat
+    return all(
+        not isinstance(each, numbers.Integral) or abs(int(each)) <= 2**53 for each in elements
+    )
+
+
 def _vertices(values: ArrayLike, name: str) -> Coordinates:
-    array = numbers(values, name)
+    array = _numbers(values, name)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f'{name} has shape {array.shape}, expected (v, 3)')
     return array
@@ -141,7 +185,7 @@ def _alike(start: Coordinates, end: Coordinates) -> tuple[Coordinates, Coordinat
 
 
 def _separations(values: ArrayLike, count: int, is_single: bool) -> NDArray[np.float64]:
-    array = np.require(numbers(values, 'separation'), np.float64, 'A')
+    array = np.require(_numbers(values, 'separation'), np.float64, 'A')
     if array.shape != () and (is_single or array.shape != (count,)):
         wanted = 'a number' if is_single else f'a number or ({count},)'
         raise ValueError(f'separation has shape {array.shape}, expected {wanted}')

@@ -2,11 +2,12 @@
 
 import dataclasses
 import importlib
+import operator
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from nearmiss._queries import KindLike, kind_of
 
@@ -31,16 +32,25 @@ class Subject:
     function: CCD
     name: str = ''
     time: Literal['none', 'estimate', 'lower-bound'] = 'none'
-    kinds: Sequence[KindLike] = ('vt', 'ee')
+    kinds: Union[KindLike, Sequence[KindLike]] = ('vt', 'ee')
     takes_separation: bool = False
 
     def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise TypeError(f'function is {self.function!r}, expected a function')
         if self.time not in _TIME_SORTS:
             raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
-        kinds = tuple(kind_of(kind).value for kind in self.kinds)
-        object.__setattr__(self, 'kinds', kinds)
+        kinds = [self.kinds] if isinstance(self.kinds, str) else self.kinds
+        object.__setattr__(self, 'kinds', tuple(kind_of(kind).value for kind in kinds))
+        if not self.kinds:
+            raise ValueError("kinds is empty, expected 'vt', 'ee' or both")
+        if not isinstance(self.takes_separation, (bool, np.bool_)):
+            raise TypeError(f'takes_separation is {self.takes_separation!r}, expected a bool')
         if not self.name:
-            object.__setattr__(self, 'name', getattr(self.function, '__name__', 'function'))
+            own = getattr(self.function, '__name__', None)
+            object.__setattr__(self, 'name', own if isinstance(own, str) else 'function')
+        if not isinstance(self.name, str):
+            raise TypeError(f'name is {self.name!r}, expected a string')
 
     def _number_of_time_sort(self) -> int:
         return _TIME_SORTS.index(self.time)
@@ -115,6 +125,8 @@ class Findings:
         return len(self.x)
 
     def __getitem__(self, mask: Union[slice, NDArray[Any]]) -> 'Findings':
+        if not isinstance(mask, slice) and np.ndim(mask) != 1:
+            raise TypeError(f'found {mask!r}, expected a mask, a slice or an array of numbers')
         return Findings(**{name: array[mask] for name, array in vars(self).items()})
 
     def __repr__(self) -> str:
@@ -168,7 +180,7 @@ class TrialResult:
 def trial(
     subjects: Union[Subject, CCD, str, Iterable[Union[Subject, CCD, str]]],
     cases: int = 10000,
-    families: Optional[Sequence[str]] = None,
+    families: Union[str, Sequence[str], None] = None,
     seed: int = 1,
     *,
     shrunk: int = 1,
@@ -183,36 +195,64 @@ def trial(
 
     Exceptions of a function end the trial, and are passed on.
     """
-    extension = _extension()
-    several = (
-        [subjects] if isinstance(subjects, (Subject, str)) or callable(subjects) else subjects
+    chosen = _subjects_of(subjects)
+    cases, seed, shrunk = (
+        _count(name, value)
+        for name, value in (('cases', cases), ('seed', seed), ('shrunk', shrunk))
     )
-    chosen = [each if isinstance(each, (Subject, str)) else Subject(each) for each in several]
-    names = [each if isinstance(each, str) else each.name for each in chosen]
-    if len(set(names)) != len(names):
-        raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
+    extension = _extension()
     if families is None:
         families = [name for name, _, has_separation in extension.families() if not has_separation]
+    families = [families] if isinstance(families, str) else list(families)
+    for each in families:
+        if not isinstance(each, str):
+            raise TypeError(f'families has {each!r}, expected names')
     if cases < 1 or not families:
         raise ValueError(f'found {cases} cases of {len(families)} families, expected at least one')
-    _expect_not_negative(seed=seed, shrunk=shrunk)
-    rows, columns = extension.hold(chosen, list(families), cases, seed, shrunk)
+    rows, columns = extension.hold(chosen, families, cases, seed, shrunk)
     return TrialResult(
         [(subject, kind, family, Counts(*counts)) for subject, kind, family, *counts in rows],
-        Findings(**{name: _column(values) for name, values in columns.items()}),
+        Findings(
+            **{
+                name: np.asarray(column, str) if isinstance(column, list) else column
+                for name, column in columns.items()
+            }
+        ),
     )
 
 
-def _expect_not_negative(**numbers: int) -> None:
-    for name, number in numbers.items():
-        if number < 0:
-            raise ValueError(f'{name} is {number}, expected a number that is not negative')
+def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
+    """The subjects of a trial, of which each has its own name."""
+    is_one = isinstance(subjects, (Subject, str)) or callable(subjects)
+    if not is_one and (isinstance(subjects, bytes) or not isinstance(subjects, Iterable)):
+        raise TypeError(
+            f'subjects is {subjects!r}, expected a Subject, a function, a name, or several of these'
+        )
+    chosen: list[Union[Subject, str]] = [
+        each if isinstance(each, (Subject, str)) else Subject(each)
+        for each in ([subjects] if is_one else subjects)
+    ]
+    names = [each if isinstance(each, str) else each.name for each in chosen]
+    if not names:
+        raise ValueError('found no subject, expected at least one')
+    if len(set(names)) != len(names):
+        raise ValueError(f'subjects have the names {", ".join(names)}, expected different ones')
+    for name in names:
+        if not name.isprintable():  # nor can a lone surrogate be written
+            raise ValueError(f'found the name {name!r}, expected printable characters')
+    return chosen
 
 
-def _column(values: Any) -> NDArray[Any]:
-    if isinstance(values, list) and not values:
-        return np.empty(0, str)
-    return np.asarray(values)
+def _count(name: str, value: Any) -> int:
+    """The value as a number of 64 bits."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f'{name} is {value!r}, expected an integer') from None
+    if not 0 <= number < 2**64:
+        wanted = 'not negative' if number < 0 else 'below 2^64'
+        raise ValueError(f'{name} is {number}, expected a number that is {wanted}')
+    return number
 
 
 def families() -> dict[str, str]:
@@ -224,8 +264,11 @@ def queries(
     family: str, kind: KindLike, count: int, seed: int = 1
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The first queries of a kind in a family: x (count, 2, 4, 3) and their separations (count,)."""
-    _expect_not_negative(count=count, seed=seed)
-    x, separation = _extension().queries(family, kind_of(kind).value, count, seed)
+    if not isinstance(family, str):
+        raise TypeError(f'family is {family!r}, expected a name')
+    x, separation = _extension().queries(
+        family, kind_of(kind).value, _count('count', count), _count('seed', seed)
+    )
     return x, separation
 
 
