@@ -23,6 +23,9 @@ trap cleanup EXIT
 trap 'exit 130' INT TERM HUP
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
+for each in "$packages"/*.deb; do
+  ! dpkg-deb -c "$each" | grep '^d' | grep -v '^drwxr-xr-x root/root ' || fail "$each changes a folder's owner or permissions"
+done
 mmdebstrap --quiet --variant=minbase bookworm "$root"
 mount -t proc proc "$root/proc"
 debian() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"; }

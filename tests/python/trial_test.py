@@ -127,6 +127,15 @@ class Trial(unittest.TestCase):
         self.assertGreater(result.counts('no_time').no_answer, 50)
         self.assertEqual(set(result.findings.what), {'fault'})
 
+    def test_takes_every_byte_but_0_for_true(self):
+        def always(kind, x, separation):
+            return np.full(len(x), 2, np.uint8).view(bool)
+
+        counts = nearmiss.trial(always, 200, shrunk=0).counts('always')
+        self.assertEqual(counts.missed, 0)
+        self.assertEqual(counts.false_positives, counts.queries - counts.collisions)
+        self.assertGreater(counts.farthest, 1)
+
     def test_asks_only_the_kinds_and_separations_of_a_subject(self):
         asked = []
 
@@ -182,6 +191,7 @@ class Trial(unittest.TestCase):
             (lambda n: np.zeros(n + 1, bool), 'none', ValueError, r'answers of shape \(\d+,\)'),
             (lambda n: None, 'none', TypeError, 'answers of type object, expected bool'),
             (lambda n: np.zeros(n, bool), 'estimate', TypeError, r'expected \(bools, times\)'),
+            (lambda n: (np.zeros(n, bool), 1j), 'estimate', TypeError, 'times of type complex128'),
             (lambda n: (np.zeros(n, bool), 0.5), 'estimate', ValueError, r'times of shape \(\)'),
         ):
             subject = nearmiss.Subject(lambda kind, x, h: answer(len(x)), 'mine', time)

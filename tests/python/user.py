@@ -14,6 +14,7 @@ x = np.zeros((5, 2, 4, 3), np.float32)
 hits = nearmiss.collides('vt', x, 0.5)
 x_of_hits = x[hits]
 answers, decided_by = nearmiss.collides('ee', x.tolist(), [0.0] * 5, decided_by=True)
+either = nearmiss.collides('ee', x, decided_by=bool(len(hits)))
 by_filter: int = (decided_by == nearmiss.DecidedBy.FILTER).sum()
 lo, hi = nearmiss.earliest_time('vt', x, width=0.1)
 longest: float = (hi - lo).max()

@@ -97,19 +97,25 @@ py::array_t<T> one_for_each(const Queries& queries) {
   return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
 }
 
-/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run. Handles signals every tenth of a
-/// second. Returns a status other than NEARMISS_OK as soon as there is one.
+/// Calls ask(part, first) for one part of the queries after the other, while other Python threads run. Handles signals between parts,
+/// at most every tenth of a second; parts are small where queries take long. Returns a status other than NEARMISS_OK as soon as there is
+/// one.
 template <class Ask>
 int ask_in_parts(const Queries& queries, const Ask& ask) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::size_t queries_of_part = 1024;
-  constexpr std::chrono::milliseconds between_signals{100};
+  constexpr std::size_t most = 256;
+  constexpr std::chrono::milliseconds long_time{10}, between_signals{100};
   const py::gil_scoped_release others_run;
   auto last = Clock::now();
-  for (std::size_t first = 0; first < queries.size(); first += queries_of_part) {
-    const nearmiss_queries part = queries.slice(first, std::min(queries_of_part, queries.size() - first));
+  std::size_t size = 1;
+  for (std::size_t first = 0; first < queries.size();) {
+    const auto start = Clock::now();
+    const nearmiss_queries part = queries.slice(first, std::min(size, queries.size() - first));
     if (const int status = ask(part, first); status != NEARMISS_OK) return status;
-    if (Clock::now() - last < between_signals) continue;
+    first += part.count;
+    const auto now = Clock::now();
+    size = now - start < long_time ? std::min(2 * size, most) : std::max<std::size_t>(size / 8, 1);
+    if (now - last < between_signals) continue;
     const py::gil_scoped_acquire none_runs;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     last = Clock::now();

@@ -1,16 +1,4 @@
-"""The functions over arrays of queries.
-
-A query is four vertices that move linearly from t = 0 to t = 1. All coordinates have one unit, which is arbitrary; times are
-fractions of the step. Every function takes
-
-kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, or 'ee' for the edges x0x1 and x2x3
-x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or MeshPairs.
-       (2, 4, 3) or (8, 3) is one query, for which results are NumPy scalars instead of arrays (n,). float64 and float32 are read
-       where they are, for any strides; integers are converted to float64.
-
-and raises a ValueError that names the first query with a coordinate that is not finite, or with a separation that is negative or
-not finite. Other Python threads run during a call.
-"""
+"""The functions over arrays of queries, which __init__.py describes."""
 
 import enum
 from typing import Any, Literal, NamedTuple, Union, overload
@@ -59,6 +47,17 @@ def collides(
     ...
 
 
+@overload
+def collides(
+    kind: KindLike,
+    x: Union[ArrayLike, MeshPairs],
+    separation: ArrayLike = ...,
+    *,
+    decided_by: bool,
+) -> Union[NDArray[np.bool_], tuple[NDArray[np.bool_], NDArray[np.uint8]]]:
+    ...
+
+
 def collides(
     kind: KindLike,
     x: Union[ArrayLike, MeshPairs],
@@ -71,6 +70,7 @@ def collides(
     The answer is that of exact arithmetic, also for degenerate, huge and subnormal queries. A smallest distance of exactly the
     separation counts.
 
+    kind, x:    the queries, as help(nearmiss) describes them
     separation: a number for all queries, or (n,), in the unit of the coordinates
     decided_by: whether to return (answers, what decided) instead, the latter as values of DecidedBy
     """
@@ -91,6 +91,8 @@ def earliest_time(
 
     lo and hi are the same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
     impact: nothing happens before it. Both are infinite if there is no collision.
+
+    kind, x, separation: as for collides()
     """
     width = not_negative('width', width)
     asked = Asked(kind, x, separation)
@@ -107,6 +109,9 @@ def time_of_impact(
 
     The time is the largest double that is not after the earliest time, so nothing happens before it. It is infinite if there is
     no collision.
+
+    kind, x, separation: as for collides()
+    tmax:                a part of the step, at most 1
     """
     tmax = at_most_1('tmax', tmax)
     asked = Asked(kind, x, separation)
@@ -120,6 +125,8 @@ def smallest_distance(
     """The smallest distance d over the step, in the unit of the coordinates: lo <= d <= hi.
 
     hi - lo is at most relative_width * hi, or as small as doubles allow; both are 0 if the primitives touch.
+
+    kind, x: as for collides()
     """
     relative_width = not_negative('relative_width', relative_width)
     asked = Asked(kind, x)
@@ -132,6 +139,8 @@ def wang(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
     It reports every collision. It may report a query that is none, but none whose primitives stay farther apart than wang_bound().
+
+    kind, x: as for collides()
     """
     asked = Asked(kind, x)
     answers: NDArray[np.bool_] = asked.are_collisions(_interface.wang(asked.queries))
@@ -142,6 +151,8 @@ def wang_bound(kind: KindLike, x: Union[ArrayLike, MeshPairs]) -> NDArray[np.flo
     """The distance below which a false positive of wang() must come, in the unit of the coordinates.
 
     It is about 41 B ε^¼, where B is the size of the pair and ε that of double.
+
+    kind, x: as for collides()
     """
     asked = Asked(kind, x)
     bounds: NDArray[np.float64] = asked.answers(_interface.wang_bound(asked.queries))

@@ -66,7 +66,11 @@ class Subject:
                 raise TypeError(
                     f'{self.name} returned a {type(answer).__name__}, expected (bools, times)'
                 )
-            answer, times = answer[0], np.asarray(answer[1], np.float64)
+            answer, times = answer[0], np.asarray(answer[1])
+            if times.dtype.kind not in 'fiu' or times.dtype.itemsize > 8:
+                raise TypeError(
+                    f'{self.name} returned times of type {times.dtype}, expected float64'
+                )
         hits = np.asarray(answer)
         if hits.dtype != np.bool_:
             raise TypeError(f'{self.name} returned answers of type {hits.dtype}, expected bool')
@@ -75,7 +79,8 @@ class Subject:
                 raise ValueError(
                     f'{self.name} returned {what} of shape {array.shape}, expected ({len(x)},)'
                 )
-        return hits, times
+        # A view of other bytes may have bools that are neither 0 nor 1.
+        return hits.view(np.uint8) != 0, np.asarray(times, np.float64)
 
 
 @dataclass(frozen=True)
