@@ -15,8 +15,9 @@
 // arithmetic, define NEARMISS_ANY_ARITHMETIC. No macro shows whether a compiler contracts to FMA (see
 // README.md).
 #ifndef NEARMISS_ANY_ARITHMETIC
-#ifdef __FAST_MATH__
-#error "nearmiss needs IEEE arithmetic: found -ffast-math"
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "nearmiss needs IEEE arithmetic: found -ffast-math or a part of it"
 #endif
 static_assert(FLT_EVAL_METHOD == 0, "nearmiss needs every operation to be rounded to its own type");
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53 &&

@@ -1,7 +1,6 @@
 #include "ccd/instructions.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "ccd/error.hpp"
@@ -11,17 +10,9 @@ namespace nearmiss {
 
 namespace {
 
-Instructions choose(const char* given) {
-  if (given == nullptr || *given == '\0') return widest_instructions();
-  const auto* const wanted =
-      std::find_if(all_instructions.begin(), all_instructions.end(),
-                   [given](Instructions each) { return std::to_string(lanes(each)) == given; });
-  if (wanted == all_instructions.end())
-    throw Error("NEARMISS_LANES: found '" + excerpt(given) + "', expected 2, 4 or 8");
-  if (!has(*wanted))
-    throw Error("NEARMISS_LANES: found " + std::string(given) + ", expected at most " +
-                std::to_string(lanes(widest_instructions())) + " on this machine");
-  return *wanted;
+Instructions& chosen() {
+  static Instructions instructions = widest_instructions();
+  return instructions;
 }
 
 }  // namespace
@@ -42,9 +33,17 @@ Instructions widest_instructions() {
   return *std::find_if(all_instructions.rbegin(), all_instructions.rend(), has);
 }
 
-Instructions chosen_instructions() {
-  static const Instructions chosen = choose(std::getenv("NEARMISS_LANES"));
-  return chosen;
+Instructions chosen_instructions() { return chosen(); }
+
+void choose_instructions(std::string_view given) {
+  const auto* const wanted =
+      std::find_if(all_instructions.begin(), all_instructions.end(),
+                   [given](Instructions each) { return std::to_string(lanes(each)) == given; });
+  if (wanted == all_instructions.end()) throw Error("found '" + excerpt(given) + "', expected 2, 4 or 8");
+  if (!has(*wanted))
+    throw Error("found " + std::string(given) + ", expected at most " +
+                std::to_string(lanes(widest_instructions())) + " on this machine");
+  chosen() = *wanted;
 }
 
 }  // namespace nearmiss

@@ -20,8 +20,10 @@ bool has(Instructions instructions);
 /// The widest instruction set that this machine has.
 Instructions widest_instructions();
 
-/// The instruction set that is used: the widest one, or the one with as many lanes as the variable NEARMISS_LANES of the
-/// environment says: 2, 4 or 8. Throws Error if this is another number or this machine does not have the instructions.
+/// The instruction set that is used: the widest one, unless the program has chosen another.
 Instructions chosen_instructions();
+/// Chooses the instruction set with so many lanes, "2", "4" or "8", for the whole process. Throws Error if this is another number or
+/// this machine does not have the instructions. No other thread may run meanwhile.
+void choose_instructions(std::string_view given);
 
 }  // namespace nearmiss

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -100,6 +101,16 @@ void expect_values(int argc, char** argv) {
   }
 }
 
+/// Sets how many doubles are computed side by side, if a variable of the environment says so.
+void choose_lanes(const char* variable) {
+  if (variable == nullptr || *variable == '\0') return;
+  try {
+    nearmiss::choose_instructions(variable);
+  } catch (const nearmiss::Error& error) {
+    throw nearmiss::Error(fmt::format("NEARMISS_LANES: {}", error.what()));
+  }
+}
+
 /// Prints why the program ends, on one line that a terminal can show.
 void print_reason(std::string_view reason) {
   std::fputs(("nearmiss: " + nearmiss::printable(reason) + "\n").c_str(), stderr);
@@ -137,7 +148,7 @@ int run(int argc, char** argv) {
     add(app, exit_code);
 
   expect_values(argc, argv);
-  nearmiss::chosen_instructions();  // so that a wrong variable is refused before there is any work
+  choose_lanes(std::getenv("NEARMISS_LANES"));
   if (argc > 1) expect_subcommand(app, argv[1]);
   try {
     app.parse(argc, argv);

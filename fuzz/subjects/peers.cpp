@@ -42,8 +42,10 @@ bool is_built(const Peer& peer) {
 
 std::string how_to_build(const Peer& peer) {
   return peer.package.empty()
-             ? fmt::format("run tools/peers --output {} DIR {}, with the folder of the authors' source trees",
-                           shell_quoted(path_beside("peers")), peer.object)
+             ? fmt::format(
+                   "run tools/peers --output {} DIR {} in nearmiss's source tree; DIR has those of the "
+                   "authors",
+                   shell_quoted(path_beside("peers")), peer.object)
              : fmt::format("install {}, remove the build folder, and run tools/setup", peer.package);
 }
 

@@ -82,13 +82,19 @@ class Queries {
   /// The same queries with one separation h for all, which must outlive them.
   [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
   Queries with_separation(double&&) const = delete;
-  /// The same queries with one separation for each.
+  /// The same queries with one separation for each. If there is another number of them, nothing will be answered: bad_argument.
   [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
-    return with_separations(h.data(), sizeof(double));
+    Queries queries = with_separations(h.data(), sizeof(double));
+    queries.separations_ = h.size();
+    return queries;
   }
 
   /// Number of queries.
   [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
+  /// Whether a span of separations has one for each query.
+  [[nodiscard]] bool has_its_separations() const noexcept {
+    return separations_ == any_number || separations_ == size();
+  }
   /// The layout, as the C functions take it.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
   /// The same, to be changed.
@@ -104,10 +110,14 @@ class Queries {
     Queries queries = *this;
     queries.layout_.separation = h;
     queries.layout_.separation_stride = stride;
+    queries.separations_ = any_number;
     return queries;
   }
 
+  static constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
   nearmiss_queries layout_;
+  std::size_t separations_ = any_number;  // that a span has
 };
 
 namespace detail {
@@ -121,7 +131,7 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
 /// Calls a C function with the layout, unless spans do not fit or there is nothing to ask: an empty span may be a null pointer.
 template <class Call>
 Status ask(const Queries& queries, bool fit, const Call& call) {
-  if (!fit) return Status::bad_argument;
+  if (!fit || !queries.has_its_separations()) return Status::bad_argument;
   return queries.size() == 0 ? Status::ok : static_cast<Status>(call(&queries.layout()));
 }
 

@@ -127,6 +127,12 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi) {
+  nearmiss_queries without_separations;
+  if (queries != nullptr) {
+    without_separations = *queries;
+    without_separations.separation = nullptr;
+    queries = &without_separations;
+  }
   return nearmiss::interface::enclose(queries, relative_width, lo, hi, [&](const Query& query) {
     return nearmiss::minimum_distance(query, std::min(relative_width, 0.5));
   });

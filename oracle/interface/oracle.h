@@ -4,8 +4,8 @@
  * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones, too. Nearly all
  * queries are decided in double arithmetic with certified error bounds, without memory from the heap. Exact arithmetic, which decides
  * the others and whether primitives touch at t = 0 or t = 1 where double cannot, allocates memory and takes microseconds to
- * milliseconds; the slowest known queries, with coordinates of very different sizes, take seconds. An allocation that fails inside
- * GMP or CGAL ends the program.
+ * milliseconds; the slowest known queries, with coordinates of very different sizes, take seconds. Distances allocate memory, too. A
+ * program cannot go on after an allocation that fails inside GMP or CGAL.
  *
  * All functions may be called from many threads at once; each call works in its own thread. They set the processor's rounding mode
  * if need be and restore it, and neither print nor throw. */

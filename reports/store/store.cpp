@@ -81,7 +81,8 @@ auto reading(const fs::path& file, int oldest, const Act& act) {
 
 /// A connection for writing.
 struct Connection {
-  Connection(const fs::path& file, int flags) : db(file.string(), SQLite::OPEN_READWRITE | flags) {
+  Connection(const fs::path& file, int flags)
+      : db(file.string(), SQLite::OPEN_READWRITE | flags, patience_ms) {
     // The first page has room for the whole schema of a new file, which therefore survives if the file is cut off.
     db.exec(
         "PRAGMA page_size = 8192; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys "
@@ -91,6 +92,7 @@ struct Connection {
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
     try {
+      db.setBusyTimeout(patience_ms / 3);       // results are saved, and the program shall end
       db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
     } catch (const SQLite::Exception&) {
       return;  // then the log remains next to the file, and nothing is lost

@@ -16,7 +16,7 @@ std::filesystem::path log_of(const std::filesystem::path& file, std::string_view
 
 SQLite::Database open_to_read(const std::filesystem::path& file) {
   const bool change_is_half_done = exists(log_of(file, "-journal"));
-  return {file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY};
+  return {file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms};
 }
 
 void write_version(SQLite::Database& db) {

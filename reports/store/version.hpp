@@ -14,6 +14,10 @@ namespace nearmiss {
 /// The log with this ending that SQLite keeps beside a store while it is written, and that a killed writer leaves there.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
+/// How long to wait for another process that reads a store, or opens or closes it. A process that is told to stop does so within
+/// two seconds.
+inline constexpr int patience_ms = 1500;
+
 /// Opens a store to read it. It is changed only if its writer was killed while it changed the file itself: then
 /// SQLite takes back the half-done change, by the journal beside the store.
 SQLite::Database open_to_read(const std::filesystem::path& file);

@@ -42,11 +42,21 @@ check clang++ clang++ clang ""
 check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 
-# The templates refuse such flags.
-if g++ -std=c++20 -ffast-math -I"$folder/prefix/include" $(pkg-config --cflags eigen3) -fsyntax-only "$here/templates.cpp" 2>"$folder/log"; then
-  fail "the templates accept -ffast-math"
-fi
-grep -q 'nearmiss needs IEEE arithmetic: found -ffast-math' "$folder/log" || fail "$(cat "$folder/log")"
+# The templates refuse such flags. clang++ tells headers about the first two of them.
+refuse_flags() {
+  local compiler=$1 flags
+  shift
+  for flags; do
+    ! $compiler -std=c++20 $flags -I"$folder/prefix/include" $(pkg-config --cflags eigen3) -fsyntax-only "$here/templates.cpp" 2>"$folder/log" ||
+      fail "with $compiler, the templates accept $flags"
+    grep -q 'nearmiss needs IEEE arithmetic: found -ffast-math' "$folder/log" || fail "$(cat "$folder/log")"
+  done
+}
+refuse_flags g++ -ffast-math -ffinite-math-only "-ffast-math -fno-finite-math-only" -funsafe-math-optimizations -freciprocal-math
+refuse_flags clang++ -ffast-math -ffinite-math-only
+
+# What the program reads from the environment is nothing to the library.
+NEARMISS_LANES=16 "$folder/g++/answers_c" <"$folder/queries"
 
 # pkg-config
 export PKG_CONFIG_PATH=$folder/prefix/lib/pkgconfig
@@ -56,10 +66,17 @@ LD_LIBRARY_PATH=$folder/prefix/lib "$folder/by_pkg_config" <"$folder/queries"
 
 # What is not there is refused.
 mkdir "$folder/other"
-for wanted in "2 COMPONENTS oracle" "1 COMPONENTS fortran"; do
+for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
   printf 'cmake_minimum_required(VERSION 3.25)\nproject(other CXX)\nfind_package(nearmiss %s REQUIRED)\n' "$wanted" >"$folder/other/CMakeLists.txt"
   ! cmake -S "$folder/other" -B "$folder/other/b" -DCMAKE_PREFIX_PATH="$folder/prefix" >"$folder/log" 2>&1 || fail "find_package(nearmiss $wanted) succeeds"
 done
+grep -q 'The component fortran is not installed in' "$folder/log" || fail "$(cat "$folder/log")"
+
+# Absolute folders need no prefix.
+cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include \
+  >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+PKG_CONFIG_PATH=$folder/absolute/install pkg-config --cflags --libs nearmiss >"$folder/log"
+grep -q -- '-I/b/include -L/a/lib -lnearmiss' "$folder/log" || fail "$(cat "$folder/log")"
 
 # The library shows the functions of its interface, and nothing else.
 shown=$(nm -D --defined-only "$folder/prefix/lib/libnearmiss.so" | awk '$2 == "T" {print $3}' | sed 's/@@NEARMISS_1$//' | sort)
@@ -93,6 +110,8 @@ cmake -S "$folder/alone" -B "$folder/alone/b" -DCMAKE_PREFIX_PATH="$folder/only"
   "$folder/alone/b/alone" || fail "$(tail "$folder/log")"
 
 # What is asked for must be there.
+! cmake -S "$here/../.." -B "$folder/parts" -DNEARMISS_COMPONENTS=oracle -DCMAKE_CXX_FLAGS='-ffast-math -fno-finite-math-only' >"$folder/log" 2>&1 ||
+  fail "cmake accepts a part of -ffast-math"
 ! cmake -S "$here/../.." -B "$folder/unknown" -DNEARMISS_COMPONENTS=ccd,oracle >"$folder/log" 2>&1 || fail "cmake accepts unknown components"
 grep -q "found 'ccd,oracle', expected some of ccd, oracle" "$folder/log" || fail "$(cat "$folder/log")"
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <array>
 #include <cfenv>
@@ -92,6 +93,74 @@ TEST(Interface, EachQueryMayHaveItsOwnSeparation) {
   EXPECT_EQ(times_of_impact(queries, answers, toi, 0.75), Status::ok);
   EXPECT_THAT(answers, ElementsAre(0, 0, 0, 1));
 }
+
+TEST(Interface, EverySpanHasOneElementForEachQuery) {
+  std::vector<double> x(falling.begin(), falling.end());
+  x.insert(x.end(), falling.begin(), falling.end());
+  const Queries queries = Queries::packed(Kind::vertex_triangle, x);
+  const std::vector<double> h(3);
+  std::vector<std::int8_t> answers(2, 7);
+  for (const std::size_t size : {0, 1, 3}) {
+    const Queries of_others = queries.with_separations(std::span(h).first(size));
+    EXPECT_EQ(collides(of_others, answers), Status::bad_argument) << size;
+    EXPECT_EQ(collides(of_others.with_separation(h[0]), answers), Status::ok);
+    answers.assign(2, 7);
+  }
+  EXPECT_EQ(collides(queries, std::span(answers).first(1)), Status::bad_argument);
+  EXPECT_THAT(answers, ElementsAre(7, 7));
+}
+
+TEST(Interface, DistancesIgnoreSeparations) {
+  for (const double h : {-1.0, nan, infinity, 0.5}) {
+    double lo = 7;
+    const Queries query = Queries::packed(Kind::vertex_triangle, falling).with_separation(h);
+    EXPECT_EQ(smallest_distances(query, {&lo, 1}), Status::ok) << h;
+    EXPECT_EQ(lo, 0) << h;
+  }
+}
+
+#ifndef _GLIBCXX_ASSERTIONS  // the preset whose sanitizers need more
+/// The query is the one that was seen to take the deepest stack.
+TEST(Interface, WorksOnASmallStack) {
+  static constexpr std::array deepest{-0x1p+0,
+                                      0x1.87e92154ef7acp-665,
+                                      -0x1p-1074,
+                                      0x1.8p+1,
+                                      -0x1p-1074,
+                                      -0x1p-1074,
+                                      0x0p+0,
+                                      0x1.1ccf385ebc8ap+1023,
+                                      0x1p-960,
+                                      0x1p-1074,
+                                      0x1.1ccf385ebc8ap+1023,
+                                      0x1.8p+1,
+                                      0x1p-1022,
+                                      0x1p+0,
+                                      0x1p+0,
+                                      0x1p-1074,
+                                      0x1.4e718d7d7625ap+664,
+                                      0x1p-1074,
+                                      -0x1.1ccf385ebc8ap+1023,
+                                      0x1.1ccf385ebc8ap+1023,
+                                      0x1.87e92154ef7acp-665,
+                                      0x1.1ccf385ebc8ap+1023,
+                                      0x1.fffffffffffffp+1023,
+                                      -0x1.1ccf385ebc8ap+1023};
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, 256 << 10), 0);
+  const auto work = [](void* to) -> void* {
+    *static_cast<double*>(to) = smallest_distance(Kind::vertex_triangle, deepest, 0).lo;
+    return nullptr;
+  };
+  pthread_t thread{};
+  double lo = nan;
+  ASSERT_EQ(pthread_create(&thread, &attributes, work, &lo), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_GE(lo, 0);
+}
+#endif
 
 TEST(Interface, SeparationsOfZeroAskForContact) {
   constexpr std::size_t count = 300;  // more than a block

@@ -5,6 +5,7 @@ import sys
 import threading
 import time
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
@@ -90,12 +91,18 @@ class Refusals(unittest.TestCase):
             self.expect(ValueError, wanted, nearmiss.wang, 'ee', mixed)
             halves = [x[:4].astype(np.uint64 if number > 0 else np.int64), np.zeros((4, 3))]
             self.expect(ValueError, wanted, nearmiss.wang, 'ee', halves)
+            arrays = [[np.array(each) for each in row] for row in mixed]
+            self.expect(ValueError, wanted, nearmiss.wang, 'ee', arrays)
         wanted = 'separation has an integer beyond 2^53, which may be no double'
         self.expect(ValueError, wanted, nearmiss.collides, 'vt', X[:2], [2**53 + 1, 0.5])
 
     def test_of_masked_elements(self):
         wanted = 'x has masked elements, expected none'
         self.expect(ValueError, wanted, nearmiss.collides, 'vt', np.ma.masked_all((8, 3)))
+        halves = [np.zeros((4, 3)), np.ma.masked_all((4, 3))]
+        self.expect(ValueError, wanted, nearmiss.collides, 'vt', halves)
+        pairs = nearmiss.MeshPairs(np.ma.masked_all((1, 4), int), X[0, 0], X[0, 1])
+        self.expect(ValueError, wanted.replace('x ', 'pairs ', 1), nearmiss.collides, 'vt', pairs)
         nearmiss.collides('vt', np.ma.masked_array(X))
 
     def test_of_meshes(self):
@@ -118,11 +125,21 @@ class Refusals(unittest.TestCase):
 
     def test_of_options(self):
         asks = (
-            ('tmax', 'a number that is at most 1', nearmiss.time_of_impact, (1.5, np.nan)),
-            ('width', 'a number that is not negative', nearmiss.earliest_time, (-5e-324, np.nan)),
+            (
+                'tmax',
+                'a double that is at most 1',
+                nearmiss.time_of_impact,
+                (1.5, np.nan, Fraction(1, 3)),
+            ),
+            (
+                'width',
+                'a double that is not negative',
+                nearmiss.earliest_time,
+                (-5e-324, np.nan, 10**400),
+            ),
             (
                 'relative_width',
-                'a number that is not negative',
+                'a double that is not negative',
                 nearmiss.smallest_distance,
                 (-1.0, np.float32(-1)),
             ),

@@ -224,6 +224,8 @@ class Trial(unittest.TestCase):
             ("subjects is b'wang', expected a Subject", lambda: nearmiss.trial(b'wang')),
             ('function is 5, expected a function', lambda: nearmiss.trial([5])),
             ('cases is 10000.0, expected an integer', lambda: nearmiss.trial(never, 1e4)),
+            ('families is 5, expected names', lambda: nearmiss.trial(never, 10, 5)),
+            ("kinds is None, expected 'vt'", lambda: nearmiss.Subject(never, kinds=None)),
             ('families has 5, expected names', lambda: nearmiss.trial(never, 10, [5])),
             ('family is 5, expected a name', lambda: nearmiss.queries(5, 'vt', 1)),
             ('count is 1.5, expected an', lambda: nearmiss.queries('uniform', 'vt', 1.5)),

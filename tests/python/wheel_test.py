@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / 'tools/python'
@@ -43,6 +44,8 @@ class Wheel(unittest.TestCase):
             python = f'{folder}/venv/bin/python'
             run(python, *pip, 'install', *options, str(wheel))
             run(python, '-c', USE % folder)
+            names = zipfile.ZipFile(wheel).namelist()
+            self.assertTrue({'nearmiss/LICENSE', 'nearmiss/copyright'} <= set(names), names)
 
     def test_needs_no_package_of_npm(self):
         inputs = run('ninja', '-C', str(BUILD), '-t', 'inputs', 'nearmiss_python')

@@ -113,6 +113,24 @@ TEST_F(StoreTest, AReaderSeesOneSave) {
   }
 }
 
+TEST_F(StoreTest, WaitsForReadersWhenItIsOpened) {
+  { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
+  sqlite3* reader = nullptr;
+  ASSERT_EQ(sqlite3_open(file("a.db").c_str(), &reader), SQLITE_OK);
+  const auto run = [&](const char* command) {
+    EXPECT_EQ(sqlite3_exec(reader, command, nullptr, nullptr, nullptr), SQLITE_OK);
+  };
+  run("BEGIN; SELECT count(*) FROM shard");
+  std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    run("COMMIT");
+  });
+  Store(file("a.db")).save(some_statistics("wang"), shard, {});
+  later.join();
+  sqlite3_close(reader);
+  EXPECT_EQ(load_campaign(file("a.db")).statistics, some_statistics("wang"));
+}
+
 TEST_F(StoreTest, IsWrittenByOneAtATime) {
   {
     Store store(file("a.db"), info, shard);

@@ -59,7 +59,15 @@ if("oracle" IN_LIST NEARMISS_COMPONENTS)
   # The C++ interface uses the kinds of the templates.
   nearmiss_install_headers(oracle-dev ccd/kind.hpp)
   nearmiss_install_target(oracle nearmiss_interface)
-  file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # so that the prefix can be moved
+  if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR} OR IS_ABSOLUTE ${CMAKE_INSTALL_INCLUDEDIR})
+    set(pkgconfig_prefix ${CMAKE_INSTALL_PREFIX})
+  else()
+    file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # so that the prefix can be moved
+    string(REGEX REPLACE "/$" "" pkgconfig_prefix "\${pcfiledir}/${up}")
+  endif()
+  foreach(place LIBDIR INCLUDEDIR)
+    cmake_path(ABSOLUTE_PATH CMAKE_INSTALL_${place} BASE_DIRECTORY "\${prefix}" OUTPUT_VARIABLE pkgconfig_${place})
+  endforeach()
   configure_file(${CMAKE_CURRENT_LIST_DIR}/nearmiss.pc.in ${written}/nearmiss.pc @ONLY)
   install(FILES ${written}/nearmiss.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT oracle-dev)
 endif()

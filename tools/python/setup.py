@@ -29,6 +29,9 @@ class CMakeBuild(build_ext):
             (package,) = pathlib.Path(prefix).rglob('nearmiss/__init__.py')
             destination = pathlib.Path(self.build_lib) / 'nearmiss'
             shutil.copytree(package.parent, destination, dirs_exist_ok=True)
+            # The second one is about the libraries whose headers are compiled in.
+            for terms in ('LICENSE', 'tools/debian/copyright'):
+                shutil.copy(root / terms, destination)
 
     def build_modules(self):
         components = os.environ.get('NEARMISS_COMPONENTS', 'oracle;tools;python')

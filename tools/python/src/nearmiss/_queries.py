@@ -3,7 +3,7 @@
 import enum
 import numbers
 from dataclasses import dataclass
-from typing import Any, Callable, Literal, Optional, Sequence, Union
+from typing import Any, Callable, Literal, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -98,12 +98,12 @@ class Asked:
 
 def not_negative(name: str, value: Any) -> float:
     """The value of an option as a double. Raises TypeError or ValueError, also with its name."""
-    return _option(name, value, 'a number that is not negative', lambda number: number >= 0)
+    return _option(name, value, 'a double that is not negative', lambda number: number >= 0)
 
 
 def at_most_1(name: str, value: Any) -> float:
     """The same for another option."""
-    return _option(name, value, 'a number that is at most 1', lambda number: number <= 1)
+    return _option(name, value, 'a double that is at most 1', lambda number: number <= 1)
 
 
 def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool]) -> float:
@@ -113,42 +113,51 @@ def _option(name: str, value: Any, expected: str, is_one: Callable[[float], bool
         refused = f'{name} is {value!r}, expected {expected}'
         if not isinstance(value, numbers.Real):
             raise TypeError(refused)
-        if not is_one(float(value)):
+        try:
+            number = float(value)
+        except OverflowError:
+            raise ValueError(refused) from None
+        if not is_one(number) or number != value:
             raise ValueError(refused)
-        return float(value)
+        return number
 
 
 def _numbers(values: ArrayLike, name: str) -> Coordinates:
     """The values in float64 or float32, as an array whose elements are aligned. Raises TypeError or ValueError instead of rounding."""
-    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
-        raise ValueError(f'{name} has masked elements, expected none')
     array = np.asarray(values)
     if array.dtype not in (np.float64, np.float32):
         if array.dtype.kind not in 'iuf' or array.dtype.itemsize > 8:
             raise TypeError(
                 f'{name} has the type {array.dtype}, expected float64, float32 or integers'
             )
-        if array.dtype.kind in 'iu' and array.size and not _are_doubles(array):
-            raise ValueError(_beyond_doubles % name)
         array = array.astype(np.float64)
-    elif isinstance(values, Sequence) and not _has_exact_integers(values):
-        raise ValueError(_beyond_doubles % name)
+    _expect_doubles(values, name)
     return np.require(array, requirements='A')
 
 
-_beyond_doubles = '%s has an integer beyond 2^53, which may be no double'
+def _expect_doubles(values: Any, name: str) -> None:
+    """Refuses integers that may be no double, also those that NumPy has rounded because there are other numbers beside them."""
+    _expect_no_mask(values, name)
+    if isinstance(values, np.ndarray):
+        is_exact = values.dtype.kind not in 'iu' or values.size == 0 or _are_doubles(values)
+    elif isinstance(values, numbers.Integral):
+        is_exact = abs(int(values)) <= 2**53
+    else:
+        if hasattr(values, '__len__') and hasattr(values, '__getitem__'):
+            for each in values:
+                _expect_doubles(each, name)
+        return
+    if not is_exact:
+        raise ValueError(f'{name} has an integer beyond 2^53, which may be no double')
 
 
 def _are_doubles(integers: NDArray[Any]) -> bool:
     return -(2**53) <= int(integers.min()) and int(integers.max()) <= 2**53
 
 
-def _has_exact_integers(values: ArrayLike) -> bool:
-    """Whether no integer of nested sequences was rounded because there are other numbers beside it."""
-    elements = np.asarray(values, object).flat
-    return all(
-        not isinstance(each, numbers.Integral) or abs(int(each)) <= 2**53 for each in elements
-    )
+def _expect_no_mask(values: Any, name: str) -> None:
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise ValueError(f'{name} has masked elements, expected none')
 
 
 def _vertices(values: ArrayLike, name: str) -> Coordinates:
@@ -160,6 +169,7 @@ def _vertices(values: ArrayLike, name: str) -> Coordinates:
 
 def _checked_pairs(values: ArrayLike, vertices: int) -> NDArray[np.int32]:
     """A copy, so that no other thread can change the numbers after they have been checked."""
+    _expect_no_mask(values, 'pairs')
     pairs = np.array(values)
     if pairs.ndim != 2 or pairs.shape[1] != 4:
         raise ValueError(f'pairs has shape {pairs.shape}, expected (n, 4)')

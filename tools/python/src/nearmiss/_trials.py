@@ -41,6 +41,8 @@ class Subject:
         if self.time not in _TIME_SORTS:
             raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
         kinds = [self.kinds] if isinstance(self.kinds, str) else self.kinds
+        if not isinstance(kinds, Iterable):
+            raise TypeError(f"kinds is {kinds!r}, expected 'vt', 'ee' or both")
         object.__setattr__(self, 'kinds', tuple(kind_of(kind).value for kind in kinds))
         if not self.kinds:
             raise ValueError("kinds is empty, expected 'vt', 'ee' or both")
@@ -208,6 +210,8 @@ def trial(
     extension = _extension()
     if families is None:
         families = [name for name, _, has_separation in extension.families() if not has_separation]
+    if not isinstance(families, Iterable):
+        raise TypeError(f'families is {families!r}, expected names')
     families = [families] if isinstance(families, str) else list(families)
     for each in families:
         if not isinstance(each, str):
