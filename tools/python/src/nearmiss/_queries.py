@@ -138,15 +138,17 @@ def _numbers(values: ArrayLike, name: str) -> Coordinates:
 def _expect_doubles(values: Any, name: str) -> None:
     """Refuses integers that may be no double, also those that NumPy has rounded because there are other numbers beside them."""
     _expect_no_mask(values, name)
-    if isinstance(values, np.ndarray):
-        is_exact = values.dtype.kind not in 'iu' or values.size == 0 or _are_doubles(values)
-    elif isinstance(values, numbers.Integral):
+    is_exact = True
+    if isinstance(values, numbers.Integral):
         is_exact = abs(int(values)) <= 2**53
-    else:
-        if hasattr(values, '__len__') and hasattr(values, '__getitem__'):
-            for each in values:
-                _expect_doubles(each, name)
+    elif isinstance(values, numbers.Real):
         return
+    elif hasattr(values, '__array__'):  # an array, or what makes one of itself
+        array = np.asarray(values)
+        is_exact = array.dtype.kind not in 'iu' or array.size == 0 or _are_doubles(array)
+    elif hasattr(values, '__len__') and hasattr(values, '__getitem__'):
+        for each in values:
+            _expect_doubles(each, name)
     if not is_exact:
         raise ValueError(f'{name} has an integer beyond 2^53, which may be no double')
 
