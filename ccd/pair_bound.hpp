@@ -14,8 +14,12 @@ namespace nearmiss {
 /// bound of a scene is the largest one of its pairs.
 template <Kind kind>
 double pair_bound(const Query& query) {
-  const auto pair = make_pair<kind, double>(query, normalising_frame<kind, double>(query));
-  return std::ldexp(pair.B, -pair.frame.total());
+  const auto in = [&](const Frame& frame) {
+    return std::ldexp(make_pair<kind, double>(query, frame).B, -frame.total());
+  };
+  const double B = in(normalising_frame<kind, double>(query));
+  // Two primitives may be so far apart that their distance overflows in the frame of their B, and their velocity is NaN.
+  return std::isnan(B) ? in({.reduced = true}) : B;
 }
 /// The same for the kind of the query.
 inline double pair_bound(const Query& query) {

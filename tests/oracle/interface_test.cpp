@@ -110,6 +110,20 @@ TEST(Interface, EverySpanHasOneElementForEachQuery) {
   EXPECT_THAT(answers, ElementsAre(7, 7));
 }
 
+/// Two edges are farther apart than the largest double, and one of them moves by 1.
+TEST(Interface, TheBoundOfWangIsThatOfThePairHoweverFarItsPrimitivesAreApart) {
+  constexpr double a = 0x1.8p+1023;
+  constexpr double b = 0x1p+1023;
+  constexpr std::array far_apart{-a, a, 0.0, -a, a, 0.0, b, -a, 0.0,  b, -a, 0.0,
+                                 -a, a, 0.0, -a, a, 0.0, b, -a, -1.0, b, -a, 0.0};
+  auto near = far_apart;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (i % 3 != 2) near[i] = 0;
+  EXPECT_GT(wang_bound(Kind::edge_edge, near), 0);
+  EXPECT_EQ(wang_bound(Kind::edge_edge, far_apart), wang_bound(Kind::edge_edge, near));
+  EXPECT_EQ(wang(Kind::edge_edge, far_apart), Answer::no_collision);
+}
+
 TEST(Interface, DistancesIgnoreSeparations) {
   for (const double h : {-1.0, nan, infinity, 0.5}) {
     double lo = 7;
