@@ -100,7 +100,7 @@ TEST(Interface, EverySpanHasOneElementForEachQuery) {
   const Queries queries = Queries::packed(Kind::vertex_triangle, x);
   const std::vector<double> h(3);
   std::vector<std::int8_t> answers(2, 7);
-  for (const std::size_t size : {0, 1, 3}) {
+  for (const std::size_t size : {0U, 1U, 3U}) {
     const Queries of_others = queries.with_separations(std::span(h).first(size));
     EXPECT_EQ(collides(of_others, answers), Status::bad_argument) << size;
     EXPECT_EQ(collides(of_others.with_separation(h[0]), answers), Status::ok);
