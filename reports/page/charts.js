@@ -46,8 +46,8 @@ const kindTitles = { vt: "vertex-triangle", ee: "edge-edge" };
 /** A line of a tooltip: whose bound is the unit of distances. */
 const boundField = { field: "bound_of_distances", title: "bound" };
 
-/** A logarithmic axis whose ends stand for 0 and infinity. `at` returns the place of a value. */
-function logAxis(values) {
+/** A logarithmic axis whose ends stand for 0 and infinity. `at` returns the place of a value, and `written` is how the chart writes one. */
+function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
   const lowest = exponents.length === 0 ? 0 : Math.floor(Math.min(...exponents));
   const highest = exponents.length === 0 ? 0 : Math.max(Math.ceil(Math.max(...exponents)), lowest + 1);
@@ -57,10 +57,13 @@ function logAxis(values) {
   const top = power(values.includes(Infinity) ? highest + step : highest);
   const ticks = [bottom, top];
   for (let i = highest; i >= lowest; i -= step) if (top === power(highest) || Math.log10(top) - i >= step / 2) ticks.push(power(i));
-  const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : digits(datum.value, 3)`;
+  const label = `datum.value < ${power(lowest - 0.5)} ? '0' : datum.value > ${power(highest + 0.5)} ? '∞' : ${written}`;
   return { at: (v) => Math.min(Math.max(v, bottom), top), scale: { type: "log", domain: [bottom, top], nice: false },
     axis: { values: ticks, labelExpr: label } };
 }
+
+/** The classes of families in the order of charts. */
+const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
 /** Whether a family is a step of a sweep; sweeps have charts of their own. */
 const isSweep = (family) => Object.keys(report.sweeps ?? {}).some((name) => family.startsWith(`${name}@`));
@@ -139,7 +142,7 @@ function drawMisses() {
   const x = { field: "subject", type: "nominal", title: null, sort: failed, axis: { orient: "top", labelAngle: -40, labelLimit: 0 } };
   const y = { field: "family", type: "nominal", title: null, axis: { labelLimit: 0 } };
   const tooltip = [{ field: "subject" }, { field: "family" }, { field: "class" }, { field: "vt", title: kindTitles.vt }, { field: "ee", title: kindTitles.ee }];
-  const classes = ["ordinary", "degenerate", "extreme", "unclassified"].filter((name) => shown.some((cell) => cell.class === name && isAny.has(cell.family)));
+  const classes = classNames.filter((name) => shown.some((cell) => cell.class === name && isAny.has(cell.family)));
   const panel = (name, i) => ({
     title: { text: name, anchor: "start" }, width: { step: Math.max(24, Math.min(70, panelWidth(600) * 2 / failed.length)) }, height: { step: 15 },
     transform: [{ filter: { and: [{ field: "class", equal: name }, { field: "family", oneOf: [...isAny] }] } }],

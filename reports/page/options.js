@@ -1,13 +1,14 @@
 // Draws what the values of an option of a subject trade for what.
 "use strict";
 
-const optionRates = {
-  false_negative_rate: { title: "missed, among collisions", digits: "share" },
-  late_rate: { title: "late, among promised times", digits: "share" },
-  false_positive_rate: { title: "false positives, among non-collisions", digits: "share" },
-  early: { title: "early, 99 % at most", digits: "number" },
-  ns_per_query: { title: "ns a query", digits: "number" },
-};
+/** The charts of an option: what a chart shows, its title, and how it writes numbers other than the usual way. */
+const optionCharts = [
+  ["false_negative_rate", "missed, among collisions", "share(datum.value)"],
+  ["late_rate", "late, among promised times", "share(datum.value)"],
+  ["false_positive_rate", "false positives, among non-collisions", "share(datum.value)"],
+  ["early", "early, 99 % at most"],
+  ["ns_per_query", "ns a query"],
+];
 
 /** The steps of each sweep of an option, with the numbers that the charts show. */
 const optionSteps = () => Object.entries(report.option_sweeps).map(([pattern, steps]) => [pattern, steps.map((step) => ({ ...step,
@@ -15,22 +16,22 @@ const optionSteps = () => Object.entries(report.option_sweeps).map(([pattern, st
 
 function drawOptions() {
   const sweeps = optionSteps();
-  const classes = ["ordinary", "degenerate", "extreme", "unclassified"].filter((name) => sweeps.some(([, steps]) => steps.some((step) => step.class === name)));
-  const shown = Object.entries(optionRates).filter(([field]) => sweeps.some(([, steps]) => steps.some((step) => step[field] > 0)));
+  const classes = classNames.filter((name) => sweeps.some(([, steps]) => steps.some((step) => step.class === name)));
+  const shown = optionCharts.filter(([field]) => sweeps.some(([, steps]) => steps.some((step) => step[field] > 0)));
   const hue = { field: "class", type: "nominal", title: "class of families", scale: { domain: classes, range: palette } };
   const tooltip = [{ field: "value" }, { field: "class" }, { field: "queries" }, { field: "collisions" }, { field: "false_negatives", title: "missed" },
     { field: "late" }, { field: "false_positives", title: "false positives" }, { field: "without_answer", title: "without an answer" },
     { field: "ns_per_query", title: "ns a query", ...digits(4) }];
-  const panel = (steps) => ([field, { title, digits: form }]) => {
-    const [across, up] = [logAxis(steps.map((step) => step.value)), logAxis(steps.map((step) => step[field]).filter((value) => value !== null))];
-    const rows = steps.filter((step) => step[field] !== null).map((step) => ({ ...step, across: across.at(step.value), up: up.at(step[field]) }));
-    const labels = form === "share" ? { labelExpr: up.axis.labelExpr.replace("digits(datum.value, 3)", "share(datum.value)") } : {};
+  const panel = (steps) => ([field, title, written]) => {
+    const known = steps.filter((step) => step[field] !== null);
+    const [across, up] = [logAxis(steps.map((step) => step.value)), logAxis(known.map((step) => step[field]), written)];
+    const rows = known.map((step) => ({ ...step, across: across.at(step.value), up: up.at(step[field]) }));
     return {
       title, width: Math.max(200, Math.min(300, (element("how").clientWidth - 80 * shown.length) / shown.length)), height: 200, data: { values: rows },
       mark: { type: "line", point: { filled: true, size: 50 } },
       encoding: {
         x: { field: "across", type: "quantitative", title: "value", scale: across.scale, axis: across.axis },
-        y: { field: "up", type: "quantitative", title: null, scale: up.scale, axis: { ...up.axis, ...labels } },
+        y: { field: "up", type: "quantitative", title: null, scale: up.scale, axis: up.axis },
         color: hue, tooltip,
       },
     };

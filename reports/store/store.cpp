@@ -102,11 +102,11 @@ struct Connection {
   SQLite::Database db;
 };
 
-/// Whether a file is a database without tables. A kill during the creation of a store leaves such a file.
+/// Whether a file is an empty database.
 bool is_empty_database(const fs::path& file) {
   try {
     SQLite::Database db(file.string(), SQLite::OPEN_READWRITE);  // rolls back an unfinished transaction
-    return db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
+    return is_empty(db);
   } catch (const SQLite::Exception&) {
     return false;
   }

@@ -19,6 +19,10 @@ SQLite::Database open_to_read(const std::filesystem::path& file) {
   return {file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms};
 }
 
+bool is_empty(const SQLite::Database& db) {
+  return !SQLite::Statement(db, "SELECT 1 FROM sqlite_schema").executeStep();
+}
+
 void write_version(SQLite::Database& db) {
   db.exec(
       fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {};", store_version, application_id));
@@ -26,7 +30,7 @@ void write_version(SQLite::Database& db) {
 
 int version_of(SQLite::Database& db, int oldest) {
   if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
-    throw Error(db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0
+    throw Error(is_empty(db)
                     ? "found an empty database, as a kill before the first save leaves it, expected a store "
                       "of nearmiss"
                     : "found another kind of database, expected a store of nearmiss");

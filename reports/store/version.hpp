@@ -22,6 +22,9 @@ inline constexpr int patience_ms = 1500;
 /// SQLite takes back the half-done change, by the journal beside the store.
 SQLite::Database open_to_read(const std::filesystem::path& file);
 
+/// Whether a database has no tables. A kill before the first save leaves such a file.
+bool is_empty(const SQLite::Database& db);
+
 /// Marks an empty database as a store of this version.
 void write_version(SQLite::Database& db);
 

@@ -11,8 +11,10 @@ here=$(dirname "$script")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "FAILED: $*" >&2; exit 1; }
+# Runs a command, whose output is shown if it fails.
+quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
-cmake --install "$build" --prefix "$folder/first" >"$folder/log" || fail "$(cat "$folder/log")"
+quietly cmake --install "$build" --prefix "$folder/first"
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 30000 1 >"$folder/queries"
 
@@ -55,7 +57,7 @@ refuse_flags() {
 refuse_flags g++ -ffast-math -ffinite-math-only "-ffast-math -fno-finite-math-only" -funsafe-math-optimizations -freciprocal-math
 refuse_flags clang++ -ffast-math -ffinite-math-only
 
-# What the program reads from the environment is nothing to the library.
+# The library ignores the variable of the environment that the program reads.
 NEARMISS_LANES=16 "$folder/g++/answers_c" <"$folder/queries"
 
 # pkg-config
@@ -64,7 +66,7 @@ gcc -std=c99 "$here/answers.c" $(pkg-config --cflags --libs nearmiss) -o "$folde
 LD_LIBRARY_PATH=$folder/prefix/lib "$folder/by_pkg_config" <"$folder/queries"
 [[ $(pkg-config --modversion nearmiss) == 1.* ]] || fail "the version of pkg-config"
 
-# What is not there is refused.
+# Versions and components that are not installed are refused.
 mkdir "$folder/other"
 for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
   printf 'cmake_minimum_required(VERSION 3.25)\nproject(other CXX)\nfind_package(nearmiss %s REQUIRED)\n' "$wanted" >"$folder/other/CMakeLists.txt"
@@ -73,8 +75,7 @@ done
 grep -q 'The component fortran is not installed in' "$folder/log" || fail "$(cat "$folder/log")"
 
 # Absolute folders need no prefix.
-cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include \
-  >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+quietly cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include
 PKG_CONFIG_PATH=$folder/absolute/install pkg-config --cflags --libs nearmiss >"$folder/log"
 grep -q -- '-I/b/include -L/a/lib -lnearmiss' "$folder/log" || fail "$(cat "$folder/log")"
 
@@ -85,16 +86,16 @@ declared=$(grep -ohE '\bnearmiss_[a-z_]+\(' "$folder"/prefix/include/nearmiss/{q
 [[ $shown == "$declared" ]] || fail "exported: $shown; declared: $declared"
 
 # A project may have the source tree as a subdirectory.
-cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.." >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+quietly cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.."
 
 # A plain build needs neither npm nor what the tools need.
-cmake -S "$here/../.." -B "$folder/plain" >"$folder/log" 2>&1 || fail "$(tail "$folder/log")"
+quietly cmake -S "$here/../.." -B "$folder/plain"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
 # The templates alone need only Eigen, and nothing is compiled for them.
-cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
-  -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON >"$folder/log" 2>&1 && cmake --install "$folder/headers" --prefix "$folder/only" >>"$folder/log" ||
-  fail "$(tail "$folder/log")"
+quietly cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
+quietly cmake --install "$folder/headers" --prefix "$folder/only"
 mkdir "$folder/alone"
 printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(alone CXX)' 'find_package(nearmiss 1 REQUIRED COMPONENTS ccd)' \
   'add_executable(alone alone.cpp)' 'target_link_libraries(alone nearmiss::ccd)' >"$folder/alone/CMakeLists.txt"
@@ -106,10 +107,11 @@ int main() {
   return nearmiss::wang<Kind::vertex_triangle, double, nearmiss::WangOptions{}>(touching).hit ? 0 : 1;
 }
 END
-cmake -S "$folder/alone" -B "$folder/alone/b" -DCMAKE_PREFIX_PATH="$folder/only" >"$folder/log" 2>&1 && cmake --build "$folder/alone/b" >>"$folder/log" 2>&1 &&
-  "$folder/alone/b/alone" || fail "$(tail "$folder/log")"
+quietly cmake -S "$folder/alone" -B "$folder/alone/b" -DCMAKE_PREFIX_PATH="$folder/only"
+quietly cmake --build "$folder/alone/b"
+quietly "$folder/alone/b/alone"
 
-# What is asked for must be there.
+# Unsafe flags and unknown components are refused.
 ! cmake -S "$here/../.." -B "$folder/parts" -DNEARMISS_COMPONENTS=oracle -DCMAKE_CXX_FLAGS='-ffast-math -fno-finite-math-only' >"$folder/log" 2>&1 ||
   fail "cmake accepts a part of -ffast-math"
 ! cmake -S "$here/../.." -B "$folder/unknown" -DNEARMISS_COMPONENTS=ccd,oracle >"$folder/log" 2>&1 || fail "cmake accepts unknown components"

@@ -1,4 +1,4 @@
-# What NEARMISS_COMPONENTS asks for.
+# Checks the list of components to build.
 set(known ccd oracle tools python tests)
 list(JOIN known ", " listed)
 list(REMOVE_DUPLICATES NEARMISS_COMPONENTS)

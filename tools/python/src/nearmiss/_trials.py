@@ -40,9 +40,7 @@ class Subject:
             raise TypeError(f'function is {self.function!r}, expected a function')
         if self.time not in _TIME_SORTS:
             raise ValueError(f'time is {self.time!r}, expected one of {", ".join(_TIME_SORTS)}')
-        kinds = [self.kinds] if isinstance(self.kinds, str) else self.kinds
-        if not isinstance(kinds, Iterable):
-            raise TypeError(f"kinds is {kinds!r}, expected 'vt', 'ee' or both")
+        kinds = _several('kinds', self.kinds, "'vt', 'ee' or both")
         object.__setattr__(self, 'kinds', tuple(kind_of(kind).value for kind in kinds))
         if not self.kinds:
             raise ValueError("kinds is empty, expected 'vt', 'ee' or both")
@@ -210,9 +208,7 @@ def trial(
     extension = _extension()
     if families is None:
         families = [name for name, _, has_separation in extension.families() if not has_separation]
-    if not isinstance(families, Iterable):
-        raise TypeError(f'families is {families!r}, expected names')
-    families = [families] if isinstance(families, str) else list(families)
+    families = _several('families', families, 'names')
     for each in families:
         if not isinstance(each, str):
             raise TypeError(f'families has {each!r}, expected names')
@@ -250,6 +246,15 @@ def _subjects_of(subjects: Any) -> list[Union[Subject, str]]:
         if not name.isprintable():  # nor can a lone surrogate be written
             raise ValueError(f'found the name {name!r}, expected printable characters')
     return chosen
+
+
+def _several(name: str, values: Any, expected: str) -> list[Any]:
+    """The values, or a single one, which is a string, as a list."""
+    if isinstance(values, str):
+        return [values]
+    if not isinstance(values, Iterable):
+        raise TypeError(f'{name} is {values!r}, expected {expected}')
+    return list(values)
 
 
 def _count(name: str, value: Any) -> int:
