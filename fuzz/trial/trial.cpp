@@ -189,6 +189,7 @@ class Judging {
                                 std::move(failure.signature), query});
     result_.findings.back().time = is_late ? outcome.verdict.time : 0;
     result_.findings.back().place = i;
+    result_.findings.back().in_class = query;
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }
 

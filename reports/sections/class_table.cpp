@@ -12,7 +12,7 @@ namespace nearmiss {
 std::string class_table(const Statistics& statistics) {
   std::vector<std::vector<std::string>> rows{
       {"subject", "kind", "class", "queries", "collisions", "false neg.", "late", "false pos.", "ns/query"}};
-  std::set<FamilyClass> classes;
+  std::set<QueryClass> classes;
   for (const auto& [key, sum] : by_class(statistics)) {
     const Counts& counts = sum.counts;
     classes.insert(key.of);

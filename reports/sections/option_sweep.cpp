@@ -42,7 +42,7 @@ bool has_one_value(const OptionSweep& sweep) {
   return values.size() == 1;
 }
 
-std::vector<std::string> row_of(FamilyClass of, double value, const Counts& counts) {
+std::vector<std::string> row_of(QueryClass of, double value, const Counts& counts) {
   const auto shown = [](double error) { return fmt::format("{:.2g}", error); };
   return {std::string(name(of)),
           fmt::format("{:.6g}", value),

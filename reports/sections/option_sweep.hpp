@@ -12,7 +12,7 @@
 namespace nearmiss {
 
 /// Counters by class of families and value of the option, both kinds together.
-using OptionSweep = std::map<std::pair<FamilyClass, double>, CountsSum>;
+using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
 /// The sweeps in a campaign by pattern: subjects NAME:KEY=NUMBER with at least two numbers have the pattern NAME:KEY=*.
 std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics);

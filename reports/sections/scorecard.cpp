@@ -23,7 +23,7 @@ namespace {
 /// A subject's counters over both kinds.
 struct OfSubject {
   CountsSum all;
-  std::map<FamilyClass, CountsSum> by_class;
+  std::map<QueryClass, CountsSum> by_class;
 };
 
 std::map<std::string, OfSubject> by_subject(const Statistics& statistics) {

@@ -1,6 +1,7 @@
 #include "reports/statistics/family_class.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace nearmiss {
 
@@ -59,11 +60,11 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
 
 }  // namespace
 
-FamilyClass class_of(std::string_view family) {
+QueryClass class_of(std::string_view family) {
   const std::string_view base = family.substr(0, family.find_first_of("@~"));
-  if (family.starts_with("scene:") || contains(ordinary, base)) return FamilyClass::ordinary;
-  if (contains(degenerate, base)) return FamilyClass::degenerate;
-  return contains(extreme, base) ? FamilyClass::extreme : FamilyClass::unclassified;
+  if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
+  if (contains(degenerate, base)) return QueryClass::degenerate;
+  return contains(extreme, base) ? QueryClass::extreme : QueryClass::unclassified;
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {

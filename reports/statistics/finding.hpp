@@ -8,8 +8,10 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "ccd/query.hpp"
+#include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {
 
@@ -35,6 +37,10 @@ struct Finding {
   std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it is late
   bool is_shrunk = false;   ///< whether shrinking has come to its end
+  QueryClass query_class = QueryClass::unclassified;   ///< of `query`
+  QueryClass shrunk_class = QueryClass::unclassified;  ///< of `shrunk`
+  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `shrunk`.
+  Query in_class = {};
 
   bool operator==(const Finding&) const = default;
 };
@@ -61,17 +67,19 @@ inline Signature signature_of(const Finding& finding) {
   return {finding.what, finding.subject, finding.signature};
 }
 
-/// Number of findings of each signature that are kept and shown; Statistics::seen counts all.
+/// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order and picks the first ones of each signature.
+/// Takes findings in order and picks the first ones of each signature in each class of queries.
 class FirstFindings {
  public:
-  /// Counts the finding. Whether it is among the first ones of its signature.
-  bool take(const Finding& finding) { return ++taken_[signature_of(finding)] <= findings_kept; }
+  /// Counts the finding. Whether it is among the first ones of its signature and class.
+  bool take(const Finding& finding) {
+    return ++taken_[{signature_of(finding), finding.query_class}] <= findings_kept;
+  }
 
  private:
-  std::map<Signature, std::size_t> taken_;
+  std::map<std::pair<Signature, QueryClass>, std::size_t> taken_;
 };
 
 }  // namespace nearmiss

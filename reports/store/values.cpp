@@ -42,6 +42,11 @@ void from_stored(const std::string& stored, Finding::What& what, const std::stri
   what = named<Finding::What>(stored, what_names, where);
 }
 
+std::string to_stored(QueryClass of) { return std::string(name(of)); }
+void from_stored(const std::string& stored, QueryClass& of, const std::string& where) {
+  of = named<QueryClass>(stored, class_names, where);
+}
+
 std::string to_stored(Extreme::Of of) { return std::string(name(of)); }
 void from_stored(const std::string& stored, Extreme::Of& of, const std::string& where) {
   of = named<Extreme::Of>(stored, extreme_names, where);

@@ -36,6 +36,9 @@ void from_stored(const std::string& stored, Kind& kind, const std::string& where
 std::string to_stored(Finding::What what);
 void from_stored(const std::string& stored, Finding::What& what, const std::string& where);
 
+std::string to_stored(QueryClass of);
+void from_stored(const std::string& stored, QueryClass& of, const std::string& where);
+
 std::string to_stored(Extreme::Of of);
 void from_stored(const std::string& stored, Extreme::Of& of, const std::string& where);
 

@@ -29,9 +29,9 @@ bool is_empty(const SQLite::Database& db);
 void write_version(SQLite::Database& db);
 
 /// The version of the tables and of their contents; every change raises it.
-inline constexpr int store_version = 17;
+inline constexpr int store_version = 18;
 /// The oldest version that can be read. Stores of versions before the present one cannot be continued.
-inline constexpr int oldest_store_version = 16;
+inline constexpr int oldest_store_version = 18;
 
 /// The version of a store. Throws Error if the database is not a store, or if its version is not at least `oldest`, or later than
 /// the present one.

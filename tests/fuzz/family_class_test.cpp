@@ -137,9 +137,9 @@ TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
     const int extreme = testing::count_of_400(family.name, is_extreme);
     const int degenerate = extreme >= 40 ? 0 : testing::count_of_400(family.name, is_degenerate);
     std::cout << family.name << ": " << extreme << " of 400 are extreme, " << degenerate << " degenerate\n";
-    const FamilyClass deserved = extreme >= 40      ? FamilyClass::extreme
-                                 : degenerate >= 40 ? FamilyClass::degenerate
-                                                    : FamilyClass::ordinary;
+    const QueryClass deserved = extreme >= 40      ? QueryClass::extreme
+                                : degenerate >= 40 ? QueryClass::degenerate
+                                                   : QueryClass::ordinary;
     EXPECT_EQ(name(class_of(family.name)), name(deserved))
         << family.name << ": " << extreme << " extreme, " << degenerate << " degenerate";
   }
@@ -147,8 +147,8 @@ TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
 
 TEST(FamilyClass, EveryFamilyHasOne) {
   for (const Family& family : all_families())
-    EXPECT_NE(class_of(family.name), FamilyClass::unclassified) << family.name;
-  EXPECT_EQ(class_of("mesh"), FamilyClass::ordinary);
+    EXPECT_NE(class_of(family.name), QueryClass::unclassified) << family.name;
+  EXPECT_EQ(class_of("mesh"), QueryClass::ordinary);
 }
 
 }  // namespace

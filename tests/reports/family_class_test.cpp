@@ -17,17 +17,17 @@ namespace {
 using testing::counts;
 
 TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
-  EXPECT_EQ(class_of("uniform"), FamilyClass::ordinary);
-  EXPECT_EQ(class_of("scene:cloth#3"), FamilyClass::ordinary);
-  EXPECT_EQ(class_of("grazing"), FamilyClass::degenerate);
-  EXPECT_EQ(class_of("scale"), FamilyClass::extreme);
-  EXPECT_EQ(class_of("scale@-1074"), FamilyClass::extreme);
+  EXPECT_EQ(class_of("uniform"), QueryClass::ordinary);
+  EXPECT_EQ(class_of("scene:cloth#3"), QueryClass::ordinary);
+  EXPECT_EQ(class_of("grazing"), QueryClass::degenerate);
+  EXPECT_EQ(class_of("scale"), QueryClass::extreme);
+  EXPECT_EQ(class_of("scale@-1074"), QueryClass::extreme);
 }
 
 TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
   for (const char* name :
        {"cases/", "search-miss-wang", "search-miss", "search-far-wang:p24", "", "uniforms"})
-    EXPECT_EQ(class_of(name), FamilyClass::unclassified) << name;
+    EXPECT_EQ(class_of(name), QueryClass::unclassified) << name;
 }
 
 /// Two ordinary families, one of them a scene; one degenerate family; and cases.
@@ -46,12 +46,12 @@ Statistics some_statistics() {
 TEST(ByClass, SumsTheFamiliesOfEachClass) {
   const auto sums = by_class(some_statistics());
   ASSERT_EQ(sums.size(), 3);
-  const auto& ordinary = sums.at({"mine", Kind::edge_edge, FamilyClass::ordinary});
+  const auto& ordinary = sums.at({"mine", Kind::edge_edge, QueryClass::ordinary});
   EXPECT_EQ(ordinary.counts.queries, 400);
   EXPECT_EQ(ordinary.counts.false_positives, 12);
   EXPECT_TRUE(ordinary.is_sample);
-  EXPECT_EQ(sums.at({"mine", Kind::edge_edge, FamilyClass::degenerate}).counts.false_negatives, 3);
-  EXPECT_FALSE(sums.at({"mine", Kind::edge_edge, FamilyClass::unclassified}).is_sample);
+  EXPECT_EQ(sums.at({"mine", Kind::edge_edge, QueryClass::degenerate}).counts.false_negatives, 3);
+  EXPECT_FALSE(sums.at({"mine", Kind::edge_edge, QueryClass::unclassified}).is_sample);
 }
 
 TEST(ByClass, TheTerminalShowsARowForEachClass) {

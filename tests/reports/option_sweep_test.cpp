@@ -63,7 +63,7 @@ TEST(OptionSweeps, AreInTheOrderOfClassesAndValuesWithBothKindsTogether) {
   std::vector<std::uint64_t> queries;
   for (const auto& [key, sum] : sweep) queries.push_back(sum.counts.queries);
   EXPECT_THAT(queries, ElementsAre(10, 20, 30));
-  EXPECT_EQ(sweep.at({FamilyClass::ordinary, 10}).counts.late, 3);
+  EXPECT_EQ(sweep.at({QueryClass::ordinary, 10}).counts.late, 3);
 }
 
 TEST(OptionSweeps, StandInTheTableAndInTheJson) {
