@@ -17,6 +17,9 @@ class Stop {
   /// `requested` must outlive the Stop.
   explicit Stop(const std::atomic<bool>& requested) : requested_(requested) {}
 
+  /// Time that is granted after the end, to shrink what was found in the last moment.
+  static constexpr std::chrono::milliseconds grace{1000};
+
   /// A Stop that is never due.
   static const Stop& never() {
     static const std::atomic<bool> no{false};
@@ -32,13 +35,13 @@ class Stop {
   }
 
   [[nodiscard]] bool is_requested() const { return requested_; }
-  /// `grace` is granted in addition to the time, but not after a request.
-  [[nodiscard]] bool is_due(std::chrono::milliseconds grace = {}) const {
-    return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + grace);
+  /// `granted` is granted in addition to the time, but not after a request.
+  [[nodiscard]] bool is_due(std::chrono::milliseconds granted = {}) const {
+    return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + granted);
   }
   /// Throws Stopped if it is due.
-  void check(std::chrono::milliseconds grace = {}) const {
-    if (is_due(grace)) throw Stopped();
+  void check(std::chrono::milliseconds granted = {}) const {
+    if (is_due(granted)) throw Stopped();
   }
 
  private:

@@ -189,13 +189,14 @@ std::string times_csv(const Statistics& statistics) {
 
 std::string findings_csv(const Campaign& campaign) {
   std::string text =
-      "what,subject,signature,seen,kind,family,provenance,distance_over_bound,late_by,shrunk,query\n";
+      "what,subject,signature,seen,kind,family,provenance,distance_over_bound,late_by,class,shrunk,query\n";
   for (const Finding& f : campaign.findings())
     text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", name(f.what), field(f.subject), field(f.signature),
-                    campaign.statistics.times_seen(signature_of(f)), short_name(f.query.kind),
-                    field(f.family), field(f.provenance), f.what == Finding::What::late ? 0 : f.ratio,
-                    f.what == Finding::What::late ? f.ratio : 0, to_line(f.shrunk), to_line(f.query));
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", name(f.what), field(f.subject),
+                    field(f.signature), campaign.statistics.times_seen(signature_of(f)),
+                    short_name(f.query.kind), field(f.family), field(f.provenance),
+                    f.what == Finding::What::late ? 0 : f.ratio, f.what == Finding::What::late ? f.ratio : 0,
+                    name(f.query_class), to_line(f.shrunk), to_line(f.query));
   return text;
 }
 

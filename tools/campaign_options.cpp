@@ -12,7 +12,6 @@
 #include "fuzz/scenes/scene.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/trial/campaign.hpp"
-#include "fuzz/trial/sieve.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/terminal.hpp"
@@ -34,6 +33,7 @@ std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& ti
 }
 
 std::string show(const CampaignProgress& now, const TimeLimit& time, const Statistics& statistics) {
+  if (!now.is_asking) return shrinking_line(now.to_shrink);
   const double rate = static_cast<double>(now.cases - now.cases_before) / now.elapsed.count();
   std::string farthest = times_the_bound(0);
   double largest = 0;
@@ -131,6 +131,7 @@ int record_campaign(const CampaignOptions& options) {
   plan.first = options.first;
   plan.comparison = options.trial.comparison;
   plan.jobs = options.trial.jobs;
+  plan.shrink = options.trial.shrink;
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
 
   Record record(options.record, info_of(options, plan, subjects),
@@ -142,8 +143,6 @@ int record_campaign(const CampaignOptions& options) {
   if (!options.time.empty()) time = parse_duration(options.time, "--time");
   if (only_time_ends_it) *time -= std::chrono::duration<double>(record.shard().seconds);
   if (time) stop.limit(*time);
-  Sieve(subjects, plan.jobs, stop).shrink(plan.findings_before);  // what an interrupted run left
-  record.replace_findings(plan.findings_before);
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);

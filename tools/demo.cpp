@@ -89,7 +89,7 @@ void run(const Options& options) {
       "queries.\n\n");
   const PlainMiss miss(*basic);
   const Finding& finding = miss.finding;
-  replace_file(options.out, to_text(to_case(simplest(finding))));
+  replace_file(options.out, to_text(to_case(of_shrunk(finding))));
   fmt::print("After {}, basic has missed {}. The last of these is from the family {}:\n{}\n",
              counted(miss.queries, "query", "queries"), counted(miss.misses, "collision", "collisions"),
              finding.family, vertex_lines(finding.query));

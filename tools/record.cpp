@@ -21,6 +21,7 @@
 #include "reports/sections/option_sweep.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/sections/sweep.hpp"
+#include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
 
@@ -30,6 +31,7 @@ namespace {
 
 constexpr std::size_t printed_findings = 10;
 constexpr auto save_interval = std::chrono::milliseconds(500);
+constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // because all findings are written
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -39,9 +41,9 @@ std::string cpu_model() {
 }
 
 /// Prints what failed, the simplest query that fails in the same way, and what explains it.
-void print(std::FILE* text, const Finding& finding) {
-  fmt::print(text, "  {} {} {} ({})\n", name(finding.what), finding.subject, finding.provenance,
-             finding.signature);
+void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
+  fmt::print(text, "  {} {} {} ({}; {}, {})\n", name(finding.what), finding.subject, finding.provenance,
+             finding.signature, name(finding.query_class), seen_text(seen));
   std::istringstream lines(to_readable(finding.shrunk));
   for (std::string line; std::getline(lines, line);) fmt::print(text, "    {}\n", line);
   fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));
@@ -80,7 +82,7 @@ Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
 Record::~Record() {
   if (!store_) return;
   try {
-    if (unsaved_) save();
+    if (unsaved_) save_shrunk();
   } catch (const std::exception&) {  // such as a full disk, which has ended the command, too
   }
   if (saved_) return;
@@ -129,14 +131,10 @@ void Record::add(TrialResult&& result) {
           isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, Patience::most_late, key.family,
           short_name(key.kind));
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
+  for (auto& [number, finding] : result.shrunk) findings_.at(number) = std::move(finding);
+  unsaved_shrunk_ = unsaved_shrunk_ || !result.shrunk.empty();
   if (Clock::now() - last_save_ >= save_interval) save();
-}
-
-void Record::replace_findings(std::vector<Finding> findings) {
-  if (findings == findings_) return;
-  findings_ = std::move(findings);
-  saved_findings_ = findings_.size();
-  if (store_) store_->replace(findings_);
+  if (unsaved_shrunk_ && Clock::now() - last_save_of_shrunk_ >= save_shrunk_interval) save_shrunk();
 }
 
 void Record::add(const ScenePicture& picture) {
@@ -153,18 +151,29 @@ void Record::save() {
   last_save_ = Clock::now();
 }
 
+void Record::save_shrunk() {
+  save();
+  if (store_ && unsaved_shrunk_) store_->replace(findings_);
+  unsaved_shrunk_ = false;
+  last_save_of_shrunk_ = Clock::now();
+}
+
 int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
-  save();
+  save_shrunk();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_) : "",
              sweep_tables(statistics_) + option_sweep_tables(statistics_) + ladder_table(statistics_) +
                  decider_tables(statistics_),
              funnel_tables(statistics_));
-  const auto findings = campaign.findings();
-  if (!findings.empty()) fmt::print(text, "\nthe first findings:\n");
-  for (std::size_t i = 0; i < std::min(printed_findings, findings.size()); ++i) print(text, findings[i]);
+  std::set<Signature> printed;  // one finding of each way to fail
+  for (const Finding& each : campaign.findings()) {
+    if (printed.size() == printed_findings) break;
+    if (!printed.insert(signature_of(each)).second) continue;
+    if (printed.size() == 1) fmt::print(text, "\nthe first findings:\n");
+    print(text, each, statistics_.times_seen(signature_of(each)));
+  }
   std::fflush(text);  // so that it is there if the file cannot be written
   options_.json.write(summary_json(campaign));
   if (interrupted) return exit_interrupted;

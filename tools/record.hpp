@@ -48,10 +48,7 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Replaces the findings so far.
-  void replace_findings(std::vector<Finding> findings);
-
-  /// Adds a result; saves at intervals.
+  /// Adds a result, and replaces findings that are shrunk now; saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
@@ -66,6 +63,7 @@ class Record {
   void begin();
   void go_on();
   void save();
+  void save_shrunk();
 
   RecordOptions options_;
   RunInfo info_;
@@ -78,8 +76,10 @@ class Record {
   std::set<CountsKey> set_aside_;  // those that were announced
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
+  bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_save_ = start_;
+  Clock::time_point last_save_of_shrunk_ = start_;
 };
 
 }  // namespace nearmiss::tools

@@ -55,7 +55,7 @@ int run(const Options& options) {
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
-    SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
+    SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink);
     TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
     const auto add = [&](const Case& each) {
       stop.check();
@@ -74,6 +74,10 @@ int run(const Options& options) {
     } catch (const Stopped&) {  // what was asked counts
     }
     stream.finish();
+    trials.finish([&](TrialResult&& result, std::size_t left) {
+      record.add(std::move(result));
+      if (progress.due()) progress.show(shrinking_line(left));
+    });
   }
   for (const auto& subject : subjects)
     if (with_separation > 0 && !subject->takes_separation())

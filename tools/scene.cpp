@@ -135,6 +135,9 @@ class SceneProgress {
         record_(record) {}
 
   void asking(std::size_t step, double part) { show("asking", step, asking_ * part); }
+  void shrinking(std::size_t left) {
+    if (progress_.due()) progress_.show(shrinking_line(left));
+  }
   void verifying(std::size_t step, double part) { show("verifying", step, asking_ + (1 - asking_) * part); }
 
  private:
@@ -167,7 +170,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   Export exported(options.export_to);
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
-  SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop);
+  SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink);
   SceneTrial trial(scene, leave_out, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
   const auto is_over = [&] { return stop.is_due(); };
   for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
@@ -180,6 +183,10 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
         progress.verifying(step, part);
         return !stop.is_due();
       }));
+  });
+  trials.finish([&](TrialResult&& result, std::size_t left) {
+    record.add(std::move(result));
+    progress.shrinking(left);
   });
   if (!stop.is_due()) exported.finish();
   if (const auto picture = trial.picture()) record.add(*picture);

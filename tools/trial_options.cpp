@@ -10,7 +10,9 @@
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/trial/patience.hpp"
 #include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
 #include "tools/record.hpp"
+#include "tools/values.hpp"
 
 namespace nearmiss::tools {
 
@@ -20,6 +22,9 @@ void TrialOptions::add_to(CLI::App& command) {
                    "Also ask subjects queries beyond their contracts, and count these apart");
   limits.add_to(command);
   add_comparison_options(command, comparison);
+  add_count_option(
+      command, "--shrink", shrink, 0, findings_kept,
+      "Number of findings of each kind of failure and class of queries to simplify; 0 keeps all as they are");
   add_jobs_option(command, jobs);
 }
 
@@ -58,6 +63,7 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
   std::string& again = info["again"];
   again = fmt::format("nearmiss {} --subject {} --compare {}", what, shell_quoted(names), comparison.one_in);
   if (comparison.near_bounds) again += " --compare-near-bounds";
+  if (shrink != findings_kept) again += fmt::format(" --shrink {}", shrink);
   if (beyond_contract) {
     info["beyond contract"] = "asked, and counted apart";
     again += " --beyond-contract";
@@ -76,6 +82,10 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
         info[plugin_fact(subject->name()) + " contract"] = contract;
     }
   return info;
+}
+
+std::string shrinking_line(std::size_t left) {
+  return fmt::format("shrinking, {} left", with_separators(left));
 }
 
 namespace {

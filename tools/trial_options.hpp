@@ -11,12 +11,13 @@
 
 namespace nearmiss::tools {
 
-/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --jobs
+/// --subject, --beyond-contract, --query-time, --query-memory, --compare, --compare-near-bounds, --shrink, --jobs
 struct TrialOptions {
   std::vector<std::string> subjects{"wang"};
   bool beyond_contract = false;
   PluginLimitOptions limits = {};
   Comparison comparison = {};
+  std::size_t shrink = findings_kept;  ///< number of findings of each signature and class that are shrunk
   int jobs = 1;
 
   void add_to(CLI::App& command);
@@ -34,6 +35,9 @@ struct TrialOptions {
   /// subcommand with its own arguments. The entry `again` is the command that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
+
+/// The progress of a command that has asked everything, and shrinks what it has found.
+std::string shrinking_line(std::size_t left);
 
 /// The path of each plug-in on this machine, and its build id.
 RunInfo plugin_environment(const Subjects& made);

@@ -10,7 +10,7 @@
 #include "fuzz/trial/least_kept.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/patience.hpp"
-#include "fuzz/trial/sieve.hpp"
+#include "fuzz/trial/shrinking.hpp"
 
 namespace nearmiss {
 
@@ -27,10 +27,6 @@ struct Slice {
   bool done = false;  ///< otherwise it was stopped
 };
 
-bool are_shrunk(const std::vector<Finding>& findings) {
-  return std::all_of(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; });
-}
-
 /// Runs a campaign: slices are tried on all threads, and count in their order.
 class CampaignRun {
  public:
@@ -39,14 +35,16 @@ class CampaignRun {
         subjects_(subjects),
         sink_(sink),
         stop_(stop),
-        sieve_(subjects, plan.jobs, stop),
+        shrinking_(subjects, plan.jobs, stop, plan.shrink),
         cases_(plan, plan.before.oracle_total().queries) {
     progress_.cases = progress_.cases_before = passed_on_ = plan.before.oracle_total().queries;
     progress_.of = cases_of_shard(plan);
     patience_.know(plan.before);
     least_kept_.take(plan.before.counts);
-    sieve_.know(plan.findings_before);
-    all_are_shrunk_ = are_shrunk(plan.findings_before);
+    for (const Finding& finding : plan.findings_before) {
+      first_.take(finding);
+      shrinking_.add(finding);
+    }
   }
 
   CampaignProgress run() {
@@ -54,8 +52,9 @@ class CampaignRun {
         plan_.jobs, [&] { return next(); }, [&](Slice& slice) { hold(slice); },
         [&](Slice& slice) { take(slice); });
     if (progress_.cases != passed_on_) pass_on();
+    if (!is_enough_) finish_shrinking();
     progress_.complete =
-        (plan_.cases != 0 || plan_.first != 0) && progress_.cases == progress_.of && all_are_shrunk_;
+        (plan_.cases != 0 || plan_.first != 0) && progress_.cases == progress_.of && progress_.to_shrink == 0;
     return progress_;
   }
 
@@ -99,6 +98,12 @@ class CampaignRun {
                      [](const Finding& a, const Finding& b) { return a.place < b.place; });
   }
 
+  void finish_shrinking() {
+    progress_.is_asking = false;
+    shrinking_.finish([&] { pass_on_now_and_then(); });
+    pass_on();
+  }
+
   void take(Slice& slice) {
     is_over_ = is_over_ || !slice.done;  // what follows an interrupted slice does not count
     if (is_over_) return;
@@ -108,16 +113,22 @@ class CampaignRun {
     least_kept_.take(slice.result.statistics.counts);
     sum_.merge(std::move(slice.result));
     progress_.cases += slice.block.cases();
+    pass_on_now_and_then();
+  }
+
+  void pass_on_now_and_then() {
     if (constexpr std::chrono::milliseconds interval{100}; Clock::now() - last_ >= interval) pass_on();
   }
 
-  /// Passes the results on that have come since the last time.
+  /// Passes the results on that have come since the last time, with the first findings of each signature and class.
   void pass_on() {
-    sieve_.sift(sum_.findings);
-    all_are_shrunk_ = all_are_shrunk_ && are_shrunk(sum_.findings);
+    std::erase_if(sum_.findings, [&](const Finding& f) { return !first_.take(f); });
+    for (const Finding& finding : sum_.findings) shrinking_.add(finding);
+    sum_.shrunk = shrinking_.take();
+    progress_.to_shrink = shrinking_.left();
     progress_.elapsed = Clock::now() - start_;
     passed_on_ = progress_.cases;
-    if (!sink_(std::exchange(sum_, {}), progress_)) is_over_ = true;
+    if (!sink_(std::exchange(sum_, {}), progress_)) is_over_ = is_enough_ = true;
     last_ = Clock::now();
   }
 
@@ -128,15 +139,16 @@ class CampaignRun {
   Pace pace_;
   Patience patience_;
   LeastKept least_kept_;
-  Sieve sieve_;
+  FirstFindings first_;
+  Shrinking shrinking_;
   CasesOfShard cases_;
   std::uint64_t number_ = 0;  // of the next slice
   TrialResult sum_;           // not passed on yet
   CampaignProgress progress_;
   std::uint64_t passed_on_ = 0;
-  bool all_are_shrunk_ = true;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+  bool is_enough_ = false;  // for the sink
   std::atomic<bool> is_over_ = false;
 };
 

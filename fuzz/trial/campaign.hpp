@@ -22,6 +22,7 @@ struct CampaignPlan {
   std::uint64_t first =
       0;  ///< if there is no end: decides only so many cases of the shard, in order; 0 is no limit
   Comparison comparison;
+  std::size_t shrink = findings_kept;  ///< number of findings of each signature and class that are shrunk
   int jobs = 1;
   std::uint64_t shard = 0;  ///< the number of this shard, from 0 to `shards` - 1
   std::uint64_t shards = 1;
@@ -34,12 +35,14 @@ struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
   std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
   std::uint64_t of = 0;            ///< all cases of this shard; 0 if there is no end
+  std::size_t to_shrink = 0;       ///< findings that are still to be shrunk
+  bool is_asking = true;           ///< afterwards, the rest is shrunk
   bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
   std::chrono::duration<double> elapsed{};
 };
 
-/// Receives the results of further cases several times a second, in order and with sifted findings (sieve.hpp). Returns
-/// false to end the campaign.
+/// Receives the results of further cases several times a second, in order, with the first findings of each signature and
+/// class (FirstFindings), and those that have been shrunk meanwhile. Returns false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
 /// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress.

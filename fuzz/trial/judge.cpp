@@ -84,7 +84,10 @@ Outcome Judge::judge(const Verdict& verdict, Truth& truth, double least_kept) co
 }
 
 std::optional<Failure> Judge::failure(const Query& query) const {
-  const Verdict verdict = subject_.decide(query);
+  return failure(query, subject_.decide(query));
+}
+
+std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict) const {
   // A report fails only by a bound or a time that is claimed.
   if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
       subject_.time_sort() != TimeSort::lower_bound)

@@ -1,6 +1,7 @@
 // The judge: the only place that decides whether an answer of a subject is a failure, and of which kind.
 #pragma once
 
+#include <compare>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ struct Failure {
   Finding::What what{};
   std::string signature;
 
-  bool operator==(const Failure&) const = default;
+  auto operator<=>(const Failure&) const = default;
 };
 
 /// Judges the answers of one subject. The subject must outlive the judge.
@@ -44,6 +45,8 @@ class Judge {
 
   /// How the subject fails on a query; nothing if it does not. Throws Error as the subject does.
   [[nodiscard]] std::optional<Failure> failure(const Query& query) const;
+  /// How the subject fails on a query with this answer.
+  [[nodiscard]] std::optional<Failure> failure(const Query& query, const Verdict& verdict) const;
 
  private:
   /// The outcome of an answer, without distances. For a false positive whose distance counts, also the unit.

@@ -1,17 +1,24 @@
 // Shrinking: the simplest query that still fails in the same way.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
+#include <span>
 
 #include "ccd/query.hpp"
 
 namespace nearmiss {
 
-/// Simplifies a failing query step by step, as long as it still `fails`. All numbers together become small integers;
+/// The index of the first of some queries that fails; nothing if none does.
+using FindFailing = std::function<std::optional<std::size_t>(std::span<const Query>)>;
+
+/// Simplifies a failing query step by step, while it still fails. All numbers together become small integers;
 /// single numbers become 0, small, short or equal to others; vertices come to rest or coincide; the query is moved,
-/// sheared and scaled. A separation changes with the coordinates and alone. The search is greedy and ends when no step makes the query simpler, so shrinking the result again changes nothing. This
+/// sheared and scaled. A separation changes with the coordinates, or by itself. The search is greedy, asks about many
+/// changes at once, and ends when no step makes the query simpler, so shrinking the result again changes nothing. This
 /// is a pure function of both arguments and takes at most some seconds. A query that does not fail is
-/// returned unchanged. To add a step, write a method of Shrinker (shrink.cpp) and call it in run().
-Query shrunk(const Query& query, const std::function<bool(const Query&)>& fails);
+/// returned unchanged. Its steps are those of neighbourhoods.hpp.
+Query shrunk(const Query& query, const FindFailing& find_failing);
 
 }  // namespace nearmiss

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "ccd/error.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/trial/judge.hpp"
@@ -17,9 +22,6 @@
 namespace nearmiss {
 
 namespace {
-
-/// What was found in the last moment of a campaign's time is still shrunk.
-constexpr std::chrono::milliseconds grace{1000};
 
 using Clock = std::chrono::steady_clock;
 
@@ -76,58 +78,175 @@ class Limited final : public ForwardingSubject {
   mutable Clock::duration time_;
 };
 
-/// The finding's failure of a subject.
+/// Whether an answer can be a failure of this kind. A bound that is no distance is a fault of a false positive.
+bool can_be(Finding::What what, const Verdict& verdict) {
+  const bool is_fault = verdict.fault != Fault::none;
+  switch (what) {
+    case Finding::What::false_negative:
+      return !is_fault && !verdict.hit;
+    case Finding::What::refuted_bound:
+    case Finding::What::late:
+      return !is_fault && verdict.hit;
+    default:
+      return is_fault || verdict.hit;
+  }
+}
+
+/// One way in which a subject fails.
 class SameFailure {
  public:
-  SameFailure(const Finding& finding, const Subject& subject, const Stop& stop)
-      : failure_{finding.what, finding.signature}, judge_(subject), stop_(stop) {}
+  SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
+      : failure_(std::move(failure)), subject_(subject), judge_(subject), check_(std::move(check)) {}
 
-  bool operator()(const Query& query) const {
-    stop_.check(grace);
-    try {
-      return judge_.failure(query) == failure_;
-    } catch (const isolation::PluginChanged&) {
-      throw;
-    } catch (const Error&) {
-      return false;
+  /// If given, only queries of this class fail.
+  void only(QueryClass of) { only_ = of; }
+
+  /// The first query that fails. All are asked at once, or a few if each may end a process.
+  std::optional<std::size_t> operator()(std::span<const Query> queries) const {
+    const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
+    for (std::size_t first = 0; first < queries.size(); first += at_once) {
+      const auto some = queries.subspan(first, std::min(at_once, queries.size() - first));
+      if (const auto found = first_of(some)) return first + *found;
     }
+    return std::nullopt;
   }
 
  private:
-  Failure failure_;
-  Judge judge_;
-  const Stop& stop_;
-};
+  [[nodiscard]] std::optional<std::size_t> first_of(std::span<const Query> queries) const {
+    check_();
+    try {
+      std::vector<Verdict> verdicts(queries.size());
+      subject_.decide(queries, verdicts);
+      for (std::size_t i = 0; i < queries.size(); ++i)
+        if (fails(queries[i], verdicts[i])) return i;
+    } catch (const isolation::PluginChanged&) {
+      throw;
+    } catch (const Error&) {  // the subject refuses the queries
+    }
+    return std::nullopt;
+  }
 
-/// The search among small queries, and then the steps of the shrinker, may reach half of the limits each.
-Query shrunk_failure_of_subject(const Finding& finding, const Subject& subject, const Stop& stop,
-                                const ShrinkLimits& limits) {
-  const Limited first(subject, limits.work / 2, limits.time / 2);
-  const Limited second(subject, limits.work / 2, limits.time / 2);
-  const SameFailure fails_at_first(finding, first, stop);
-  const SameFailure fails(finding, second, stop);
-  const bool every_query_is_slow = is_of_time_limit(finding.signature);
-  const auto small = every_query_is_slow
-                         ? std::nullopt
-                         : simplest_small_failure(finding, first, std::cref(fails_at_first), stop, grace);
-  return subject.rounded(shrunk(small.value_or(finding.query), std::cref(fails)));
-}
+  [[nodiscard]] bool fails(const Query& query, const Verdict& verdict) const {
+    return can_be(failure_.what, verdict) && judge_.failure(query, verdict) == failure_ &&
+           (!only_ || classify(subject_.rounded(query)) == *only_);
+  }
+
+  Failure failure_;
+  const Subject& subject_;
+  Judge judge_;
+  std::function<void()> check_;
+  std::optional<QueryClass> only_;
+};
 
 }  // namespace
 
-Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop,
-                   const ShrinkLimits& limits) {
+/// A subject, and what is known about its failures.
+class FindingShrinker::OfSubject {
+ public:
+  OfSubject(const Subject& subject, const ShrinkLimits& limits) : subject_(subject), limits_(limits) {}
+
+  [[nodiscard]] const std::string& name() const { return subject_.name(); }
+
+  void shrink(Finding& finding, const std::function<void()>& check) const {
+    const Query simplest = shrunk_of(finding, std::nullopt, check);
+    const QueryClass of_simplest = classify(simplest);
+    const bool has_lost_class =
+        finding.query_class != QueryClass::unclassified && of_simplest != finding.query_class;
+    finding.shrunk = has_lost_class ? shrunk_of(finding, finding.query_class, check) : simplest;
+    const bool is_simpler = complexity(finding.shrunk) < complexity(simplest);
+    finding.simplest = is_simpler ? finding.shrunk : simplest;
+    finding.simplest_class = is_simpler ? finding.query_class : of_simplest;
+    if (finding.what == Finding::What::late) finding.time = time_of(finding);
+  }
+
+ private:
+  /// The simplest query that fails in the same way; of this class, if it is given.
+  [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of,
+                                const std::function<void()>& check) const {
+    const Limited limited(subject_, limits_.work / 2, limits_.time / 2);
+    SameFailure same({finding.what, finding.signature}, limited, check);
+    if (of) same.only(*of);
+    const bool every_query_is_slow = is_of_time_limit(finding.signature);
+    const auto small =
+        every_query_is_slow
+            ? std::nullopt
+            : small_failures(finding.query, check).simplest({finding.what, finding.signature}, of);
+    const bool begins_small = small && small->complexity < complexity(finding.query);
+    return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
+  }
+
+  /// The small queries on which the subject fails, of the finding's kind.
+  const SmallFailures& small_failures(const Query& query, const std::function<void()>& check) const {
+    const bool apart = query.separation != 0;
+    const std::lock_guard lock(mutex_);
+    auto& known = small_[{query.kind, apart}];
+    if (!known) {
+      const Limited limited(subject_, limits_.work / 2, limits_.time / 2);
+      known.emplace(limited, query.kind, apart, check);
+    }
+    return *known;
+  }
+
+  /// The subject's time for the shrunk query. If it does not answer as before, that of the original query stays.
+  [[nodiscard]] double time_of(const Finding& finding) const {
+    if (finding.shrunk == finding.query) return finding.time;
+    const double time = subject_.decide(finding.shrunk).time;
+    return std::isnan(time) ? finding.time : time;
+  }
+
+  const Subject& subject_;
+  const ShrinkLimits& limits_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<Kind, bool>, std::optional<SmallFailures>> small_;
+};
+
+FindingShrinker::FindingShrinker(std::span<const Subject* const> subjects, const Stop& stop,
+                                 const ShrinkLimits& limits)
+    : stop_(stop), limits_(limits) {
+  for (const Subject* subject : subjects) of_.push_back(std::make_unique<OfSubject>(*subject, limits_));
+}
+
+FindingShrinker::~FindingShrinker() = default;
+
+const FindingShrinker::OfSubject& FindingShrinker::of(const Finding& finding) const {
+  return **std::find_if(of_.begin(), of_.end(),
+                        [&](const auto& each) { return each->name() == finding.subject; });
+}
+
+void FindingShrinker::shrink(Finding& finding, const Rest& rest) const {
+  const auto check = [&] {
+    stop_.check(Stop::grace);
+    if (rest) rest();
+  };
   switch (finding.what) {
     case Finding::What::truth_mismatch:
-      return finding.query;
-    case Finding::What::oracle_disagreement:
-      return shrunk(finding.query, [&](const Query& query) {
-        stop.check(grace);
-        return oracle_failure(query) == Failure{finding.what, finding.signature};
+      break;
+    case Finding::What::oracle_disagreement: {
+      const Failure failure{finding.what, finding.signature};
+      finding.shrunk = shrunk(finding.query, [&](std::span<const Query> queries) {
+        const auto first = std::find_if(queries.begin(), queries.end(), [&](const Query& query) {
+          check();
+          return oracle_failure(query) == failure;
+        });
+        return first == queries.end() ? std::nullopt : std::optional<std::size_t>(first - queries.begin());
       });
+      finding.simplest = finding.shrunk;
+      break;
+    }
     default:
-      return shrunk_failure_of_subject(finding, *subject, stop, limits);
+      of(finding).shrink(finding, check);
   }
+  finding.is_shrunk = true;
+}
+
+Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop,
+                   const ShrinkLimits& limits) {
+  Finding copy = finding;
+  if (subject != nullptr) copy.subject = subject->name();
+  copy.query_class = QueryClass::unclassified;
+  const std::size_t count = subject == nullptr ? 0 : 1;
+  FindingShrinker(std::span(&subject, count), stop, limits).shrink(copy);
+  return copy.simplest;
 }
 
 }  // namespace nearmiss

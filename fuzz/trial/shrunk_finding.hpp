@@ -3,6 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
@@ -27,10 +31,35 @@ struct ShrinkLimits {
 /// process 40 ms, before the time ends the search.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(5)};
 
+/// Shrinks findings of some subjects. Many threads use it at once.
+class FindingShrinker {
+ public:
+  /// Called between questions; may wait.
+  using Rest = std::function<void()>;
+
+  /// The subjects and `stop` must outlive it.
+  FindingShrinker(std::span<const Subject* const> subjects, const Stop& stop, const ShrinkLimits& limits);
+  FindingShrinker(const FindingShrinker&) = delete;
+  FindingShrinker& operator=(const FindingShrinker&) = delete;
+  ~FindingShrinker();
+
+  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. The result depends
+  /// on the finding and the subject only, and on the machine only if the time ends a search. A query that the
+  /// subject refuses does not fail. A contradiction to a recorded truth is not shrunk, because the truth is known for one
+  /// query only. Throws Stopped if the stop is due, with its grace; then the finding stays as it is.
+  void shrink(Finding& finding, const Rest& rest = {}) const;
+
+ private:
+  class OfSubject;
+  [[nodiscard]] const OfSubject& of(const Finding& finding) const;
+
+  const Stop& stop_;
+  ShrinkLimits limits_;
+  std::vector<std::unique_ptr<OfSubject>> of_;
+};
+
 /// The finding's query, shrunk to one that fails with the same signature. `subject` may be null for a failure
-/// of the oracle. A query that the subject refuses does not fail. A contradiction to a recorded truth cannot
-/// be shrunk, because the truth is known for one query only. The result depends on the machine only if the time ends the
-/// search. Throws Stopped.
+/// of the oracle. Throws Stopped.
 Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop = Stop::never(),
                    const ShrinkLimits& limits = {});
 

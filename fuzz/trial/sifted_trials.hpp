@@ -1,4 +1,4 @@
-// Runs many trials on all cores and sifts their findings.
+// Runs many trials on all cores, and keeps and shrinks the first findings of each signature and class.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include "fuzz/stop.hpp"
 #include "fuzz/trial/pace.hpp"
 #include "fuzz/trial/patience.hpp"
-#include "fuzz/trial/sieve.hpp"
+#include "fuzz/trial/shrinking.hpp"
 #include "fuzz/trial/trial.hpp"
 
 namespace nearmiss {
@@ -16,12 +16,13 @@ namespace nearmiss {
 /// exceeds its time limit so often that it is set aside (patience.hpp).
 class SiftedTrials {
  public:
-  SiftedTrials(const Subjects& subjects, const Comparison& comparison, int jobs, const Stop& stop)
+  SiftedTrials(const Subjects& subjects, const Comparison& comparison, int jobs, const Stop& stop,
+               std::size_t shrink = findings_kept)
       : subjects_(subjects),
         comparison_(comparison),
         jobs_(jobs),
         stop_(stop),
-        sieve_(subjects, jobs, stop) {}
+        shrinking_(subjects, jobs, stop, shrink) {}
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
@@ -32,9 +33,12 @@ class SiftedTrials {
   /// The trial of one batch, or of its beginning if it is stopped.
   [[nodiscard]] TrialResult trial(const Batch& batch);
 
-  /// The results of trial(0) to trial(count - 1), in this order and with sifted findings (sieve.hpp). Trials that have
-  /// not begun when `stop` is due are omitted.
+  /// The results of trial(0) to trial(count - 1), in this order, with the first findings of each signature and class
+  /// (FirstFindings), and those that have been shrunk meanwhile. Trials that have not begun when `stop` is due are omitted.
   TrialResult hold(std::size_t count, const std::function<TrialResult(std::size_t)>& trial);
+
+  /// Shrinks the findings that are not shrunk yet, and passes them on now and then, with the number of those that are left.
+  void finish(const std::function<void(TrialResult&&, std::size_t left)>& sink);
 
  private:
   const Subjects& subjects_;
@@ -43,7 +47,8 @@ class SiftedTrials {
   const Stop& stop_;
   Pace pace_;
   Patience patience_;
-  Sieve sieve_;
+  FirstFindings first_;
+  Shrinking shrinking_;
 };
 
 }  // namespace nearmiss

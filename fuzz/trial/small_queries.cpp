@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/random.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "oracle/oracle.hpp"
@@ -169,24 +171,6 @@ class Maker {
   std::vector<SmallQuery> list_;
 };
 
-/// Whether an answer can be a failure of this kind. A bound that is no distance is a fault of a false positive.
-bool can_fail(Finding::What what, const Verdict& verdict, bool collision) {
-  const bool is_fault = verdict.fault != Fault::none;
-  const bool is_false_positive = !is_fault && verdict.hit && !collision;
-  switch (what) {
-    case Finding::What::false_negative:
-      return !is_fault && !verdict.hit && collision;
-    case Finding::What::refuted_bound:
-      return is_false_positive;
-    case Finding::What::fault:
-      return is_fault || is_false_positive;
-    case Finding::What::late:
-      return !is_fault && verdict.hit && collision && verdict.time > 0;
-    default:
-      return false;
-  }
-}
-
 /// Asks the subject; false if it refuses the queries.
 bool ask(const Subject& subject, std::span<const SmallQuery> asked, std::vector<Verdict>& verdicts) {
   std::vector<Query> queries;
@@ -216,26 +200,36 @@ const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
   return apart ? list_of<Kind::edge_edge, true>() : list_of<Kind::edge_edge, false>();
 }
 
-std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
-                                            const std::function<bool(const Query&)>& fails, const Stop& stop,
-                                            std::chrono::milliseconds grace) {
-  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the search may end soon
-  const std::span list(small_queries(finding.query.kind, finding.query.separation != 0));
-  const Complexity known = complexity(finding.query);
+SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
+                             const std::function<void()>& check) {
+  constexpr std::size_t largest_batch = 64;  // the first ones are smaller: the subject may end at each query
+  const Judge judge(subject);
+  const std::span list(small_queries(kind, apart));
   std::vector<Verdict> verdicts;
   std::size_t first = 0;
   for (std::size_t batch = 1; first < list.size(); batch = std::min(2 * batch, largest_batch)) {
-    stop.check(grace);
+    check();
     const auto asked = list.subspan(first, std::min(batch, list.size() - first));
     first += asked.size();
-    if (!ask(subject, asked, verdicts)) continue;
+    if (!ask(subject, asked, verdicts)) return;
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      if (!(asked[i].complexity < known)) return std::nullopt;
-      if (can_fail(finding.what, verdicts[i], asked[i].collision) && fails(asked[i].query))
-        return asked[i].query;
+      const bool is_right = verdicts[i].fault == Fault::none && verdicts[i].hit == asked[i].collision &&
+                            std::isnan(verdicts[i].time);
+      if (is_right) continue;
+      if (auto failure = judge.failure(asked[i].query, verdicts[i]))
+        simplest_.try_emplace({std::move(*failure), classify(asked[i].query)}, asked[i]);
     }
   }
-  return std::nullopt;
+}
+
+std::optional<SmallQuery> SmallFailures::simplest(const Failure& failure,
+                                                  std::optional<QueryClass> of) const {
+  std::optional<SmallQuery> best;
+  for (auto each = simplest_.lower_bound({failure, QueryClass::ordinary});
+       each != simplest_.end() && each->first.first == failure; ++each)
+    if ((!of || each->first.second == *of) && (!best || each->second.complexity < best->complexity))
+      best = each->second;
+  return best;
 }
 
 }  // namespace nearmiss

@@ -1,16 +1,17 @@
 // Queries over the integers -1, 0, 1 and 2, some with a separation: where the search for a simple example begins.
 #pragma once
 
-#include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ccd/query.hpp"
 #include "ccd/subject.hpp"
-#include "fuzz/stop.hpp"
-#include "fuzz/trial/complexity.hpp"
-#include "reports/statistics/finding.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "reports/campaign/complexity.hpp"
+#include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {
 
@@ -27,12 +28,19 @@ struct SmallQuery {
 /// 1/4, unless its smallest distance is exactly h. A list is made when it is first asked for.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);
 
-/// The simplest small query that `fails`, with a separation if the finding's query has one, if it is simpler than that query;
-/// nothing if there is none. The
-/// subject is asked in batches, and `fails` only about answers that can be failures of the finding's kind. Batches that the
-/// subject refuses are left out. Throws Stopped if `stop` is due, with this grace.
-std::optional<Query> simplest_small_failure(const Finding& finding, const Subject& subject,
-                                            const std::function<bool(const Query&)>& fails, const Stop& stop,
-                                            std::chrono::milliseconds grace);
+/// The small queries of a kind on which a subject fails.
+class SmallFailures {
+ public:
+  /// Asks the subject about all small queries, in batches, until it refuses to answer. Calls `check` between batches, and
+  /// throws what that throws. The queries have a separation if they are to be `apart`.
+  SmallFailures(const Subject& subject, Kind kind, bool apart, const std::function<void()>& check);
+
+  /// The simplest one that fails in this way; nothing if there is none. If a class is given, it is of this class.
+  [[nodiscard]] std::optional<SmallQuery> simplest(const Failure& failure,
+                                                   std::optional<QueryClass> of = {}) const;
+
+ private:
+  std::map<std::pair<Failure, QueryClass>, SmallQuery> simplest_;
+};
 
 }  // namespace nearmiss

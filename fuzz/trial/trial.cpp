@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
 #include "oracle/oracle.hpp"
@@ -82,6 +83,7 @@ std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, Subj
 void TrialResult::merge(TrialResult&& other) {
   statistics.merge(other.statistics);
   std::move(other.findings.begin(), other.findings.end(), std::back_inserter(findings));
+  shrunk.merge(other.shrunk);
 }
 
 namespace {
@@ -189,7 +191,8 @@ class Judging {
                                 std::move(failure.signature), query});
     result_.findings.back().time = is_late ? outcome.verdict.time : 0;
     result_.findings.back().place = i;
-    result_.findings.back().in_class = query;
+    result_.findings.back().simplest = query;
+    result_.findings.back().query_class = result_.findings.back().simplest_class = classify(query);
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,13 @@
 namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
+
+/// The same subjects, which must outlive the pointers.
+inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
+  std::vector<const Subject*> pointers;
+  for (const auto& subject : subjects) pointers.push_back(subject.get());
+  return pointers;
+}
 
 /// Queries of one kind and family that are decided, timed and counted together. All of them have a separation h > 0, or
 /// none has; a subject that takes no separation is asked in the second case only.
@@ -48,6 +56,8 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
+  /// Findings that were passed on before, by their number among all, and are shrunk now.
+  std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
 };

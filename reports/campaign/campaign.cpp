@@ -5,21 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "ccd/error.hpp"
+#include "reports/campaign/complexity.hpp"
 
 namespace nearmiss {
 
 namespace {
-
-/// Orders findings by the way in which they fail.
-bool is_before(const Finding& a, const Finding& b) {
-  const auto key = [](const Finding& f) { return std::tie(f.what, f.subject, f.signature); };
-  return key(a) < key(b);
-}
 
 /// Sorts findings as one machine would have found them, and drops findings that one machine would not have
 /// kept.
@@ -71,14 +67,34 @@ std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& o
   return std::nullopt;
 }
 
+namespace {
+
+/// The place of a finding in the order in which they are shown.
+auto place_of(const Finding& finding, const Statistics& statistics) {
+  const bool is_of_oracle = finding.subject.empty();
+  const auto times_seen = statistics.times_seen(signature_of(finding));
+  return std::tuple(!is_of_oracle, exoticness(finding.shrunk, finding.query_class),
+                    std::numeric_limits<std::uint64_t>::max() - times_seen, signature_of(finding),
+                    complexity(finding.shrunk));
+}
+
+}  // namespace
+
 std::vector<Finding> Campaign::findings() const {
+  using Place = decltype(place_of(Finding{}, statistics));
+  std::vector<std::pair<Place, Finding>> placed;
+  for (const Run& run : runs)
+    for (const Finding& each : run.findings) placed.emplace_back(place_of(each, statistics), each);
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Finding> all;
-  for (const Run& run : runs) all.insert(all.end(), run.findings.begin(), run.findings.end());
-  std::stable_sort(all.begin(), all.end(), is_before);
-  std::set<std::tuple<Signature, Kind, std::array<double, 24>, double>> known;
-  std::erase_if(all, [&](const Finding& f) {
-    return !known.emplace(signature_of(f), f.shrunk.kind, f.shrunk.x, f.shrunk.separation).second;
-  });
+  std::set<std::tuple<Signature, QueryClass, Kind, std::array<double, 24>, double>> known;
+  for (auto& [place, finding] : placed) {
+    const Query& shrunk = finding.shrunk;
+    if (known.emplace(signature_of(finding), finding.query_class, shrunk.kind, shrunk.x, shrunk.separation)
+            .second)
+      all.push_back(std::move(finding));
+  }
   return all;
 }
 

@@ -60,8 +60,8 @@ struct Shard {
 /// machines can share a run.
 struct Run {
   RunInfo info;
-  std::vector<Shard> shards;                ///< by index
-  std::vector<Finding> findings;            ///< in order: the first ones of each signature (FirstFindings)
+  std::vector<Shard> shards;      ///< by index
+  std::vector<Finding> findings;  ///< in order: the first ones of each signature and class (FirstFindings)
   std::vector<ScenePicture> pictures = {};  ///< by step
 
   bool operator==(const Run&) const = default;
@@ -72,8 +72,9 @@ struct Campaign {
   std::vector<Run> runs;  ///< by their facts
   Statistics statistics;
 
-  /// The findings of all runs, sorted by what failed, subject and signature. If several findings of a signature are
-  /// shrunk to the same query, only the first of them is listed.
+  /// The findings of all runs, in the order in which they are shown: those of the oracle first, since they concern all others;
+  /// then by the class of the query, ordinary first; by the number of times that the signature was seen; and the simplest
+  /// first. If several findings of a signature and class are shrunk to the same query, only the first of them is listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 

@@ -17,12 +17,12 @@ std::string subject_of(const Finding& finding) {
 
 }  // namespace
 
-Finding simplest(const Finding& finding) {
-  Finding simplest = finding;
-  simplest.query = finding.shrunk;
-  simplest.ratio = 0;
-  simplest.provenance = "shrunk from " + finding.provenance;
-  return simplest;
+Finding of_shrunk(const Finding& finding) {
+  Finding shrunk = finding;
+  shrunk.query = finding.shrunk;
+  shrunk.ratio = 0;
+  shrunk.provenance = "shrunk from " + finding.provenance;
+  return shrunk;
 }
 
 Case to_case(const Finding& finding) {

@@ -10,7 +10,7 @@
 namespace nearmiss {
 
 /// The same failure of the shrunk query. It has no ratio, which belongs to the original query.
-Finding simplest(const Finding& finding);
+Finding of_shrunk(const Finding& finding);
 
 /// The case of a finding, with its truth if the finding implies one.
 Case to_case(const Finding& finding);

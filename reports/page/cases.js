@@ -20,28 +20,29 @@ const fold = (title, query, file) => made("details", [made("summary", title), ..
 const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
   ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
   made("h3", failureTitle(finding)),
-  made("div", `${finding.signature}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
+  made("div", `${finding.signature}; ${finding.class}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   command(finding.again),
   fold("the shrunk query", finding.shrunk, finding.file), fold("the original query", finding.original, finding.original_file),
+  ...(String(finding.simplest) === String(finding.shrunk) ? [] : [fold(`the simplest query of any class (${finding.simplest_class})`, finding.simplest)]),
 ], { id: `finding-${index}`, tabindex: -1 });
 
 // --- findings -------------------------------------------------------------------------------------
 
-/** The findings with their indices, new ones first, and the text in which a filter looks for words. */
+/** The findings with their indices, new ones first, otherwise in the report's order: ordinary ones first, then those of the most frequent ways to fail; and the text in which a filter looks for words. */
 const findings = report.findings.map((finding, index) => ({ finding, index,
   words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,
     finding.explanation].join(" ").toLowerCase() }))
   .sort((a, b) => Number(b.finding.new) - Number(a.finding.new));
 const findingsAtOnce = 24;
 /** The chosen value of each field, "" for all; the words that must occur; and how many findings are shown at most. */
-const noFilter = { subject: "", what: "", kind: "", family: "", words: "", most: findingsAtOnce };
+const noFilter = { subject: "", what: "", kind: "", class: "", family: "", words: "", most: findingsAtOnce };
 const filter = { ...noFilter };
 
 const filteredFindings = () => {
   const words = filter.words.toLowerCase().split(/\s+/).filter(Boolean);
-  return findings.filter((each) => ["subject", "what", "kind", "family"].every((field) => filter[field] === "" || each.finding[field] === filter[field]) &&
+  return findings.filter((each) => ["subject", "what", "kind", "class", "family"].every((field) => filter[field] === "" || each.finding[field] === filter[field]) &&
     words.every((word) => each.words.includes(word)));
 };
 
@@ -77,7 +78,8 @@ function drawFilter() {
       ...values(field).filter(Boolean).map((value) => made("option", titles[field]?.[value] ?? value, { value }))], { name: field });
     return made("label", [`${title} `, select]);
   };
-  element("findings-filter").append(choice("subject", "subject"), choice("what", "failure"), choice("kind", "kind"), choice("family", "family"),
+  element("findings-filter").append(choice("subject", "subject"), choice("what", "failure"), choice("kind", "kind"), choice("class", "class"),
+    choice("family", "family"),
     made("label", ["with the words ", made("input", [], { name: "words", type: "search" })]));
   element("findings-filter").addEventListener("input", ({ target }) => {
     Object.assign(filter, { [target.name]: target.value, most: findingsAtOnce });

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "corpus/query_text.hpp"
+#include "reports/campaign/complexity.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/summary.hpp"
@@ -62,14 +62,12 @@ ordered_json faults_of(const Counts& counts) {
   return json;
 }
 
-/// The index of the finding with the simplest query; a miss if there is one, else a late time if there is one.
+/// The index of the simplest failure: of the least exotic query, a miss if there is one, else a late time.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings) {
   const auto rank = [](const Finding& finding) {
-    const auto& x = finding.shrunk.x;
-    const auto nonzero = std::count_if(x.begin(), x.end(), [](double c) { return c != 0; }) +
-                         (finding.shrunk.separation != 0 ? 1 : 0);
-    return std::tuple(finding.what != Finding::What::false_negative, finding.what != Finding::What::late,
-                      nonzero, to_line(finding.shrunk).size());
+    return std::tuple(exoticness(finding.shrunk, finding.query_class),
+                      finding.what != Finding::What::false_negative, finding.what != Finding::What::late,
+                      complexity(finding.shrunk));
   };
   std::optional<std::size_t> simplest;
   for (std::size_t i = 0; i < findings.size(); ++i) {

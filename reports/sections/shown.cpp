@@ -44,7 +44,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
     result.content.why += fmt::format(": {}; times seen: {}", finding.signature, with_separators(seen));
     return result;
   };
-  ShownFinding result{finding, seen, exported(simplest(finding), ""), exported(finding, "-original")};
+  ShownFinding result{finding, seen, exported(of_shrunk(finding), ""), exported(finding, "-original")};
   result.original.content.why += "; before it was shrunk";
   return result;
 }

@@ -33,14 +33,14 @@ struct Finding {
   std::string provenance;
   double ratio = 0;  ///< distance divided by bound, if a bound was refuted; time - t*, if the time is late
   std::string signature = {};  ///< the way in which the query fails, such as "vt simple-root inside on-edge"
-  Query shrunk = {};        ///< the simplest known query that fails in the same way; may be the query itself
+  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `query` itself.
+  Query shrunk = {};
   std::uint64_t place = 0;  ///< of its case, in the order of the whole campaign
   double time = 0;          ///< the subject's time for the shrunk query, if it is late
   bool is_shrunk = false;   ///< whether shrinking has come to its end
-  QueryClass query_class = QueryClass::unclassified;   ///< of `query`
-  QueryClass shrunk_class = QueryClass::unclassified;  ///< of `shrunk`
-  /// The simplest known query that fails in the same way and is of the class of `query`. It may be `shrunk`.
-  Query in_class = {};
+  QueryClass query_class = QueryClass::unclassified;
+  Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
+  QueryClass simplest_class = QueryClass::unclassified;
 
   bool operator==(const Finding&) const = default;
 };

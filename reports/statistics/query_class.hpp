@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "ccd/query.hpp"
+
 namespace nearmiss {
 
 /// How near a query, or most queries of a family, are to those of a simulation. fuzz/families/README.md has the criterion.
@@ -19,6 +21,10 @@ enum class QueryClass : std::uint8_t {
 /// Names in files and reports, in order.
 inline constexpr std::array<std::string_view, 4> class_names{"ordinary", "degenerate", "extreme",
                                                              "unclassified"};
+
+inline int exoticness(const Query& query, QueryClass of) {
+  return 2 * static_cast<int>(of) + (query.x == decltype(query.x){});
+}
 
 constexpr std::string_view name(QueryClass of) { return class_names[static_cast<std::size_t>(of)]; }
 

@@ -70,7 +70,7 @@ Table<FindingRow> findings() {
            member("ratio", &Finding::ratio), member("signature", &Finding::signature),
            member("shrunk", &Finding::shrunk), member("time", &Finding::time),
            member("is_shrunk", &Finding::is_shrunk), member("query_class", &Finding::query_class),
-           member("shrunk_class", &Finding::shrunk_class), member("in_class", &Finding::in_class)}};
+           member("simplest", &Finding::simplest), member("simplest_class", &Finding::simplest_class)}};
 }
 
 Table<PictureRow> pictures() {

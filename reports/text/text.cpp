@@ -83,4 +83,8 @@ std::string marked_fraction_of_bound(double ratio, DistanceUnit unit) {
   return fraction_of_bound(ratio) + (unit == DistanceUnit::claimed_bound ? "" : "**");
 }
 
+std::string seen_text(std::uint64_t times) {
+  return times == 1 ? "seen once" : fmt::format("seen {} times", with_separators(times));
+}
+
 }  // namespace nearmiss

@@ -44,4 +44,7 @@ inline constexpr const char* unit_footnote =
 /// "1 query", "1,234 queries"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
+/// "seen once", "seen 1,234 times"
+std::string seen_text(std::uint64_t times);
+
 }  // namespace nearmiss

@@ -9,12 +9,12 @@
 #include "ccd/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "fuzz/trial/complexity.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/campaign/complexity.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

@@ -9,7 +9,9 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <span>
 
+#include "fuzz/families/classify.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/random.hpp"
 #include "fuzz/trial/judge.hpp"
@@ -20,7 +22,6 @@ namespace nearmiss {
 namespace {
 
 using Coordinates = std::array<double, 24>;
-constexpr std::chrono::milliseconds no_grace{0};
 
 /// A copy with other vertices (v), axes (k) and signs (a bit for each axis), which may go back in time.
 Coordinates copied(const Query& query, const std::array<std::size_t, 4>& v,
@@ -153,29 +154,27 @@ Finding missed(Kind kind) {
   return finding;
 }
 
-TEST(SmallQueries, GiveTheSimplestFailure) {
+TEST(SmallQueries, GiveTheSimplestFailureOfEachKindAndClass) {
   const Blind blind;
+  const Judge judge(blind);
   for (const Kind kind : kinds) {
-    const auto moves_in_space = [](const Query& query) {
-      return complexity(query).moving >= 3 && collides(query);
-    };
-    const auto found = simplest_small_failure(missed(kind), blind, moves_in_space, Stop::never(), no_grace);
-    const auto& list = small_queries(kind);
-    const auto first =
-        std::find_if(list.begin(), list.end(), [&](const SmallQuery& q) { return moves_in_space(q.query); });
-    ASSERT_NE(first, list.end());
-    EXPECT_EQ(found, first->query);
+    const SmallFailures failures(blind, kind, false, [] {});
+    for (const QueryClass of : {QueryClass::ordinary, QueryClass::degenerate}) {
+      const auto& list = small_queries(kind);
+      const auto first = std::find_if(list.begin(), list.end(), [&](const SmallQuery& each) {
+        return each.collision && each.complexity.moving >= 3 && classify(each.query) == of;
+      });
+      ASSERT_NE(first, list.end());
+      const auto failure = judge.failure(first->query);
+      const auto found = failures.simplest(*failure, of);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(judge.failure(found->query), failure);
+      EXPECT_EQ(name(classify(found->query)), name(of));
+      EXPECT_FALSE(first->complexity < found->complexity);
+      EXPECT_FALSE(found->complexity < failures.simplest(*failure)->complexity);
+    }
+    EXPECT_FALSE(failures.simplest({Finding::What::false_negative, "another"}));
   }
-}
-
-TEST(SmallQueries, AreNotSearchedBeyondTheFindingItself) {
-  const Blind blind;
-  Finding finding = missed(Kind::vertex_triangle);
-  finding.query.x = {};
-  finding.query.x[0] = 1;
-  const auto never = [](const Query&) { return false; };
-  EXPECT_EQ(simplest_small_failure(finding, blind, never, Stop::never(), no_grace), std::nullopt);
-  EXPECT_LE(blind.asked, 64);
 }
 
 TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
@@ -186,17 +185,15 @@ TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
 }
 
 TEST(SmallQueries, AreLeftAfterARequest) {
-  const auto never = [](const Query&) { return false; };
-  const std::atomic<bool> requested{true};
   const Blind blind;
-  EXPECT_THROW(static_cast<void>(
-                   simplest_small_failure(missed(Kind::edge_edge), blind, never, Stop(requested), no_grace)),
-               Stopped);
+  EXPECT_THROW(SmallFailures(blind, Kind::edge_edge, false, [] { throw Stopped(); }), Stopped);
 }
 
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
   const Blind blind;
   const Judge judge(blind);
+  const Subject* const pointer = &blind;
+  const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), {});
   for (const Kind kind : kinds)
     for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 100; i += 2) {
       const Query query = make_query(find_family("planted"), 1, i);
@@ -205,9 +202,9 @@ TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
       Finding finding = missed(kind);
       finding.query = query;
       finding.signature = failure->signature;
-      const Query shrunk = shrunk_query(finding, &blind);
-      EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
-      EXPECT_EQ(judge.failure(shrunk), failure);
+      shrinker.shrink(finding);
+      EXPECT_EQ(complexity(finding.simplest).awkward, 0) << failure->signature;
+      EXPECT_EQ(judge.failure(finding.simplest), failure);
     }
 }
 

@@ -84,14 +84,11 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects) {
 
 /// Shrinks the first findings of each signature.
 void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each_signature) {
+  const FindingShrinker shrinker(pointers_to(subjects), Stop::never(), limits_in_campaign);
   std::map<Signature, std::uint64_t> seen;
   for (Finding& finding : findings) {
     if (++seen[signature_of(finding)] > of_each_signature) continue;
-    const auto subject = std::find_if(subjects.begin(), subjects.end(),
-                                      [&](const auto& each) { return each->name() == finding.subject; });
-    finding.shrunk = shrunk_query(finding, subject == subjects.end() ? nullptr : subject->get(),
-                                  Stop::never(), limits_in_campaign);
-    finding.is_shrunk = true;
+    shrinker.shrink(finding);
     let_python_handle_signals();
   }
 }

@@ -232,7 +232,7 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   while (true) {
     std::array<pollfd, 2> sockets{{{replies_.number(), POLLIN, 0}, {supervisor_.socket(), POLLIN, 0}}};
     const bool spoke = poll(sockets.data(), sockets.size(), look_again_ms) > 0;
-    if (limits_.stop != nullptr) limits_.stop->check();
+    if (limits_.stop != nullptr) limits_.stop->check(Stop::grace);
     elapsed_ = watch.elapsed();
     if (spoke)
       if (const auto end = end_of(call.number)) return *end;

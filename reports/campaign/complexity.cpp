@@ -1,4 +1,4 @@
-#include "fuzz/trial/complexity.hpp"
+#include "reports/campaign/complexity.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,0 +1,84 @@
+// Shrinks findings beside a trial, so that no query waits for it.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include "fuzz/stop.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
+#include "fuzz/trial/trial.hpp"
+#include "reports/statistics/finding.hpp"
+
+namespace nearmiss {
+
+/// Shrinks findings on a thread of its own for at most a tenth of the time, and what is left at the end. Findings of ordinary
+/// queries come first, and the first finding of each signature before the second. The order does not change what findings
+/// are shrunk to. Its functions are called by one thread at a time.
+class Shrinking {
+ public:
+  /// Shrinks the first `of_each` findings of each signature and class. The subjects and `stop` must outlive it.
+  Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each);
+  Shrinking(const Shrinking&) = delete;
+  Shrinking& operator=(const Shrinking&) = delete;
+  ~Shrinking();
+
+  /// Takes on a finding, which gets the next number, from 0 on.
+  void add(const Finding& finding);
+
+  /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.
+  [[nodiscard]] std::map<std::size_t, Finding> take();
+
+  /// The number of findings that are still to be shrunk.
+  [[nodiscard]] std::size_t left() const;
+
+  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` now and then.
+  void finish(const std::function<void()>& report);
+
+ private:
+  using Clock = Stop::Clock;
+  /// What is shrunk first: the class, which finding of its signature, and the number.
+  using Priority = std::tuple<QueryClass, std::size_t, std::size_t>;
+  struct Task {
+    std::size_t number;
+    Finding finding;
+  };
+
+  void work();
+  /// The next task; nothing if there is none.
+  std::optional<Task> next();
+  void shrink(Task& task, const FindingShrinker::Rest& rest = {});
+  /// Waits until the thread has worked for no more than its share of the time.
+  void rest();
+
+  FindingShrinker shrinker_;
+  int jobs_;
+  const Stop& stop_;
+  std::size_t of_each_;
+  std::map<std::pair<Signature, QueryClass>, std::size_t> added_;
+  std::size_t count_ = 0;
+
+  mutable std::mutex mutex_;
+  std::condition_variable has_changed_;
+  std::map<Priority, Task> waiting_;
+  std::size_t under_way_ = 0;
+  std::map<std::size_t, Finding> shrunk_;
+  std::exception_ptr failure_;
+  bool is_hurried_ = false;  // there is nothing to ask any more
+  bool ends_ = false;
+
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point busy_since_ = start_;  // of the thread
+  Clock::duration busy_{};                 // before that
+  std::thread thread_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,173 @@
+// Findings are shrunk beside a campaign, the most telling ones first, and no query waits for it.
+#include "fuzz/trial/shrinking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
+#include "fuzz/families/classify.hpp"
+#include "fuzz/families/families.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/campaign.hpp"
+#include "fuzz/trial/judge.hpp"
+#include "fuzz/trial/signatures.hpp"
+#include "reports/campaign/complexity.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+Subjects one(std::unique_ptr<Subject> subject) {
+  Subjects subjects;
+  subjects.push_back(std::move(subject));
+  return subjects;
+}
+
+/// The collisions of a family that a subject misses.
+std::vector<Finding> missed(const Subjects& subjects) {
+  Batch batch{
+      .kind = Kind::edge_edge, .family = "planted-ulp", .queries = {}, .truths = {}, .provenance = {}};
+  for (std::uint64_t i = 1; i < 1000; i += 2)
+    batch.queries.push_back(make_query(find_family("planted-ulp"), 1, i));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  return hold_trial(subjects, batch).findings;
+}
+
+/// The findings after shrinking, with `of_each` of each signature and class.
+std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
+                                     const Stop& stop = Stop::never(), std::size_t of_each = findings_kept) {
+  Shrinking shrinking(subjects, 2, stop, of_each);
+  for (const Finding& finding : findings) shrinking.add(finding);
+  shrinking.finish([&] {
+    for (auto& [number, finding] : shrinking.take()) findings.at(number) = finding;
+  });
+  return findings;
+}
+
+std::size_t shrunk_among(const std::vector<Finding>& findings) {
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [](const Finding& each) { return each.is_shrunk; }));
+}
+
+TEST(Shrinking, KeepsTheFailureAndTheClass) {
+  const Subjects subjects = one(make_subject("basic"));
+  const std::vector<Finding> before = missed(subjects);
+  FirstFindings first;
+  std::size_t kept = 0;
+  for (const Finding& each : before) kept += first.take(each) ? 1 : 0;
+  const std::vector<Finding> findings = after_shrinking(subjects, before);
+  EXPECT_EQ(shrunk_among(findings), kept);
+  EXPECT_LT(kept, findings.size());
+  const Judge judge(*subjects.front());
+  for (const Finding& finding : findings) {
+    if (!finding.is_shrunk) continue;
+    EXPECT_NE(finding.shrunk, finding.query);
+    for (const Query& query : {finding.shrunk, finding.simplest})
+      EXPECT_EQ(judge.failure(query), (Failure{finding.what, finding.signature}));
+    EXPECT_EQ(name(classify(finding.shrunk)), name(finding.query_class));
+    EXPECT_EQ(name(classify(finding.simplest)), name(finding.simplest_class));
+    EXPECT_FALSE(complexity(finding.shrunk) < complexity(finding.simplest));
+  }
+}
+
+TEST(Shrinking, LeavesFindingsAsTheyAreIfToldSo) {
+  const Subjects subjects = one(make_subject("basic"));
+  const std::vector<Finding> before = missed(subjects);
+  EXPECT_TRUE(after_shrinking(subjects, before, Stop::never(), 0) == before);
+}
+
+TEST(Shrinking, DoesNothingAfterARequestToStop) {
+  const Subjects subjects = one(make_subject("basic"));
+  const std::atomic<bool> requested{true};
+  const std::vector<Finding> before = missed(subjects);
+  EXPECT_TRUE(after_shrinking(subjects, before, Stop(requested)) == before);
+}
+
+TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
+  const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always at t = 1/2
+  const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
+  Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
+  finding.time = 0.25;  // another one, to see that it is replaced
+  const Finding shrunk = after_shrinking(subjects, {finding}).front();
+  EXPECT_NE(shrunk.shrunk, early);
+  EXPECT_EQ(shrunk.time, 0.5);
+}
+
+/// Answers queries that are timed, as those of a campaign are, at once, and others only after so many that were timed.
+class Patient final : public ForwardingSubject {
+ public:
+  Patient(const Subject& to, std::size_t timed) : ForwardingSubject("basic", to), left_(timed) {}
+
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    std::unique_lock lock(mutex_);
+    has_changed_.wait(lock, [&] { return left_ == 0; });
+    lock.unlock();
+    ForwardingSubject::decide(queries, verdicts);
+  }
+  BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    {
+      const std::lock_guard lock(mutex_);
+      left_ -= std::min(left_, queries.size());
+    }
+    has_changed_.notify_all();
+    return ForwardingSubject::decide_timed(queries, verdicts);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable has_changed_;
+  mutable std::size_t left_;
+};
+
+/// If a query waited for the shrinker, which waits for all queries here, this test would not end.
+TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
+  CampaignPlan plan;
+  plan.families = {find_family("planted-ulp")};
+  plan.cases = 20'000;
+  plan.jobs = 2;
+  const auto basic = make_subject("basic");
+  const Subjects subjects = one(std::make_unique<Patient>(*basic, plan.cases));
+  std::size_t shrunk = 0;
+  const CampaignProgress reached = run_campaign(
+      plan, subjects,
+      [&](TrialResult&& result, const CampaignProgress& /*now*/) {
+        shrunk += result.shrunk.size();
+        return true;
+      },
+      Stop::never());
+  EXPECT_TRUE(reached.complete);
+  EXPECT_GT(shrunk, 10);
+}
+
+/// Counts its calls and queries.
+class Counting final : public ForwardingSubject {
+ public:
+  explicit Counting(const Subject& to) : ForwardingSubject("basic", to) {}
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    ++calls;
+    asked += queries.size();
+    ForwardingSubject::decide(queries, verdicts);
+  }
+  mutable std::atomic<std::size_t> calls = 0, asked = 0;
+};
+
+TEST(Shrinking, AsksManyQueriesAtOnce) {
+  const auto basic = make_subject("basic");
+  const Subjects subjects = one(std::make_unique<Counting>(*basic));
+  const auto& counting = dynamic_cast<const Counting&>(*subjects.front());
+  const std::vector<Finding> findings = missed(subjects);
+  counting.calls = counting.asked = 0;
+  after_shrinking(subjects, findings);
+  EXPECT_GT(counting.asked, 10 * counting.calls);
+}
+
+}  // namespace
+}  // namespace nearmiss
