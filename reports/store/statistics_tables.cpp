@@ -57,13 +57,11 @@ Table<FunnelRow> funnels() {
 }
 
 Table<FactorRow> factors() {
-  auto table = counters_table<FactorRow>(
+  return counters_table<FactorRow>(
       "factor", "subject, kind, family, factor_values",
       {key_column<FactorRow>("subject", &FactorKey::subject), key_column<FactorRow>("kind", &FactorKey::kind),
        key_column<FactorRow>("family", &FactorKey::family),
        key_column<FactorRow>("factor_values", &FactorKey::values)});
-  table.since = 17;
-  return table;
 }
 
 Table<SeenRow> seen() {

@@ -26,8 +26,8 @@ void make_schema(SQLite::Database& db) {
 }
 
 /// Reads a whole store of this version. Throws Damage, or an exception of SQLite, unless it is as it was written.
-Campaign read_all(SQLite::Database& db, int version) {
-  TableReader read(db, version);
+Campaign read_all(SQLite::Database& db) {
+  TableReader read(db);
   return {read_runs(read), read_statistics(read)};
 }
 
@@ -58,15 +58,17 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
   return "";
 }
 
-/// Opens a store of at least this version, and runs `act` with it and its version. If it is damaged, the Error also says how much a salvage would save.
+/// Opens a store of this version, and runs `act` with it. If it is damaged, the Error also says how much a salvage would
+/// save.
 template <class Act>
-auto reading(const fs::path& file, int oldest, const Act& act) {
+auto reading(const fs::path& file, const Act& act) {
   expect_regular_file(file);
   return naming(file, [&] {
     try {
       SQLite::Database db = open_to_read(file);
       const SQLite::Transaction one_save(db);  // another process may save meanwhile
-      return act(db, version_of(db, oldest));
+      expect_version(db);
+      return act(db);
     } catch (const std::exception& error) {
       if (const std::string log = locked_log(file, error); !log.empty())
         throw Error(
@@ -159,9 +161,9 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
 }
 
 Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
-  const std::vector<Run> runs = reading(file, store_version, [](SQLite::Database& db, int version) {
+  const std::vector<Run> runs = reading(file, [](SQLite::Database& db) {
     check_structure(db);
-    return read_all(db, version).runs;
+    return read_all(db).runs;
   });
   naming(file, [&] {
     if (runs.size() != 1 || runs.front().shards.size() != 1)
@@ -188,7 +190,7 @@ void Store::add(const ScenePicture& picture) {
 
 Campaign load_campaign(const fs::path& file) {
   if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", file.string()));
-  return reading(file, oldest_store_version, read_all);
+  return reading(file, read_all);
 }
 
 Campaign load_campaigns(std::span<const fs::path> files) {

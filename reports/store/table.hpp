@@ -82,7 +82,6 @@ struct Table {
   std::string constraint;          ///< "" or a constraint of the table
   std::vector<std::string> order;  ///< columns that give the order in which rows are read, if it matters
   std::vector<Column<Row>> columns;
-  int since = 0;  ///< the first version of a store that has the table
 
   void make(SQLite::Database& db) const {
     std::vector<std::string> definitions;

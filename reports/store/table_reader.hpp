@@ -24,10 +24,10 @@ struct Salvaged {
 class TableReader {
  public:
   /// Reads everything of a store of this version, and throws Damage if something is damaged.
-  TableReader(SQLite::Database& db, int version) : db_(db), version_(version) {}
+  explicit TableReader(SQLite::Database& db) : db_(db) {}
   /// Reads the intact rows of a store.
   static TableReader salvaging(SQLite::Database& db) {
-    TableReader reader(db, store_version);
+    TableReader reader(db);
     reader.salvages_ = true;
     return reader;
   }
@@ -35,7 +35,6 @@ class TableReader {
   /// Passes the rows of a table to `take`.
   template <class Row, class Take>
   void operator()(const Table<Row>& table, const Take& take) {
-    if (table.since > version_) return;
     if (!salvages_) return table.read(db_, take);
     Salvaged& result = salvaged_.emplace_back(begin(table.name));
     try {
@@ -52,7 +51,6 @@ class TableReader {
   [[nodiscard]] std::uint64_t last_row(const std::string& table);
 
   SQLite::Database& db_;
-  int version_;
   bool salvages_ = false;
   std::vector<Salvaged> salvaged_;
 };

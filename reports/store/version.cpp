@@ -28,16 +28,15 @@ void write_version(SQLite::Database& db) {
       fmt::format("PRAGMA user_version = {}; PRAGMA application_id = {};", store_version, application_id));
 }
 
-int version_of(SQLite::Database& db, int oldest) {
+void expect_version(SQLite::Database& db) {
   if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
     throw Error(is_empty(db)
                     ? "found an empty database, as a kill before the first save leaves it, expected a store "
                       "of nearmiss"
                     : "found another kind of database, expected a store of nearmiss");
   const int version = db.execAndGet("PRAGMA user_version").getInt();
-  if (version >= oldest && version <= store_version) return version;
-  throw Error(fmt::format("found store version {}, expected {}{}", version,
-                          oldest < store_version ? fmt::format("{} to ", oldest) : "", store_version));
+  if (version != store_version)
+    throw Error(fmt::format("found store version {}, expected {}", version, store_version));
 }
 
 }  // namespace nearmiss

@@ -28,14 +28,11 @@ bool is_empty(const SQLite::Database& db);
 /// Marks an empty database as a store of this version.
 void write_version(SQLite::Database& db);
 
-/// The version of the tables and of their contents; every change raises it.
+/// The version of the tables and of their contents; every change raises it. Only stores of this version are read.
 inline constexpr int store_version = 18;
-/// The oldest version that can be read. Stores of versions before the present one cannot be continued.
-inline constexpr int oldest_store_version = 18;
 
-/// The version of a store. Throws Error if the database is not a store, or if its version is not at least `oldest`, or later than
-/// the present one.
-int version_of(SQLite::Database& db, int oldest);
+/// Throws Error if the database is not a store of this version.
+void expect_version(SQLite::Database& db);
 
 /// Runs `act`. Any exception becomes an Error that names the file.
 template <class Act>

@@ -134,6 +134,28 @@ TEST(Campaign, ARunWithoutAFactOfItsCodeIsRefused) {
       ThrowsMessage<Error>(HasSubstr("b.db: found plug-in boxes sha256 'b', expected '' as in a.db")));
 }
 
+TEST(Campaign, ShowsOrdinaryQueriesFirstThenFrequentFailuresThenSimpleQueries) {
+  Campaign campaign{{{info, {}, {}}}, {}};
+  auto& findings = campaign.runs.front().findings;
+  const auto add = [&](const std::string& name, const std::string& signature, QueryClass of, double number) {
+    findings.push_back(finding(findings.size(), name, number, signature));
+    findings.back().query_class = of;
+    ++campaign.statistics.seen[signature_of(findings.back())];
+  };
+  add("zeros", "a", QueryClass::degenerate, 0);
+  add("extreme", "a", QueryClass::extreme, 1);
+  add("degenerate", "a", QueryClass::degenerate, 1);
+  add("awkward", "a", QueryClass::ordinary, 0.1);
+  add("simple", "a", QueryClass::ordinary, 2);
+  add("rare", "b", QueryClass::ordinary, 1);
+  findings.push_back(finding(9, "oracle", 1, "c"));
+  findings.back().subject = "";
+  std::vector<std::string> shown;
+  for (const Finding& each : campaign.findings()) shown.push_back(each.provenance);
+  EXPECT_EQ(shown, (std::vector<std::string>{"oracle", "simple", "awkward", "rare", "degenerate", "zeros",
+                                             "extreme"}));
+}
+
 TEST(Campaign, ShowsOneOfThoseThatAreShrunkToTheSame) {
   const Campaign campaign{{{info,
                             {},

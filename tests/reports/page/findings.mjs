@@ -102,6 +102,11 @@ async function checkFilter(page, report) {
   await page.selectOption("#findings-filter [name=kind]", "ee");
   const edges = of(({ kind }) => kind === "ee");
   assert.equal(await shown(), `${Math.min(24, edges)} of ${edges} shown, out of ${report.findings.length}`);
+  await page.selectOption("#findings-filter [name=class]", "ordinary");
+  const ordinary = of((each) => each.kind === "ee" && each.class === "ordinary");
+  assert.ok(ordinary > 0);
+  assert.equal(await shown(), `${Math.min(24, ordinary)} of ${ordinary} shown, out of ${report.findings.length}`);
+  await page.selectOption("#findings-filter [name=class]", "");
   const { family } = report.findings.find(({ kind }) => kind === "ee");
   await page.selectOption("#findings-filter [name=family]", family);
   const some = of((each) => each.kind === "ee" && each.family === family);
