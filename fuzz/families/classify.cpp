@@ -1,16 +1,327 @@
+// Each rule is one template over several number types: intervals decide nearly all queries, exact numbers and polynomials the
+// others.
 #include "fuzz/families/classify.hpp"
+
+#include <CGAL/Interval_nt.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <Eigen/Dense>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "ccd/arithmetic.hpp"
+#include "oracle/arithmetic/vectors.hpp"
+#include "oracle/exact/first_approach.hpp"
+#include "oracle/exact/first_contact.hpp"
+#include "oracle/oracle.hpp"
+
 namespace nearmiss {
-QueryClass classify(const Query& q) {
-  double largest = 0;
-  for (double c : q.x) largest = std::max(largest, std::abs(c));
-  if (largest > 1e30 || largest < 1e-30) return QueryClass::extreme;
-  for (int time = 0; time < 2; ++time) {
-    auto at = [&](int i) { return time == 0 ? q.start(i) : q.end(i); };
-    const Vector3<double> a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
-    if (std::abs(a.dot(b.cross(c))) <= 1e-6 * a.norm() * b.norm() * c.norm()) return QueryClass::degenerate;
+
+namespace {
+
+using certified::cross;
+using certified::dot;
+using certified::operator-;
+using certified::operator*;
+using certified::operator+;
+using certified::Vec;
+using exact::Number;
+using exact::Polynomial;
+using exact::Root;
+
+/// Intervals that need rounding upward. If one leaves a comparison open, the comparison's conversion to bool throws.
+using Interval = CGAL::Interval_nt<false>;
+
+/// The answer in intervals, or, if they leave it open, in exact arithmetic.
+template <class InIntervals, class Exactly>
+bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
+  try {
+    const Interval::Protector rounding_upward;
+    return in_intervals();
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+    return exactly();
   }
-  return QueryClass::ordinary;
 }
+
+template <class Real>
+using Points = std::array<Vec<Real>, 4>;
+
+/// The vertices at t = 0 or t = 1.
+template <class Real>
+Points<Real> points(const Query& query, std::size_t time) {
+  const auto x = coordinates(query);
+  Points<Real> all;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 3; ++k) all[i][k] = Real(x(time, i, k));
+  return all;
 }
+
+/// Two vertices.
+struct Pair {
+  std::size_t a, b;
+};
+
+/// The sides of the triangle, or both edges.
+std::span<const Pair> edges(Kind kind) {
+  static constexpr std::array<Pair, 3> sides{{{1, 2}, {2, 3}, {3, 1}}};
+  static constexpr std::array<Pair, 2> both{{{0, 1}, {2, 3}}};
+  return kind == Kind::vertex_triangle ? std::span<const Pair>(sides) : both;
+}
+
+/// The pairs with a vertex of each primitive.
+std::span<const Pair> gaps(Kind kind) {
+  static constexpr std::array<Pair, 3> of_vertex{{{0, 1}, {0, 2}, {0, 3}}};
+  static constexpr std::array<Pair, 4> of_edges{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+  return kind == Kind::vertex_triangle ? std::span<const Pair>(of_vertex) : of_edges;
+}
+
+// --- extreme queries ------------------------------------------------------------------------------------
+
+template <class Real>
+Real largest_component(const Vec<Real>& v) {
+  using std::max;  // CGAL has one for intervals
+  Real largest = max(v[0], -v[0]);
+  for (std::size_t k = 1; k < 3; ++k) largest = max(largest, max(v[k], -v[k]));
+  return largest;
+}
+
+/// Lengths of edges, at either time, and of the motion: largest components.
+template <class Real>
+struct Lengths {
+  Real longest = 0;
+  Real shortest = 0;  ///< that is not zero
+  Real fastest = 0;
+};
+
+template <class Real>
+Lengths<Real> lengths(const Query& query) {
+  using std::max;
+  using std::min;
+  const std::array<Points<Real>, 2> x{points<Real>(query, 0), points<Real>(query, 1)};
+  Lengths<Real> found;
+  for (const auto& at_time : x)
+    for (const auto& [a, b] : edges(query.kind)) {
+      const Real length = largest_component(at_time[a] - at_time[b]);
+      if (!(Real(0) < length)) continue;
+      found.shortest = Real(0) < found.longest ? Real(min(found.shortest, length)) : length;
+      found.longest = max(found.longest, length);
+    }
+  for (std::size_t i = 0; i < 4; ++i)
+    found.fastest = max(found.fastest, largest_component(x[1][i] - x[0][i]));
+  return found;
+}
+
+/// Whether lengths differ by a factor above 10^8.
+template <class Real>
+bool has_extreme_proportions(const Query& query, double largest_coordinate) {
+  const auto [longest, shortest, fastest] = lengths<Real>(query);
+  if (!(Real(0) < longest)) return false;  // points have no size
+  const auto is_far_above = [](const Real& a, const Real& b) -> bool { return a > Real(1e8) * b; };
+  return is_far_above(longest, shortest) || is_far_above(fastest, longest) ||
+         is_far_above(Real(largest_coordinate), longest);
+}
+
+bool is_extreme(const Query& query) {
+  double largest = 0;
+  for (const double c : query.x) largest = std::max(largest, std::abs(c));
+  if (!is_finite(query) || largest > 1e30 || (largest != 0 && largest < 1e-30)) return true;
+  return filtered([&] { return has_extreme_proportions<Interval>(query, largest); },
+                  [&] { return has_extreme_proportions<Number>(query, largest); });
+}
+
+// --- degenerate queries ---------------------------------------------------------------------------------
+
+constexpr double nearly = 1e-6;
+
+/// The vertices at a time, their velocities, and the square of a small length.
+template <class Real>
+struct Moment {
+  Kind kind{};
+  Points<Real> x, v;
+  Real squared_length;
+};
+
+Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, double length) {
+  const Points<Interval> start = points<Interval>(query, 0);
+  const Points<Interval> end = points<Interval>(query, 1);
+  const Interval t(time.lo, time.hi);
+  Moment<Interval> moment{query.kind, start, end, Interval(length) * Interval(length)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    moment.v[i] = end[i] - start[i];
+    moment.x[i] = start[i] + t * moment.v[i];
+  }
+  return moment;
+}
+
+/// Every moment: polynomials in t.
+Moment<Polynomial> exact_moment(const Query& query, double length) {
+  const exact::Unit unit(query);
+  const Number scaled = unit.scaled(length);
+  Moment<Polynomial> moment{query.kind, exact::moving_points(query, unit), {}, Polynomial({scaled * scaled})};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 3; ++k) moment.v[i][k] = moment.x[i][k].derivative();
+  return moment;
+}
+
+/// Whether a rule holds at a time that is known by an enclosure, or else by its root.
+template <class Rule, class FindRoot>
+bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& query, double length,
+              const Rule& rule) {
+  return filtered(
+      [&] {
+        const auto at_most = [](const Interval& a, const Interval& b) -> bool { return a <= b; };
+        return rule(moment_in_intervals(query, time, length), at_most);
+      },
+      [&] {
+        Root t = find_root();
+        const auto at_most = [&](const Polynomial& a, const Polynomial& b) { return t.sign_of(a - b) <= 0; };
+        return rule(exact_moment(query, length), at_most);
+      });
+}
+
+/// The sum of the squared distances of some pairs of points.
+template <class Real>
+Real sum_of_squares(std::span<const Pair> pairs, const Points<Real>& x) {
+  const auto square = [&](const Pair& pair) { return dot(x[pair.a] - x[pair.b], x[pair.a] - x[pair.b]); };
+  Real sum = square(pairs[0]);
+  for (const Pair& pair : pairs.subspan(1)) sum = sum + square(pair);
+  return sum;
+}
+
+/// Squares of sizes with which F is compared: of the first and second edge, or of the triangle both times, and of the gap
+/// between the primitives. They are sums instead of means, so that their product is too large by the factor `excess`.
+template <class Real>
+struct Squares {
+  Real first, second, gap;
+};
+
+template <class Real>
+Squares<Real> squares(Kind kind, const Points<Real>& x) {
+  const auto pairs = edges(kind);
+  const Real gap = sum_of_squares(gaps(kind), x);
+  if (kind == Kind::edge_edge)
+    return {sum_of_squares(pairs.first(1), x), sum_of_squares(pairs.last(1), x), gap};
+  const Real triangle = sum_of_squares(pairs, x);
+  return {triangle, triangle, gap};
+}
+
+constexpr double excess(Kind kind) { return kind == Kind::vertex_triangle ? 27 : 4; }
+
+/// Vectors whose determinant is F, or their velocities.
+template <class Real>
+std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
+  if (kind == Kind::vertex_triangle) return {x[2] - x[1], x[3] - x[1], x[0] - x[1]};
+  return {x[1] - x[0], x[3] - x[2], x[2] - x[0]};
+}
+
+/// x² times a factor.
+template <class Real>
+Real multiple_of_square(double factor, const Real& x) {
+  if constexpr (std::is_same_v<Real, Polynomial>)
+    return Polynomial({Number(factor)}) * x * x;
+  else
+    return Real(factor) * x * x;
+}
+
+constexpr double squared_inverse = 1e12;  // of `nearly`, without rounding
+
+template <class Real, class AtMost>
+bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
+  const auto [first, second, gap] = squares(moment.kind, moment.x);
+  const auto [p, q, r] = spans(moment.kind, moment.x);
+  const Real F = dot(cross(p, q), r);
+  return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
+}
+
+/// Whether F' almost vanishes, at a root of F.
+template <class Real, class AtMost>
+bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
+  const auto [p, q, r] = spans(moment.kind, moment.x);
+  const auto [dp, dq, dr] = spans(moment.kind, moment.v);
+  const Real slope = dot(cross(dp, q), r) + dot(cross(p, dq), r) + dot(cross(p, q), dr);
+  const auto size = squares(moment.kind, moment.x);
+  const auto speed = squares(moment.kind, moment.v);
+  return at_most(multiple_of_square(squared_inverse * excess(moment.kind), slope),
+                 speed.first * size.second * size.gap + size.first * speed.second * size.gap +
+                     size.first * size.second * speed.gap);
+}
+
+/// Whether a point is near a segment.
+template <class Real, class AtMost>
+bool is_near(const Moment<Real>& moment, std::size_t point, const Pair& segment, const AtMost& at_most) {
+  const Vec<Real> d = moment.x[point] - moment.x[segment.a];
+  const Vec<Real> from_b = moment.x[point] - moment.x[segment.b];
+  if (at_most(dot(d, d), moment.squared_length) || at_most(dot(from_b, from_b), moment.squared_length))
+    return true;
+  const Vec<Real> e = moment.x[segment.b] - moment.x[segment.a];
+  const Vec<Real> area = cross(d, e);
+  const Real squared_e = dot(e, e);
+  if (!at_most(dot(area, area), moment.squared_length * squared_e)) return false;
+  const Real along = dot(d, e);
+  return !at_most(along, along - along) && !at_most(squared_e, along);
+}
+
+/// Whether primitives that touch do so near an edge of the triangle, or near an end of an edge.
+template <class Real, class AtMost>
+bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
+  const auto is_near_to = [&](std::size_t point, const Pair& segment) {
+    return is_near(moment, point, segment, at_most);
+  };
+  const auto all = edges(moment.kind);
+  if (moment.kind == Kind::vertex_triangle)
+    return std::any_of(all.begin(), all.end(), [&](const Pair& side) { return is_near_to(0, side); });
+  return is_near_to(0, all[1]) || is_near_to(1, all[1]) || is_near_to(2, all[0]) || is_near_to(3, all[0]);
+}
+
+/// Whether t* <= time. The difference to is_before matters only for a t* that is this double.
+bool is_at_most(EarliestTime& first, double time) {
+  if (first.is_before(time)) return true;
+  return first.is_before(std::nextafter(time, 2.0)) && first.enclosure() == Enclosure{time, time};
+}
+
+/// Whether the distance is at most h at some time.
+bool comes_within(const Query& query, double h) {
+  const Decision decision = decide(with_separation(query, h));
+  return decision.collision || decision.is_tie;
+}
+
+bool is_degenerate(const Query& query) {
+  const auto [longest, shortest, fastest] = lengths<double>(query);
+  if (longest == 0 || fastest == 0) return true;
+  const double length = nearly * longest;
+  for (const int time : {0, 1}) {
+    const auto root = [&] { return Root(Number(time)); };
+    const auto rule = [](const auto& moment, const auto& at_most) { return is_coplanar(moment, at_most); };
+    if (holds_at({1.0 * time, 1.0 * time}, root, query, length, rule)) return true;
+  }
+  const double h = query.separation;
+  const double change = h == 0 ? length : nearly * h;
+  const Decision nearer = decide(with_separation(query, h == 0 ? 0 : h - change));
+  if (!nearer.collision) return comes_within(query, std::min(h + change, std::numeric_limits<double>::max()));
+
+  EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
+  if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return true;
+  if (h > 0) return false;  // vertices and edges come first in general position, too
+  const auto root = [&] {
+    if (nearer.known.exactly) return nearer.known.exactly->time;
+    exact::Predicates predicates(query);
+    return exact::first_contact(predicates)->time;
+  };
+  return holds_at(first.enclosure(rough_time), root, query, length,
+                  [](const auto& moment, const auto& at_most) {
+                    return touches_border(moment, at_most) || is_multiple_root(moment, at_most);
+                  });
+}
+
+}  // namespace
+
+QueryClass classify(const Query& query) {
+  const PlainArithmetic guard;
+  if (is_extreme(query)) return QueryClass::extreme;
+  return is_degenerate(query) ? QueryClass::degenerate : QueryClass::ordinary;
+}
+
+}  // namespace nearmiss

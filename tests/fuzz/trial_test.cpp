@@ -140,6 +140,18 @@ TEST(Trial, EveryFindingHasASignatureThatIsCounted) {
   for (const Finding& finding : result.findings) EXPECT_TRUE(expected.contains(signature_of(finding)));
 }
 
+TEST(Trial, AFindingHasTheClassOfItsQueryAndNotOfItsFamily) {
+  Batch degenerate_family = batch();
+  degenerate_family.family = "unit-integer";
+  degenerate_family.queries = {falling_vertex(0.25, 0.25, 1, -1), falling_vertex(0.25, 0, 1, -1),
+                               falling_vertex(0.25, 0.25, 1e40, -1)};
+  const auto result = hold_trial(one(std::make_unique<Told>("never", false, infinity)), degenerate_family);
+  ASSERT_EQ(result.findings.size(), 3);
+  EXPECT_EQ(result.findings[0].query_class, QueryClass::ordinary);
+  EXPECT_EQ(result.findings[1].query_class, QueryClass::degenerate);
+  EXPECT_EQ(result.findings[2].query_class, QueryClass::extreme);
+}
+
 TEST(Trial, AMissingAnswerIsAFaultAndNoMiss) {
   Batch third = batch();
   third.queries.push_back(falling_vertex(0.25, 0.25, 4, 3));

@@ -1,0 +1,46 @@
+#include "reports/statistics/exoticness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace nearmiss {
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// The vertices at t = 0, then at t = 1.
+std::array<Point, 8> points(const Query& query) {
+  std::array<Point, 8> all{};
+  for (std::size_t i = 0; i < 24; ++i) all[i / 3][i % 3] = query.x[i];
+  return all;
+}
+
+/// Whether two of four points are equal.
+template <class Iterator>
+bool coincide(Iterator first) {
+  for (auto point = first; point != first + 4; ++point)
+    if (std::find(first, point, *point) != point) return true;
+  return false;
+}
+
+}  // namespace
+
+int exoticness(const Query& query, QueryClass of) {
+  const auto all = points(query);
+  if (std::count(all.begin(), all.end(), all[0]) == 8) return 5;
+  switch (of) {
+    case QueryClass::ordinary:
+      return 0;
+    case QueryClass::degenerate:
+      return coincide(all.begin()) || coincide(all.begin() + 4) ? 2 : 1;
+    case QueryClass::extreme:
+      return 3;
+    case QueryClass::unclassified:
+      break;
+  }
+  return 4;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,232 @@
+// Single queries on both sides of every border between classes (fuzz/families/README.md).
+#include "fuzz/families/classify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/fuzz/family_queries.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_edge;
+using testing::falling_vertex;
+using testing::make_query;
+using testing::reversed;
+using testing::scaled;
+using Vector = Vector3<double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+double above(double x) { return std::nextafter(x, infinity); }
+double below(double x) { return std::nextafter(x, -infinity); }
+
+bool is_ordinary(const Query& query) { return classify(query) == QueryClass::ordinary; }
+bool is_degenerate(const Query& query) { return classify(query) == QueryClass::degenerate; }
+bool is_extreme(const Query& query) { return classify(query) == QueryClass::extreme; }
+
+// --- extreme --------------------------------------------------------------------------------------------
+
+TEST(Classify, CoordinatesAreExtremeAbove1e30OrIfAllAreBelow1eMinus30) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -1);
+  EXPECT_TRUE(is_ordinary(query));
+  for (const double bound : {1e30, 1e-30}) EXPECT_TRUE(is_ordinary(scaled(query, bound))) << bound;
+  for (const double size : {above(1e30), 1e300, below(1e-30), 1e-300, 1e-308, 1e-320, least, infinity})
+    EXPECT_TRUE(is_extreme(scaled(query, size))) << size;
+  EXPECT_TRUE(is_degenerate(scaled(query, 0)));
+}
+
+TEST(Classify, SubnormalCoordinatesAmongOthersAreOrdinary) {
+  Query query = falling_vertex(0.25, 0.25, 1, -1);
+  query.x[3] = least;
+  query.x[16] = -1e-310;
+  query.x[17] = 1e-300;
+  EXPECT_TRUE(is_ordinary(query));
+}
+
+/// An edge of length 1 + 2^-60 above one that is 1e8 times as long, except for 2^-60 times a change. Neither length is a double.
+Query long_edge(double change) {
+  const double tiny = 0x1p-60;
+  const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);
+  const Vector up(0, 0, 1e3);
+  return make_query(Kind::edge_edge, {a + up, b + up, c, d}, {a - up, b - up, c, d});
+}
+
+TEST(Classify, AnEdgeIsExtremeIfItIsMoreThan1e8TimesLongerThanAnother) {
+  EXPECT_TRUE(is_degenerate(long_edge(0)));
+  EXPECT_TRUE(is_degenerate(long_edge(0x1p-20)));
+  EXPECT_TRUE(is_extreme(long_edge(-0x1p-20)));
+  const Query point = make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}},
+                                 {{0, 0, -1}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}});
+  EXPECT_TRUE(is_degenerate(point));  // an edge of length 0 does not count
+}
+
+TEST(Classify, AMotionIsExtremeAbove1e8TimesTheLongestEdge) {
+  EXPECT_FALSE(is_extreme(falling_vertex(0.25, 0.25, 5e7, -5e7)));
+  EXPECT_TRUE(is_extreme(falling_vertex(0.25, 0.25, above(5e7), -5e7)));  // rounded, the sum is 1e8
+}
+
+TEST(Classify, ADistanceFromTheOriginIsExtremeAbove1e8TimesTheLongestEdge) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -1);
+  EXPECT_TRUE(is_ordinary(testing::moved(query, 1e8 - 1)));
+  EXPECT_TRUE(is_extreme(testing::moved(query, 1e8 - 1 + 0x1p-20)));
+}
+
+// --- degenerate, whether or not there is contact --------------------------------------------------------
+
+TEST(Classify, PrimitivesAtRestAreDegenerate) {
+  const Query query = falling_vertex(2, 2, 1, 1);
+  EXPECT_TRUE(is_degenerate(query));
+  EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(1))));
+}
+
+TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
+  // F = z, A = 4 / 3, g² = 6 + z²
+  const double border = 0x1.b65a6f833cc0fp-19;
+  EXPECT_TRUE(is_degenerate(falling_vertex(2, 2, border, 1)));
+  EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, above(border), 1)));
+  EXPECT_TRUE(is_degenerate(falling_vertex(2, 2, 1, border)));
+  EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(border))));
+}
+
+/// An edge falls past a second one of another direction.
+Query falling_past(const Vector& direction) {
+  const Vector a(0, 0, 0), b(1, 0, 0), c(0.25, 2, 1);
+  const Vector d = c + direction, down(0, 0, -2);
+  return make_query(Kind::edge_edge, {a, b, c, d}, {a, b, c + down, d + down});
+}
+
+TEST(Classify, NearlyParallelEdgesAreDegenerate) {
+  EXPECT_TRUE(is_degenerate(falling_past({1, 0, 0})));
+  EXPECT_TRUE(is_degenerate(falling_past({-1, 0, 1e-6})));
+  EXPECT_TRUE(is_ordinary(falling_past({1, 0, 1e-5})));
+}
+
+TEST(Classify, ATriangleWithoutAreaIsDegenerate) {
+  Query query = falling_vertex(2, 2, 1, -1);
+  query.set_start(3, {2, 1e-7, 0});
+  EXPECT_TRUE(is_degenerate(query));
+  query.set_start(3, {2, 1e-5, 0});
+  EXPECT_TRUE(is_ordinary(query));
+}
+
+TEST(Classify, ADistanceOfAlmostNothingIsDegenerate) {
+  EXPECT_TRUE(is_degenerate(falling_vertex(0.25, 0.25, 1, 1e-6)));
+  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, 0.25, 1, above(1e-6))));
+}
+
+/// A vertex that passes an edge at a distance of 5, at t = 1 / 2.
+Query passing_vertex(double separation) {
+  const Vector a(0, 0, 0), b(100, 0, 0), c(0, 100, 0);
+  const Query query = make_query(Kind::vertex_triangle, {{50, -7, -1}, a, b, c}, {{50, -1, 7}, a, b, c});
+  return with_separation(query, separation);
+}
+
+TEST(Classify, ASmallestDistanceOfNearlyTheSeparationIsDegenerate) {
+  for (const double part : {-0.9999e-6, -1e-9, 0.0, 1e-9, 0.9999e-6})
+    EXPECT_TRUE(is_degenerate(passing_vertex(5 + 5 * part))) << part;
+  for (const double part : {-1.0001e-6, 1.0001e-6})
+    EXPECT_TRUE(is_ordinary(passing_vertex(5 + 5 * part))) << part;
+}
+
+// --- degenerate contact ---------------------------------------------------------------------------------
+
+/// A triangle that rises to a vertex at rest, which it reaches at t = time / (1 - later).
+Query reached_at(double time, double later = 0) {
+  const Vector v(0.25, 0.25, 1024 * time), o(0, 0, 0), a(1, 0, 0), b(0, 1, 0), up(0, 0, 1024 * (1 - later));
+  return make_query(Kind::vertex_triangle, {v, o, a, b}, {v, o + up, a + up, b + up});
+}
+
+TEST(Classify, ContactNearlyAtTheStartIsDegenerate) {
+  EXPECT_TRUE(is_degenerate(reached_at(1e-6)));
+  EXPECT_TRUE(is_degenerate(reached_at(1e-6, -0x1p-52)));
+  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // at a time that is no double
+  EXPECT_TRUE(is_ordinary(reached_at(above(1e-6))));
+}
+
+TEST(Classify, ContactNearlyAtTheEndIsDegenerate) {
+  EXPECT_TRUE(is_degenerate(reached_at(1 - 1e-6)));
+  EXPECT_TRUE(is_ordinary(reached_at(1 - 1e-6, -0x1p-52)));
+  EXPECT_TRUE(is_ordinary(reached_at(below(1 - 1e-6))));
+  EXPECT_TRUE(is_degenerate(reached_at(1)));
+}
+
+TEST(Classify, ContactNearlyOnAnEdgeOfTheTriangleIsDegenerate) {
+  for (const double y : {1e-6, 0.0, -1e-7}) EXPECT_TRUE(is_degenerate(falling_vertex(0.25, y, 1, -1))) << y;
+  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, above(1e-6), 1, -1)));
+  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, below(-1e-6), 1, -1)));  // misses
+}
+
+TEST(Classify, ContactNearlyAtAnEndOfAnEdgeIsDegenerate) {
+  Query query = falling_edge(1, -1);
+  EXPECT_TRUE(is_ordinary(query));
+  query.x[7] = query.x[19] = -2e-6;  // the longest edge is 2
+  EXPECT_TRUE(is_degenerate(query));
+  query.x[7] = query.x[19] = below(-2e-6);
+  EXPECT_TRUE(is_ordinary(query));
+}
+
+/// F = 2 (ε² - a²) for a = 2 t - 1: roots at a = ±ε, where the edges cross.
+Query turning_edge(double squared_epsilon) {
+  const double e = squared_epsilon / 2;
+  const Vector a(-1, 0, 0), b(1, 0, 0);
+  return make_query(Kind::edge_edge, {a, b, {0, -1.5, 1 + e}, {0, 0.5, -1 + e}},
+                    {a, b, {0, -0.5, -1 + e}, {0, 1.5, 1 + e}});
+}
+
+TEST(Classify, AMultipleRootIsDegenerate) {
+  EXPECT_TRUE(is_degenerate(turning_edge(0)));
+  EXPECT_TRUE(is_degenerate(turning_edge(0x1p-42)));
+  EXPECT_TRUE(is_ordinary(turning_edge(0x1p-38)));
+}
+
+TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
+  const Query on_edge = falling_vertex(0.25, 0, 1, -1);
+  EXPECT_TRUE(is_degenerate(on_edge));
+  for (const double h : {least, 1e-310, 1e-300, 1e-100, 0.125})
+    EXPECT_TRUE(is_ordinary(with_separation(on_edge, h))) << h;
+  for (const double h : {1e300, std::numeric_limits<double>::max()})
+    EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // near from the beginning
+}
+
+// --- all families ---------------------------------------------------------------------------------------
+
+/// The same primitives with other names for the vertices.
+Query reordered(const Query& query, const std::array<int, 4>& order) {
+  Query other = query;
+  for (int i = 0; i < 4; ++i) {
+    other.set_start(i, query.start(order[static_cast<std::size_t>(i)]));
+    other.set_end(i, query.end(order[static_cast<std::size_t>(i)]));
+  }
+  return other;
+}
+
+std::vector<std::array<int, 4>> orders(Kind kind) {
+  if (kind == Kind::vertex_triangle) return {{0, 2, 3, 1}, {0, 1, 3, 2}};
+  return {{1, 0, 2, 3}, {0, 1, 3, 2}, {2, 3, 0, 1}};
+}
+
+TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
+  for (const Family& family : all_families())
+    for (const Query& query : testing::first_queries(family.name, 20)) {
+      const QueryClass expected = classify(query);
+      EXPECT_NE(expected, QueryClass::unclassified);
+      for (const auto& order : orders(query.kind))
+        EXPECT_EQ(name(classify(reordered(query, order))), name(expected)) << family.name;
+      if (expected == QueryClass::extreme) continue;
+      for (const double unit : {0x1p-30, 0x1p30}) {
+        const Query other = scaled(with_separation(query, query.separation * unit), unit);
+        if (classify(other) == QueryClass::extreme || scaled(other, 1 / unit).x != query.x) continue;
+        EXPECT_EQ(name(classify(other)), name(expected)) << family.name << ", unit " << unit;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,39 @@
+// The order in which failures are shown.
+#include "reports/statistics/exoticness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/queries.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::falling_vertex;
+
+TEST(Exoticness, OrdinaryQueriesComeFirstAndAllZerosLast) {
+  const Query query = falling_vertex(0.25, 0.25, 1, -1);
+  EXPECT_EQ(exoticness(query, QueryClass::ordinary), 0);
+  EXPECT_EQ(exoticness(query, QueryClass::degenerate), 1);
+  EXPECT_EQ(exoticness(falling_vertex(0, 0, 1, 0), QueryClass::degenerate), 2);
+  EXPECT_EQ(exoticness(query, QueryClass::extreme), 3);
+  EXPECT_EQ(exoticness(query, QueryClass::unclassified), 4);
+  Query zeros;
+  zeros.x[5] = -0.0;
+  EXPECT_EQ(exoticness(zeros, QueryClass::degenerate), 5);
+  EXPECT_EQ(exoticness(testing::moved(zeros, 1e300), QueryClass::extreme), 5);
+}
+
+TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      Query query = falling_vertex(0.25, 0.25, 1, -1);
+      query.set_end(i, query.start(j));  // at different times, unless vertex j is at rest
+      const int expected = i != j && j > 0 ? 2 : 1;
+      EXPECT_EQ(exoticness(query, QueryClass::degenerate), expected) << i << ' ' << j;
+      query.set_end(i, query.end(j));
+      EXPECT_EQ(exoticness(query, QueryClass::degenerate), i == j ? 1 : 2) << i << ' ' << j;
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss
