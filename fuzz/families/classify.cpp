@@ -144,14 +144,17 @@ struct Moment {
   Real squared_length;
 };
 
+/// The moment from the nearer end of the step, so that t = 0 and t = 1 are exact.
 Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, double length) {
   const Points<Interval> start = points<Interval>(query, 0);
   const Points<Interval> end = points<Interval>(query, 1);
-  const Interval t(time.lo, time.hi);
-  Moment<Interval> moment{query.kind, start, end, Interval(length) * Interval(length)};
+  const bool is_late = time.lo > 0.5;
+  const Points<Interval>& near = is_late ? end : start;
+  const Interval since = Interval(time.lo, time.hi) - Interval(is_late ? 1 : 0);
+  Moment<Interval> moment{query.kind, near, near, Interval(length) * Interval(length)};
   for (std::size_t i = 0; i < 4; ++i) {
     moment.v[i] = end[i] - start[i];
-    moment.x[i] = start[i] + t * moment.v[i];
+    moment.x[i] = near[i] + since * moment.v[i];
   }
   return moment;
 }
@@ -249,19 +252,19 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a point is near a segment.
+/// Whether a point is near a segment: near one of its ends, or near its line and between the planes through the ends.
 template <class Real, class AtMost>
 bool is_near(const Moment<Real>& moment, std::size_t point, const Pair& segment, const AtMost& at_most) {
-  const Vec<Real> d = moment.x[point] - moment.x[segment.a];
+  const Vec<Real> from_a = moment.x[point] - moment.x[segment.a];
   const Vec<Real> from_b = moment.x[point] - moment.x[segment.b];
-  if (at_most(dot(d, d), moment.squared_length) || at_most(dot(from_b, from_b), moment.squared_length))
-    return true;
-  const Vec<Real> e = moment.x[segment.b] - moment.x[segment.a];
-  const Vec<Real> area = cross(d, e);
-  const Real squared_e = dot(e, e);
-  if (!at_most(dot(area, area), moment.squared_length * squared_e)) return false;
-  const Real along = dot(d, e);
-  return !at_most(along, along - along) && !at_most(squared_e, along);
+  const auto is_short = [&](const Vec<Real>& v) { return at_most(dot(v, v), moment.squared_length); };
+  if (is_short(from_a) || is_short(from_b)) return true;
+  const Vec<Real> ab = moment.x[segment.b] - moment.x[segment.a];
+  const Vec<Real> ba = moment.x[segment.a] - moment.x[segment.b];
+  const Vec<Real> area = cross(from_a, ab);
+  const Real squared = dot(ab, ab);
+  return at_most(dot(area, area), moment.squared_length * squared) && !at_most(squared, dot(from_a, ab)) &&
+         !at_most(squared, dot(from_b, ba));
 }
 
 /// Whether primitives that touch do so near an edge of the triangle, or near an end of an edge.
