@@ -1,4 +1,4 @@
-#include "reports/statistics/exoticness.hpp"
+#include "reports/statistics/query_class.hpp"
 
 #include <algorithm>
 #include <array>

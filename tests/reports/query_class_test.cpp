@@ -1,5 +1,5 @@
 // The order in which failures are shown.
-#include "reports/statistics/exoticness.hpp"
+#include "reports/statistics/query_class.hpp"
 
 #include <gtest/gtest.h>
 
