@@ -54,6 +54,14 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_GT(report["findings"].size(), 10);
   EXPECT_EQ(timeless_report("two.db"), report);
 
+  EXPECT_EQ(run(std::string(campaign) + " --shrink 0 --db plain.db").code, 1);
+  for (const json& finding : timeless_report("plain.db")["findings"])
+    EXPECT_EQ(finding["shrunk"], finding["original"]);
+  EXPECT_EQ(run(std::string(campaign) + " --resume --db plain.db").code, 1);
+  json later = timeless_report("plain.db");
+  later["runs"] = report["runs"];  // the command that repeats the run has the option
+  EXPECT_EQ(later, report);
+
   std::string shards;
   for (const int shard : {4, 0, 6, 2, 5, 1, 3}) {
     const std::string number = std::to_string(shard);
@@ -117,7 +125,8 @@ TEST_F(Resume, AMergeNamesMissingShardsAndRefusesAShardTwice) {
 
 TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   const int code =
-      run("fuzz --time 1s --seed 9 --subject basic,wang --sweep needle --steps 3 --db timed.db").code;
+      run("fuzz --time 1s --shrink 0 --seed 9 --subject basic,wang --sweep needle --steps 3 --db timed.db")
+          .code;
   const json report = timeless_report("timed.db");
   const std::string again = report["runs"][0]["again"];
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
