@@ -115,9 +115,13 @@ bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & number_
 
 Query rounded_for(const DetectorInfo& info, const Query& query) {
   if (!info.is_narrow) return query;
-  constexpr double most = std::numeric_limits<float>::max();
+  const auto round = [](double& number) {
+    constexpr double most = std::numeric_limits<float>::max();
+    number = static_cast<double>(static_cast<float>(std::clamp(number, -most, most)));
+  };
   Query rounded = query;
-  for (double& c : rounded.x) c = static_cast<double>(static_cast<float>(std::clamp(c, -most, most)));
+  for (double& c : rounded.x) round(c);
+  round(rounded.separation);
   return rounded;
 }
 

@@ -41,9 +41,9 @@ typedef struct {
   /* The name is unique within the shared object. It is UTF-8 of at most 255 bytes, without control characters and without
    * any of : = / , - `version` and `about` are one line of text each, of which the first 255 bytes are shown. */
   const char *name, *version, *about;
-  int kinds;            /* sum of the kinds that it decides */
-  int bits;             /* 53, or 24: coordinates are rounded to float, and it is judged on these; 0 is 53 */
-  int time_sort;        /* the sort of time that it gives with every collision */
+  int kinds;     /* sum of the kinds that it decides */
+  int bits;      /* 53, or 24: coordinates and h are rounded to float, and it is judged on these; 0 is 53 */
+  int time_sort; /* the sort of time that it gives with every collision */
   int takes_separation; /* 1 if it uses h */
   size_t batch;         /* how many queries decide() should get, if there are so many; 0 is 1 */
   nearmiss_contract contract;
@@ -59,10 +59,13 @@ typedef struct {
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at any time
    * in [0, 1]; h = 0 asks for contact.
    *   x: n times 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
-   *   h: n separations, at least 0; 0 unless takes_separation is set.
+   *   h: n separations, at least 0; 0 unless takes_separation is set. Floats, like x, if `bits` is 24.
    *   answer: n answers, all to be written.
    *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only for
-   *        collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is invalid.
+   *        collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is invalid. Pass on a
+   *        NaN that your code computes: it is counted as an invalid answer, which another number would hide.
+   * A C++ exception may leave the function: the query that threw it has no answer, which is the fault `exception`, and
+   * what() is shown. The process and the state stay, and the next queries are asked there.
    * An answer must depend on its own x and h and on the options alone: a query that fails is asked again, when it is
    * shrunk and when it is replayed. Arithmetic rounds to nearest, keeps subnormals and does not trap; if the detector
    * changes that, it is restored after the call. */

@@ -174,7 +174,7 @@ constexpr std::array registry{
         "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
     entry<Wang<WangOptions{true, VeCulling::per_root}>>("wang-scalar", "the same, one query at a time"),
     entry<Wang<WangOptions{true, VeCulling::fixed}>>(
-        "wang-eps", "the same with the paper's fixed interval, the square root of epsilon"),
+        "wang-eps", "the same with the fixed interval of the paper's text, the square root of epsilon"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
     entry<Wang<WangOptions{true, VeCulling::per_root}, TightSteps>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),

@@ -25,7 +25,7 @@ constexpr std::array entries{
     Entry{{"exact-decision", "the same as exact, without the time"}, true, false},
 };
 
-/// The oracle as a subject. It omits the box test, because subjects only get pairs whose boxes meet.
+/// The oracle as a subject. It omits the box test, which a simulation makes before it asks a CCD.
 class ExactSubject final : public Subject {
  public:
   explicit ExactSubject(const Entry& entry) : entry_(entry), name_(entry.info.name) {}

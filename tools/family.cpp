@@ -30,13 +30,14 @@ struct Options {
   PluginLimitOptions limits;
 };
 
-/// Prints a line for each query of one kind among the indices first .. first + count - 1: the query or, with
-/// --factors, its factors.
+/// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with --factors, its
+/// factors.
 void print_queries(const Options& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
-  for (std::uint64_t i = 0; i < options.count; ++i) {
-    const std::uint64_t index = options.first + i;
+  std::uint64_t printed = 0;
+  for (std::uint64_t index = options.first; printed < options.count; ++index) {
     if (kind_of(index) != kind) continue;
+    ++printed;
     fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
                                        : to_line(make_query(family, options.seed, index)));
   }
@@ -127,7 +128,7 @@ void add_family(CLI::App& app, int& /*exit_code*/) {
       ->needs(kind);
   add_seed_option(*command, options->seed);
   add_count_option(*command, "--count", options->count, 1, most_queries,
-                   "Number of indices; about half are of each kind")
+                   "Number of queries, of --kind or, with --coverage and --missed-by, of both kinds")
       ->required()
       ->default_str("");
   add_count_option(*command, "--first", options->first, 0, most_queries,

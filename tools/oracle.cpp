@@ -48,18 +48,21 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
+/// Yes also for a smallest distance of exactly h > 0, as the library says.
+bool is_yes(const Answer& answer) { return answer.at_most.value_or(answer.collision.value_or(false)); }
+
 /// The answer that trials use, the answer of one method, or the answer of all. Throws Disagreement if all
 /// methods are asked and differ.
 bool collides_by(const std::string& method, const Query& query) {
-  if (method == filtered) return collides(query);
+  if (method == filtered) return is_yes(to_answer(query, decide(query)));
   if (method == all) {
     const Answers answers = ask_all(query);
     if (!answers.disagreement(decide(query).by_filter()).empty()) throw Disagreement(query);
-    return answers.collision();
+    return is_yes(answers.all().front());
   }
   const auto named = [&](const Method& each) { return each.name == method; };
   const auto chosen = std::find_if(methods().begin(), methods().end(), named);
-  return chosen->ask(query).collision.value_or(false);
+  return is_yes(chosen->ask(query));
 }
 
 std::vector<std::string> choices() {
@@ -97,8 +100,9 @@ std::string answer(const Query& query, const Options& options) {
 
 void add_oracle(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  auto* command =
-      app.add_subcommand("oracle", "Decide queries exactly: one line each, 1 for a collision, 0 for none");
+  auto* command = app.add_subcommand(
+      "oracle",
+      "Decide queries exactly: one line each, 1 for a collision or a distance of at most h, 0 for none");
   options->input.add_to(*command);
   command->add_option("--method", options->method, help_on_methods())
       ->check(CLI::IsMember(choices()))

@@ -13,6 +13,7 @@ bool TrialStream::add(const std::string& family, const Query& query, std::option
   Pending& pending = pending_[{family, query.kind, query.separation > 0}];
   pending.batch.kind = query.kind;
   pending.batch.family = family;
+  pending.batch.timed = false;
   if (pending.batch.queries.empty()) pending.batch.first_number = batch_queries * batches_++;
   pending.batch.queries.push_back(query);
   pending.batch.truths.push_back(truth);

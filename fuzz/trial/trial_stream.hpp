@@ -1,4 +1,4 @@
-// Trials over queries that come one at a time, such as a corpus or the pairs of a scene.
+// Trials over queries that come one at a time, such as a corpus.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace nearmiss {
 
 /// Collects queries into batches by kind, family and whether there is a separation, runs the trials and passes on the results. It stores
-/// only a few batches at any time.
+/// only a few batches at any time. Nothing is timed: a handful of queries says nothing about a subject's speed.
 class TrialStream {
  public:
   TrialStream(SiftedTrials& trials, TrialSink sink) : trials_(trials), sink_(std::move(sink)) {}

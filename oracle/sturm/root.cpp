@@ -157,7 +157,8 @@ SturmRoot::SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi)
 void SturmRoot::cut(Dyadic at) {
   Integer value = f_.scaled_value(at);
   is_dyadic_ = value == 0;
-  (is_dyadic_ || value.sign() == lo_.value.sign() ? lo_ : hi_) = {std::move(at), std::move(value)};
+  End& end = is_dyadic_ || value.sign() == lo_.value.sign() ? lo_ : hi_;
+  end = {std::move(at), std::move(value)};
 }
 
 /// The border of pieces that is nearest to where the chord is 0.

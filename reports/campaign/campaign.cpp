@@ -12,6 +12,7 @@
 
 #include "ccd/error.hpp"
 #include "reports/campaign/complexity.hpp"
+#include "reports/text/text.hpp"
 
 namespace nearmiss {
 
@@ -171,9 +172,25 @@ Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const st
   return {std::move(runs).merged(), std::move(statistics)};
 }
 
+namespace {
+
+/// How far a run of one shard has come that is not complete.
+std::string how_far(const Run& run) {
+  const Shard& shard = run.shards.front();
+  const std::string after = "stopped after " + with_separators(shard.cases);
+  const auto fact = run.info.find("cases");
+  if (fact == run.info.end()) return after + " cases";
+  if (fact->second == until_the_time_is_over) return after + " cases, before its time was over";
+  if (fact->second == std::to_string(shard.cases)) return "stopped before all findings were shrunk";
+  return after + " of " + fact->second + " cases";
+}
+
+}  // namespace
+
 std::string missing_shards(const Run& run) {
   std::vector<std::uint64_t> missing;
   std::vector<std::uint64_t> unfinished;
+  std::vector<std::string> asked;  ///< by the unfinished ones
   auto shard = run.shards.begin();
   const std::uint64_t count = run.shards.empty() ? 0 : run.shards.front().count;
   for (std::uint64_t index = 0; index < count; ++index) {
@@ -181,15 +198,19 @@ std::string missing_shards(const Run& run) {
       missing.push_back(index);
       continue;
     }
-    if (!shard->complete) unfinished.push_back(index);
+    if (!shard->complete) {
+      unfinished.push_back(index);
+      asked.push_back(with_separators(shard->cases));
+    }
     ++shard;
   }
   std::string text;
   if (!missing.empty()) text = fmt::format("shards {} of {} are missing", fmt::join(missing, ", "), count);
-  if (!unfinished.empty() && count == 1) text = "not complete";
+  if (!unfinished.empty() && count == 1) text = how_far(run);
   if (!unfinished.empty() && count > 1)
-    text += fmt::format("{}shards {} of {} are not complete", text.empty() ? "" : ", ",
-                        fmt::join(unfinished, ", "), count);
+    text +=
+        fmt::format("{}shards {} of {} are not complete (stopped after {} cases)", text.empty() ? "" : ", ",
+                    fmt::join(unfinished, ", "), count, fmt::join(asked, " and "));
   return text;
 }
 

@@ -1,5 +1,5 @@
 // Declarations of counters. A counter is declared once: its name, its member, and where files show it. Merging
-// (merge_counters), the store's columns (store/columns.hpp), report.json (sections/counts_json.hpp) and statistics.csv
+// (merge_counters), the store's columns (store/table.hpp), report.json (sections/counts_json.hpp) and statistics.csv
 // (csv.hpp) go through the declarations.
 #pragma once
 

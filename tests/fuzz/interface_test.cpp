@@ -122,12 +122,13 @@ TEST(Interface, AnotherKindIsNeitherAskedNorJudged) {
   EXPECT_EQ(result.statistics.counts.begin()->first.subject, "wang");
 }
 
-TEST(Interface, CoordinatesOf24BitsAreRoundedBeforeTheDetectorSeesThem) {
-  Query query = testing::falling_vertex(0.1, 0.3, 1e300, -1);
+TEST(Interface, NumbersOf24BitsAreRoundedBeforeTheDetectorSeesThem) {
+  const Query query = with_separation(testing::falling_vertex(0.1, 0.3, 1e300, -1), 0.1);
   for (const auto& subject : both(":floats")) {
     EXPECT_TRUE(subject->rounds());
     EXPECT_TRUE(subject->decide(query).hit);
     EXPECT_EQ(subject->rounded(query).x[0], static_cast<double>(0.1F));
+    EXPECT_EQ(subject->rounded(query).separation, static_cast<double>(0.1F));
     EXPECT_EQ(subject->rounded(query).x[2], static_cast<double>(std::numeric_limits<float>::max()));
   }
 }

@@ -213,6 +213,7 @@ TEST(TrialStream, DecidesEverythingInOrder) {
                [i] { return std::to_string(i); });
   stream.finish();
   EXPECT_EQ(counts_of(sum).queries, count);
+  EXPECT_EQ(counts_of(sum).times.ns_per_query(), std::nullopt) << "nothing is timed";
   const Signature missed{Finding::What::false_negative, "never", "vt simple-root inside in-face"};
   EXPECT_EQ(sum.statistics.seen, (std::map<Signature, std::uint64_t>{{missed, 13}}));
   ASSERT_EQ(sum.findings.size(), findings_kept);

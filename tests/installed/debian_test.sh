@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# In a fresh Debian 12: installs the packages, builds and runs other people's programs with them, puts CCDs on trial, and removes the
+# In a fresh Debian of the release that runs: installs the packages, builds and runs other people's programs with them, puts CCDs on trial, and removes the
 # packages again, after which no file may be left. Then it builds and installs the library from its sources, where only what the
 # library needs is installed. Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
 # Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests (tools/setup)
@@ -9,26 +9,21 @@ options '' "$@"
 ((${#arguments[@]} == 2)) || refuse "expected PACKAGES BUILD"
 packages=$(realpath "${arguments[0]}") queries=${arguments[1]}/tests/answered_queries
 [[ -x $queries ]] || refuse "found no $queries (tools/setup builds it)"
-command -v mmdebstrap >/dev/null || refuse "found no mmdebstrap, expected Debian's package"
-((EUID == 0)) || refuse "needs root"
 queries=$(realpath "$queries")
 cd "$(dirname "$script")/../.."
+source tools/fresh_debian.sh
+release=$(source /etc/os-release && echo "${VERSION_CODENAME-}")
 folder=$(mktemp -d)
 root=$folder/debian
-cleanup() {
-  ! mountpoint -q "$root/proc" || umount "$root/proc"
-  rm -rf --one-file-system "$folder"
-}
-trap cleanup EXIT
+trap 'rm -rf --one-file-system "$folder"' EXIT
 trap 'exit 130' INT TERM HUP
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
 for each in "$packages"/*.deb; do
   ! dpkg-deb -c "$each" | grep '^d' | grep -v '^drwxr-xr-x root/root ' || fail "$each changes a folder's owner or permissions"
 done
-mmdebstrap --quiet --variant=minbase bookworm "$root"
-mount -t proc proc "$root/proc"
-debian() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"; }
+make_debian "$release" "$root"
+debian() { in_debian "$root" "$@"; }
 get() { debian apt-get -qq "$@" >"$folder/log" 2>&1 || fail "apt-get $*: $(tail -20 "$folder/log")"; }
 install() { get install -y --no-install-recommends "$@"; }
 files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./tmp -o -path './var/lib/*' -o -path './var/cache/*' -o -path './var/log/*' \) -prune -o -print | sort); }

@@ -15,6 +15,11 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
+# The target `product` builds all of this, so that a user of tools/run can install.
+ninja -C "$build" -t inputs product >"$folder/product"
+while read -r each; do
+  grep -q "/\?$(basename "$each" | sed 's/[.+]/\\&/g')$" "$folder/product" || fail "the target product does not build $each"
+done < <(find "$folder/first" -type f \( -name '*.so*' -o -name '*.1.gz' -o -perm /1 \))
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 30000 1 >"$folder/queries"
 

@@ -36,12 +36,12 @@ static void give_time(void* state, int kind, size_t n, const double* x, const do
   }
 }
 
-/* Reports queries whose coordinates are all floats. */
+/* Reports queries whose coordinates and separations are all floats. */
 static void find_floats(void* state, int kind, size_t n, const double* x, const double* h, int* answer,
                         double* toi) {
-  (void)state, (void)kind, (void)h, (void)toi;
+  (void)state, (void)kind, (void)toi;
   for (size_t i = 0; i < n; ++i) {
-    answer[i] = NEARMISS_COLLISION;
+    answer[i] = (double)(float)h[i] == h[i] ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
     for (size_t k = 0; k < 24; ++k)
       if ((double)(float)x[24 * i + k] != x[24 * i + k]) answer[i] = NEARMISS_NO_COLLISION;
   }
@@ -82,6 +82,7 @@ static const nearmiss_subject detectors[] = {
      .name = "floats",
      .kinds = ANY_KIND,
      .bits = 24,
+     .takes_separation = 1,
      .decide = find_floats},
     {.interface_version = NEARMISS_INTERFACE,
      .name = "batches",

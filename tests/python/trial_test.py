@@ -258,7 +258,7 @@ class Queries(unittest.TestCase):
     def test_are_those_of_the_command_line(self):
         for family, kind in (('uniform', 'vt'), ('aspect@8~0.5', 'ee')):
             x, separation = nearmiss.queries(family, kind, 20, seed=3)
-            command = [NEARMISS, 'family', family, '--kind', kind, '--count', '40', '--seed', '3']
+            command = [NEARMISS, 'family', family, '--kind', kind, '--count', '20', '--seed', '3']
             text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
             rows = [list(map(float.fromhex, line.split())) for line in text.splitlines()]
             expected = x.reshape(20, 24)
@@ -267,20 +267,47 @@ class Queries(unittest.TestCase):
             np.testing.assert_array_equal(rows, expected)
 
 
-class WithoutTrials(unittest.TestCase):
-    def test_an_import_error_says_why(self):
-        with tempfile.TemporaryDirectory() as folder:
-            package = pathlib.Path(nearmiss.__file__).parent
-            copy = pathlib.Path(folder) / 'nearmiss'
-            shutil.copytree(package, copy, ignore=shutil.ignore_patterns('_trial.cpython*'))
-            program = 'import nearmiss; print(nearmiss.__version__); nearmiss.trial("wang")'
-            run = subprocess.run(
-                [sys.executable, '-c', program], cwd=folder, capture_output=True, text=True,
-                env={'PYTHONPATH': folder},
-            )  # fmt: skip
-        self.assertEqual(run.stdout.strip(), nearmiss.__version__)
+class WithoutModules(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.build = pathlib.Path(folder.name).resolve()
+        self.package = self.build / 'python/nearmiss'
+
+    def use(self, without):
+        """Uses a copy of the package without some files. Returns what is printed, and the last line of the error."""
+        package = pathlib.Path(nearmiss.__file__).parent
+        ignored = shutil.ignore_patterns(without)
+        shutil.copytree(package, self.package, ignore=ignored, dirs_exist_ok=True)
+        program = 'import nearmiss; print(nearmiss.__version__); nearmiss.trial("wang")'
+        run = subprocess.run(
+            [sys.executable, '-c', program], cwd=self.build, capture_output=True, text=True,
+            env={'PYTHONPATH': str(self.package.parent)},
+        )  # fmt: skip
+        return run.stdout.strip(), run.stderr.splitlines()[-1]
+
+    def test_an_import_error_says_why_there_are_no_trials(self):
         message = 'this nearmiss has no trials, because it was built without the component tools'
-        self.assertEqual(run.stderr.splitlines()[-1], f'ImportError: {message}')
+        expected = nearmiss.__version__, f'ImportError: {message}'
+        self.assertEqual(self.use(without='_trial.cpython*'), expected)
+
+    def test_an_import_error_names_the_command_that_builds_them(self):
+        said = self.use(without='*.so')[1]
+        self.assertTrue(said.startswith('ImportError: nearmiss._interface is not built in '), said)
+        self.assertTrue(said.endswith(f' ({sys.executable}): run tools/setup'), said)
+        (self.build / 'CMakeCache.txt').touch()
+        said = self.use(without='*.so')[1]
+        self.assertTrue(
+            said.endswith(f'cmake --build {self.build} --target nearmiss_python'), said
+        )
+
+    def test_an_import_error_says_that_they_are_for_another_python(self):
+        self.use(without='*.so')
+        (self.package / '_interface.cpython-27-x86_64-linux-gnu.so').touch()
+        said = self.use(without='*.so')[1]
+        self.assertIn(
+            'has _interface.cpython-27-x86_64-linux-gnu.so, which is for another Python', said
+        )
 
 
 if __name__ == '__main__':

@@ -89,8 +89,8 @@ def _queries(nearmiss, seed, counts):
     for kind in KINDS:
         family[kind], number[kind], queries[kind] = [], [], []
         for name, count in sorted(counts.items()):
-            own = range(KINDS.index(kind), count, 2)  # even numbers are vt
-            lines = nearmiss.family(name, seed, kind, count)
+            own = _numbers(kind, count)
+            lines = nearmiss.family(name, seed, kind, len(own)) if own else []
             if len(lines) != len(own):
                 raise RuntimeError(
                     f'nearmiss family {name}: found {len(lines)} queries, expected {len(own)}'
@@ -103,15 +103,21 @@ def _queries(nearmiss, seed, counts):
     return family, number, queries, _factors(nearmiss, seed, counts)
 
 
+def _numbers(kind, count):
+    """The numbers of the queries of one kind among 0 to count - 1: even numbers are vt."""
+    return range(KINDS.index(kind), count, 2)
+
+
 def _factors(nearmiss, seed, counts):
     name = 'crossed'
-    count = counts.get(name, 0)
     return {
-        kind: {
-            (name, KINDS.index(kind) + 2 * i): values
-            for i, values in enumerate(nearmiss.factors(name, seed, kind, count) if count else [])
-        }
-        for kind in KINDS
+        kind: dict(
+            zip(
+                ((name, number) for number in own),
+                nearmiss.factors(name, seed, kind, len(own)) if own else [],
+            )
+        )
+        for kind, own in ((kind, _numbers(kind, counts.get(name, 0))) for kind in KINDS)
     }
 
 

@@ -68,7 +68,7 @@ class Nearmiss:
         return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
 
     def family(self, name, seed, kind, count):
-        """The queries of one kind among the numbers 0 to count - 1 of a family, as lines."""
+        """The first queries of one kind of a family, as lines."""
         return self.run(
             'family', name, '--seed', seed, '--kind', kind, '--count', count
         ).splitlines()

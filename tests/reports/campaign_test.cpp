@@ -73,8 +73,20 @@ TEST(Campaign, SaysWhichShardsAreMissing) {
   EXPECT_EQ(missing_shards(merged({0, 1, 2}).runs.front()), "");
   EXPECT_EQ(missing_shards(merged({1}).runs.front()), "shards 0, 2 of 3 are missing");
   EXPECT_EQ(missing_shards({{}, {{.index = 0, .count = 2}}, {}}),
-            "shards 1 of 2 are missing, shards 0 of 2 are not complete");
-  EXPECT_EQ(missing_shards({{}, {{}}, {}}), "not complete");
+            "shards 1 of 2 are missing, shards 0 of 2 are not complete (stopped after 0 cases)");
+}
+
+TEST(Campaign, SaysHowFarARunHasCome) {
+  const auto said = [](const char* cases) {
+    return missing_shards({{{"cases", cases}}, {{.cases = 1200}}, {}});
+  };
+  EXPECT_EQ(said("5000"), "stopped after 1,200 of 5000 cases");
+  EXPECT_EQ(said("1200"), "stopped before all findings were shrunk");
+  EXPECT_EQ(said("until the time is over"), "stopped after 1,200 cases, before its time was over");
+  EXPECT_EQ(missing_shards({{}, {{.cases = 1200}}, {}}), "stopped after 1,200 cases");
+  EXPECT_EQ(missing_shards(
+                {{}, {{.index = 0, .count = 2, .cases = 7}, {.index = 1, .count = 2, .cases = 1200}}, {}}),
+            "shards 0, 1 of 2 are not complete (stopped after 7 and 1,200 cases)");
 }
 
 TEST(Campaign, AShardIsTakenOnce) {

@@ -51,6 +51,8 @@ ask "$folder/all/tight-inclusion.so:tolerance=1e-3:tolerance=1" vt "$vt_hit"
 [[ $said == *"found 'tolerance=1', expected "*", each once"* ]] || fail "an option given twice: found '$said'"
 # The minimum separation root finder takes for granted that the primitives start farther apart than its separation.
 "$nearmiss" subjects "$folder/all/msrf.so" | grep -q 'the distance at t = 0 is more than 1e-08' || fail "msrf: found another contract"
+# The paper's own code leaves contact at t = 0 to the step before, and has a range of sizes.
+"$nearmiss" subjects "$folder/all/safeccd.so" | grep -q 'apart at t = 0; .*multiples of .*e-50; .*1e+50 long' || fail "safeccd: found another contract"
 ask "$folder/all/msrf.so:separation=1.5" vt "$vt_miss"
 [[ $said == *"found the options 'separation=1.5', expected none"* ]] || fail "msrf takes an option: found '$said'"
 

@@ -30,21 +30,21 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 }
 
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
-  // Three of the numbers 2 to 6 are even, and two are odd.
   const auto lines = [&](const std::string& options) {
     const Output output = run("family parallel --seed 5 " + options);
     EXPECT_EQ(output.code, 0) << output.error;
     return output.out;
   };
   const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
-  EXPECT_EQ(count(lines("--kind vt --first 2 --count 5")), 3);
-  EXPECT_EQ(count(lines("--kind ee --first 2 --count 5")), 2);
-  EXPECT_EQ(lines("--kind ee --count 8"),
-            lines("--kind ee --count 4") + lines("--kind ee --first 4 --count 4"));
-  EXPECT_EQ(lines("--kind ee --count 1"), "");
+  for (const char* kind : {"--kind vt ", "--kind ee "}) {
+    const std::string of_kind = kind;
+    EXPECT_EQ(count(lines(of_kind + "--first 2 --count 5")), 5);
+    EXPECT_EQ(lines(of_kind + "--count 8"),
+              lines(of_kind + "--count 4") + lines(of_kind + "--first 8 --count 4"));
+  }
   // These queries are those of a campaign, and give the same counts.
   EXPECT_EQ(run("fuzz --family parallel --seed 5 --cases 1000 --json fuzz.json").code, 0);
-  write("q.ee", lines("--kind ee --count 1000"));
+  write("q.ee", lines("--kind ee --count 500"));
   EXPECT_EQ(run("replay q.ee --json replay.json").code, 0);
   const json campaign = read_json("fuzz.json")["subjects"]["wang"]["ee"];
   const json replay = read_json("replay.json")["subjects"]["wang"]["ee"];
@@ -75,7 +75,7 @@ TEST_F(CommandLine, FamilyRefusesFactorsOfOtherFamilies) {
 }
 
 TEST_F(CommandLine, FamilyShowsTheFactorsOfCrossedQueries) {
-  EXPECT_THAT(run("family crossed --kind ee --factors --count 2").out,
+  EXPECT_THAT(run("family crossed --kind ee --factors --count 1").out,
               MatchesRegex("shape=[a-z-]+ motion=[a-z]+ when=[a-z0-9-]+ .*offset=[a-z]+\n"));
   const std::string coverage = run("family crossed --coverage --count 1").out;
   EXPECT_THAT(coverage, ::testing::HasSubstr("not made: motion=rest when=at-1\n"));

@@ -35,6 +35,15 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
   EXPECT_EQ(run("oracle --kind vt --toi --separation 0 own.vt").out, run("oracle --kind vt --toi q.vt").out);
 }
 
+TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
+  write("tie.vt", miss);  // its distance falls from 2 to 1
+  for (const char* method : {"filtered", "exact", "sturm", "all"})
+    EXPECT_EQ(run(std::string("oracle --kind vt --toi --separation 1 tie.vt --method ") + method).out,
+              "1 0x1p+0 0x1p+0\n")
+        << method;
+  EXPECT_EQ(run("oracle --kind vt --separation 0x1.fffffffffffffp-1 tie.vt").out, "0\n");
+}
+
 TEST_F(SeparationOption, VerdictPrintsTheTime) {
   EXPECT_THAT(run("verdict --kind vt --subject exact --separation 0.5 q.vt").out,
               MatchesRegex("1 [a-z]+ 0x1p-2\n0\n"));

@@ -165,8 +165,9 @@ void WorkerProcess::load(const std::string& plugin) {
 void WorkerProcess::give(std::span<const Query> queries) {
   questions_->kind = queries.front().kind;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    questions_->queries[i] = rounded_for(info_, queries[i]).x;
-    questions_->separations[i] = queries[i].separation;
+    const Query seen = rounded_for(info_, queries[i]);
+    questions_->queries[i] = seen.x;
+    questions_->separations[i] = seen.separation;
   }
 }
 

@@ -1,4 +1,5 @@
-// What the adapters of published CCDs share: one query at a time, and options that are numbers.
+// What the adapters of published CCDs share, for any CCD in C++: it decides one query at a time, and may have options that are
+// numbers. An adapter has a function that decides, one that describes the detector, and nearmiss_get_subject().
 #pragma once
 
 #include <algorithm>
@@ -42,6 +43,26 @@ void decide_each(void* state, int kind, std::size_t n, const double* x, const do
     answer[i] = said.value;
     toi[i] = said.time;
   }
+}
+
+/// A detector that decides both kinds, one query at a time. An adapter sets other members if need be.
+template <Answer (*decide_one)(const void* state, int kind, const Question& question)>
+nearmiss_subject detector(const char* name, const char* version, const char* about) {
+  nearmiss_subject subject{};
+  subject.interface_version = NEARMISS_INTERFACE;
+  subject.name = name;
+  subject.version = version;
+  subject.about = about;
+  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  subject.decide = decide_each<decide_one>;
+  return subject;
+}
+
+/// What nearmiss_get_subject(index) returns for the detectors that these functions describe.
+template <nearmiss_subject (*... describe)()>
+const nearmiss_subject* numbered(std::size_t index) {
+  static const std::array subjects{describe()...};
+  return index < subjects.size() ? &subjects[index] : nullptr;
 }
 
 /// A number that the user may set, KEY=VALUE.
@@ -97,19 +118,17 @@ std::string set_options(const std::array<Option<State>, n>& options, const std::
   return "";
 }
 
-/// The interface's function open() for a state with options.
+/// Lets the user set these options. A `State` for each thread is what the detector's functions get.
 template <class State, const auto& options>
-void* open_with(const char* text, char* message, std::size_t size) {
-  auto state = std::make_unique<State>();
-  const std::string fault = set_options(options, text, *state);
-  if (fault.empty()) return state.release();
-  std::snprintf(message, size, "%s", fault.c_str());
-  return nullptr;
-}
-
-template <class State>
-void close_with(void* state) {
-  delete static_cast<State*>(state);
+void take_options(nearmiss_subject& subject) {
+  subject.open = [](const char* text, char* message, std::size_t size) -> void* {
+    auto state = std::make_unique<State>();
+    const std::string fault = set_options(options, text, *state);
+    if (fault.empty()) return state.release();
+    std::snprintf(message, size, "%s", fault.c_str());
+    return nullptr;
+  };
+  subject.close = [](void* state) { delete static_cast<State*>(state); };
 }
 
 }  // namespace nearmiss::peers

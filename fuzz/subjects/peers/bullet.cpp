@@ -39,23 +39,19 @@ Answer decide(const void* /*state*/, int /*kind*/, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-#ifdef BT_USE_DOUBLE_PRECISION
-  subject.name = "bullet-double";
-  subject.about = "the CCD of Bullet's soft bodies, in double precision; vertex-triangle only";
-  subject.bits = 53;
-#else
-  subject.name = "bullet";
-  subject.about = "the CCD of Bullet's soft bodies, in single precision; vertex-triangle only";
-  subject.bits = 24;
-#endif
   static const std::string version =
       std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
-  subject.version = version.c_str();
+#ifdef BT_USE_DOUBLE_PRECISION
+  nearmiss_subject subject =
+      detector<decide>("bullet-double", version.c_str(),
+                       "the CCD of Bullet's soft bodies, in double precision; vertex-triangle only");
+#else
+  nearmiss_subject subject =
+      detector<decide>("bullet", version.c_str(),
+                       "the CCD of Bullet's soft bodies, in single precision; vertex-triangle only");
+  subject.bits = 24;
+#endif
   subject.kinds = NEARMISS_VERTEX_TRIANGLE;
-  subject.time_sort = NEARMISS_NO_TIME;
-  subject.decide = decide_each<decide>;
   return subject;
 }
 
@@ -63,6 +59,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

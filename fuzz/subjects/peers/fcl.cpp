@@ -28,15 +28,11 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
 
 template <bool uses_newton>
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = uses_newton ? "fcl-newton" : "fcl";
-  subject.version = FCL_VERSION;
-  subject.about = uses_newton ? "FCL's CCD of deformable meshes, with interval Newton iteration (its default)"
-                              : "FCL's CCD of deformable meshes, with its solver for cubics";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  nearmiss_subject subject = detector<decide<uses_newton>>(
+      uses_newton ? "fcl-newton" : "fcl", FCL_VERSION,
+      uses_newton ? "FCL's CCD of deformable meshes, with interval Newton iteration (its default)"
+                  : "FCL's CCD of deformable meshes, with its solver for cubics");
   subject.time_sort = NEARMISS_TIME_ESTIMATE;  // of the first root that its solver happens to find
-  subject.decide = decide_each<decide<uses_newton>>;
   return subject;
 }
 
@@ -44,6 +40,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const std::array subjects{nearmiss::peers::subject<false>(), nearmiss::peers::subject<true>()};
-  return index < subjects.size() ? &subjects[index] : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject<false>, nearmiss::peers::subject<true>>(index);
 }

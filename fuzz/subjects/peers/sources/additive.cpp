@@ -27,19 +27,13 @@ Answer decide(const void* state, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "additive";
-  subject.version = "b40e9c07";
-  subject.about =
+  nearmiss_subject subject = detector<decide>(
+      "additive", "b40e9c07",
       "additive CCD of ipc-toolkit, conservative advancement; options rescaling=0.9, iterations=-1 (no "
-      "limit)";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+      "limit)");
   subject.time_sort = NEARMISS_TIME_LOWER_BOUND;
   subject.takes_separation = 1;
-  subject.open = open_with<Settings, options>;
-  subject.close = close_with<Settings>;
-  subject.decide = decide_each<decide>;
+  take_options<Settings, options>(subject);
   return subject;
 }
 
@@ -47,6 +41,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

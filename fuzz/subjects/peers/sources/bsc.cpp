@@ -23,21 +23,14 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "bsc";
-  subject.version = "2014";
-  subject.about =
-      "Bernstein sign classification, exact; throws if the cubic has an inflection point in the time step";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
-  subject.decide = decide_each<decide>;
-  return subject;
+  return detector<decide>(
+      "bsc", "2014",
+      "Bernstein sign classification, exact; throws if the cubic has an inflection point in the time step");
 }
 
 }  // namespace
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

@@ -25,17 +25,13 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "msrf";
-  subject.version = "1aeb9ac0";
-  subject.about = "minimum separation root finder; when asked for contact, answers for a separation of 1e-8";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  nearmiss_subject subject = detector<decide>(
+      "msrf", "1aeb9ac0",
+      "minimum separation root finder; when asked for contact, answers for a separation of 1e-8");
   subject.time_sort = NEARMISS_TIME_ESTIMATE;
   subject.takes_separation = 1;
   subject.contract.apart_at_start = 1;
   subject.contract.apart_by = contact;
-  subject.decide = decide_each<decide>;
   return subject;
 }
 
@@ -43,6 +39,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

@@ -25,16 +25,12 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "root-parity";
-  subject.version = "2012";
-  subject.about = "root parity, with intervals and expansions: whether the number of contacts is odd";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  nearmiss_subject subject =
+      detector<decide>("root-parity", "2012",
+                       "root parity, with intervals and expansions: whether the number of contacts is odd");
   // It answers whether the number of contacts is odd, with their multiplicity: a double root counts twice. That is our
   // question if there is one contact at most, at a simple root.
   subject.contract.one_root = 1;
-  subject.decide = decide_each<decide>;
   return subject;
 }
 
@@ -42,6 +38,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

@@ -1,5 +1,8 @@
 // The code that the author of the 2014 paper published with it (Wang, "Defending continuous collision detection against
 // errors"), through the wrapper of the tree that it is taken from, which computes each pair's own bound B.
+//
+// Contact at t = 0 is left to the step before: Vertex_Vertex_CCD ("Now test the case when t=1") and case 1 of Vertex_Edge_CCD
+// test the end of the step, and nothing tests its beginning. That is why B "must stay the same over the whole animation process".
 #include <safeCCDWrapper.h>
 
 #include "fuzz/subjects/peers/adapter.hpp"
@@ -31,14 +34,14 @@ double distance_bound(void* /*state*/, int /*kind*/, const double* x) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "safeccd";
-  subject.version = "1.0";
-  subject.about = "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+  nearmiss_subject subject =
+      detector<decide>("safeccd", "1.0", "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B");
   subject.time_sort = NEARMISS_TIME_ESTIMATE;
-  subject.decide = decide_each<decide>;
+  subject.contract.apart_at_start = 1;
+  // Its tests multiply up to six lengths, and nothing scales them: beyond 1e±50 the products overflow or vanish. Pairs whose
+  // coordinates are multiples of about 1e-50 have a B that is no smaller, unless all of their points coincide at all times.
+  subject.contract.longest = 1e50;
+  subject.contract.grid = 0x1p-166;
   subject.distance_bound = distance_bound;
   return subject;
 }
@@ -47,6 +50,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

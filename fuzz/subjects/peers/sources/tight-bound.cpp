@@ -25,20 +25,13 @@ Answer decide(const void* /*state*/, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "tight-bound";
-  subject.version = "2015";
-  subject.about = "Bernstein sign classification with a tight bound of rounding errors (TightCCD)";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
-  subject.decide = decide_each<decide>;
-  return subject;
+  return detector<decide>("tight-bound", "2015",
+                          "Bernstein sign classification with a tight bound of rounding errors (TightCCD)");
 }
 
 }  // namespace
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

@@ -32,19 +32,13 @@ Answer decide(const void* state, int kind, const Question& q) {
 }
 
 nearmiss_subject subject() {
-  nearmiss_subject subject{};
-  subject.interface_version = NEARMISS_INTERFACE;
-  subject.name = "tight-inclusion";
-  subject.version = "ca9a8c24";
-  subject.about =
+  nearmiss_subject subject = detector<decide>(
+      "tight-inclusion", "ca9a8c24",
       "Tight-Inclusion, conservative; options tolerance=1e-6, iterations=1e6 (-1: no limit; unknown if they "
-      "run out)";
-  subject.kinds = NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE;
+      "run out)");
   subject.time_sort = NEARMISS_TIME_LOWER_BOUND;
   subject.takes_separation = 1;
-  subject.open = open_with<Settings, options>;
-  subject.close = close_with<Settings>;
-  subject.decide = decide_each<decide>;
+  take_options<Settings, options>(subject);
   return subject;
 }
 
@@ -52,6 +46,5 @@ nearmiss_subject subject() {
 }  // namespace nearmiss::peers
 
 const nearmiss_subject* nearmiss_get_subject(std::size_t index) {
-  static const nearmiss_subject subject = nearmiss::peers::subject();
-  return index == 0 ? &subject : nullptr;
+  return nearmiss::peers::numbered<nearmiss::peers::subject>(index);
 }

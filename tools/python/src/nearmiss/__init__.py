@@ -20,6 +20,7 @@ and raises a ValueError that names the first query with a coordinate that is not
 not finite. Other Python threads run during a call. trial() puts a CCD that is a Python function, a Subject, on trial.
 """
 
+from nearmiss import _built  # noqa: F401, before all that needs the compiled modules
 from nearmiss._functions import (
     DecidedBy,
     Interval,

@@ -1,0 +1,22 @@
+# shellcheck shell=bash
+# A fresh Debian in a folder: sourced by scripts, after options.sh. Needs root, mmdebstrap, and Debian's mirror.
+
+# make_debian RELEASE FOLDER [OPTION...]: installs a release, such as trixie; the options are those of mmdebstrap.
+make_debian() {
+  ((EUID == 0)) || refuse "needs root"
+  command -v mmdebstrap >/dev/null || refuse "found no mmdebstrap, expected Debian's package"
+  mmdebstrap --quiet --variant=minbase --include=mount "${@:3}" "$1" "$2"
+}
+
+# in_debian FOLDER COMMAND...: runs a command in it as root, with /proc, /sys and /dev. VARIABLE=VALUE may precede the command. Only
+# the command sees the mounts, which end with it.
+in_debian() {
+  # shellcheck disable=SC2016  # the variables are those of the inner shell
+  unshare --mount sh -ec '
+    mount --bind "$0" "$0"
+    cd "$0"
+    for each in proc sys dev; do mount --rbind "/$each" "$each"; done
+    pivot_root . mnt
+    umount -l /mnt
+    exec env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"' "$@"
+}
