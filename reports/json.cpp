@@ -13,6 +13,7 @@
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/option_sweep.hpp"
 #include "reports/sections/sweep.hpp"
+#include "reports/sections/version_table.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
 
@@ -102,6 +103,8 @@ ordered_json summary_json(const Campaign& campaign) {
   }
   if (auto common = common_factors_json(campaign.statistics); !common.empty())
     json["common_factors"] = std::move(common);
+  if (auto versions = versions_json(campaign.statistics); !versions.empty())
+    json["versions"] = std::move(versions);
   if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
   if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
   if (auto sweeps = option_sweeps_json(campaign.statistics); !sweeps.empty())

@@ -68,6 +68,7 @@ ordered_json finding_json(const Campaign& campaign, const ShownFinding& each, bo
                     {"again", replay_command(campaign, each)},
                     {"file", "cases/" + each.shrunk.file},
                     {"original_file", "cases/" + each.original.file}};
+  if (!finding.broken_since.empty()) json["broken_since"] = finding.broken_since;
   if (finding.what == Finding::What::late) {
     json["late_by"] = finding.ratio;
     json["toi"] = finding.time;

@@ -26,7 +26,7 @@ void add_subject_option(CLI::App& command, std::vector<std::string>& names) {
       .add_option(
           "--subject", names,
           "CCDs to put on trial, separated by commas: names (see nearmiss subjects) or paths of plug-ins "
-          "(./plugin.so)")
+          "(./plugin.so); NAME=./plugin.so gives a name. Versions of one CCD are compared query by query")
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("A,B,...");
@@ -135,20 +135,13 @@ isolation::PluginLimits PluginLimitOptions::limits() const {
   return {.time = parse_duration(time, "--query-time"), .bytes = bytes};
 }
 
-Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits,
+Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits,
                        std::optional<double> given_bound) {
   Subjects made;
-  for (const std::string& name : names)
-    for (auto& subject : make_any_subjects(name, given_bound, limits)) made.push_back(std::move(subject));
-  expect_different_names(made);
+  for (const std::string& text : texts)
+    for (auto& subject : make_any_subjects(text, given_bound, limits)) made.push_back(std::move(subject));
+  tell_apart(made);
   return made;
-}
-
-void expect_different_names(const Subjects& subjects) {
-  std::set<std::string> seen;
-  for (const auto& subject : subjects)
-    if (!seen.insert(subject->name()).second)
-      throw Error(fmt::format("found two subjects named '{}', expected different names", subject->name()));
 }
 
 namespace {

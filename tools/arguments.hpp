@@ -69,12 +69,10 @@ struct QueryInput {
   void read(const std::function<void(const Query&)>& sink) const;
 };
 
-/// Makes the named subjects; each plug-in runs in its own process. Throws Error, also if two have the same name.
-Subjects make_subjects(const std::vector<std::string>& names, const isolation::PluginLimits& limits = {},
+/// Makes the subjects of these texts (fuzz/subjects/subjects.hpp), under different names; each plug-in runs in its own process.
+/// Throws Error.
+Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
-
-/// Throws Error if two subjects have the same name, under which their results would be added up.
-void expect_different_names(const Subjects& subjects);
 
 /// Finds the families NAME, NAME@VALUE and so on; "all" stands for those in `all`. Throws Error.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,

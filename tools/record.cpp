@@ -49,6 +49,16 @@ void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
   fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));
 }
 
+/// Prints the first query that each version breaks.
+void print_broken(std::FILE* text, const std::vector<Finding>& findings, const Statistics& statistics) {
+  std::set<std::string> printed;
+  for (const Finding& each : findings) {
+    if (each.broken_since.empty() || !printed.insert(each.subject).second) continue;
+    fmt::print(text, "\n{} answers rightly, and {} does not:\n", each.broken_since, each.subject);
+    print(text, each, statistics.times_seen(signature_of(each)));
+  }
+}
+
 }  // namespace
 
 void RecordOptions::add_to(CLI::App& command) {
@@ -167,8 +177,10 @@ int Record::finish(bool interrupted, bool complete) {
              sweep_tables(statistics_) + option_sweep_tables(statistics_) + ladder_table(statistics_) +
                  decider_tables(statistics_),
              funnel_tables(statistics_));
+  const auto findings = campaign.findings();
+  print_broken(text, findings, statistics_);
   std::set<Signature> printed;  // one finding of each way to fail
-  for (const Finding& each : campaign.findings()) {
+  for (const Finding& each : findings) {
     if (printed.size() == printed_findings) break;
     if (!printed.insert(signature_of(each)).second) continue;
     if (printed.size() == 1) fmt::print(text, "\nthe first findings:\n");

@@ -32,10 +32,10 @@ double scene_bound(const Scene& scene) {
 }
 
 /// Whether a given bound makes a difference to a subject.
-bool uses_bound(const std::string& name) {
+bool uses_bound(const std::string& text) {
   Query query{.kind = Kind::edge_edge};
   query.x[0] = 1;
-  return make_any_subject(name)->distance_bound(query) != make_any_subject(name, 1e3)->distance_bound(query);
+  return make_any_subject(text)->distance_bound(query) != make_any_subject(text, 1e3)->distance_bound(query);
 }
 
 }  // namespace
@@ -43,20 +43,24 @@ bool uses_bound(const std::string& name) {
 SceneSubjects scene_subjects(const TrialOptions& trial, const std::vector<std::string>& bounds,
                              const Scene& scene, const Stop& stop) {
   SceneSubjects all;
-  std::set<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (!names.insert(name).second) return;
-    const auto bound = name.ends_with(of_scene) ? all.bound : std::nullopt;
-    for (auto& subject : trial.make_subjects({name}, stop, bound)) all.subjects.push_back(std::move(subject));
+  Subjects made;
+  std::set<std::string> texts;
+  const auto add = [&](const std::string& text) {
+    if (!texts.insert(text).second) return;
+    const auto bound = text.ends_with(of_scene) ? all.bound : std::nullopt;
+    for (auto& subject : make_any_subjects(text, bound, trial.plugin_limits(stop)))
+      made.push_back(std::move(subject));
   };
   for (const std::string& bound : bounds) {
     if (bound == "scene" && !all.bound) all.bound = scene_bound(scene);
     const std::string suffix = bound == "pair"    ? ""
                                : bound == "scene" ? std::string(of_scene)
                                                   : fmt::format("@{}", *parse_bound(bound));
-    for (const std::string& name : trial.subjects)
-      add(plugin_named(name) || (!suffix.empty() && !uses_bound(name)) ? name : name + suffix);
+    for (const std::string& text : trial.subjects)
+      add(plugin_named(text) || (!suffix.empty() && !uses_bound(text)) ? text : text + suffix);
   }
+  tell_apart(made);
+  all.subjects = trial.keep_contracts(std::move(made));
   return all;
 }
 

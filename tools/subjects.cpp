@@ -22,14 +22,15 @@ namespace nearmiss::tools {
 
 namespace {
 
-/// Prints some lines about a detector.
-void print(const DetectorInfo& info) {
+/// Prints some lines about a plug-in.
+void print(const Subject& subject) {
+  const DetectorInfo& info = *plugin_info(subject);
   constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
                                              "a lower bound of the time"};
   std::vector<std::string> kinds_decided;
   for (const Kind kind : kinds)
     if (decides(info, kind)) kinds_decided.emplace_back(short_name(kind));
-  fmt::print("{:<23} {}\n", info.name, info.about);
+  fmt::print("{:<23} {}\n", subject.name(), info.about);
   fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
              info.version.empty() ? "?" : info.version, fmt::join(kinds_decided, " and "),
              info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
@@ -45,16 +46,16 @@ void describe(const std::string& name) {
         fmt::format("found '{}', expected a plug-in such as ./plugin.so, or a published CCD (nearmiss "
                     "subjects lists them)",
                     excerpt(name)));
-  for (const auto& subject : make_any_subjects(name)) print(*plugin_info(*subject));
+  for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
 /// Prints the targets with the name of the subject as they take it. They run a published CCD by its path, and no program, since
 /// libFuzzer sees no other process's coverage.
-void print_targets(const std::string& name) {
-  const auto subject = make_any_subject(name);
-  if (is_program(name)) return;
+void print_targets(const std::string& text) {
+  const auto subject = make_any_subject(text);
+  if (is_program(SubjectText::parse(text).subject)) return;
   for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*subject))
-    fmt::print("{} {}\n", target.name, plugin_of_peer(name).value_or(name));
+    fmt::print("{} {}\n", target.name, text_of(*subject));
 }
 
 /// What a published CCD is, or why it cannot be put on trial.
@@ -103,7 +104,7 @@ void add_subjects(CLI::App& app, int& /*exit_code*/) {
       "its "
       "detectors with options: ./plugin.so:NAME:KEY=VALUE (ccd/nearmiss_subject.h); or a program: "
       "'pipe:COMMAND' "
-      "(fuzz/subjects/PROGRAMS.md).");
+      "(fuzz/subjects/PROGRAMS.md). NAME=SUBJECT gives any subject another name: new=./plugin.so.");
   command->callback([options] {
     const auto print_about = options->targets ? print_targets : describe;
     for (const std::string& name : options->plugins) print_about(name);

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "ccd/error.hpp"
+#include "ccd/excerpt.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/patience.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
@@ -25,6 +28,13 @@ void TrialOptions::add_to(CLI::App& command) {
   add_count_option(
       command, "--shrink", shrink, 0, findings_kept,
       "Number of findings of each kind of failure and class of queries to simplify; 0 keeps all as they are");
+  command
+      .add_option("--versions", comparison.versions,
+                  "Names of two subjects: compare the second with the first query by query, as is done for "
+                  "subjects whose plug-ins export the same name")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("BEFORE,AFTER");
   add_jobs_option(command, jobs);
 }
 
@@ -36,19 +46,33 @@ isolation::PluginLimits TrialOptions::plugin_limits(const Stop& stop) const {
 }
 
 Subjects TrialOptions::make_subjects(const Stop& stop, std::optional<double> given_bound) const {
-  return make_subjects(subjects, stop, given_bound);
-}
-
-Subjects TrialOptions::make_subjects(const std::vector<std::string>& names, const Stop& stop,
-                                     std::optional<double> given_bound) const {
-  Subjects made;
-  for (auto& subject : tools::make_subjects(names, plugin_limits(stop), given_bound))
-    for (auto& each : keep_contract(std::move(subject), beyond_contract)) made.push_back(std::move(each));
-  expect_different_names(made);
-  return made;
+  return keep_contracts(tools::make_subjects(subjects, plugin_limits(stop), given_bound));
 }
 
 namespace {
+
+/// Throws Error if no subject has this name.
+void expect_subject(const std::string& name, const Subjects& subjects) {
+  if (std::none_of(subjects.begin(), subjects.end(), [&](const auto& each) { return each->name() == name; }))
+    throw Error(fmt::format("--versions: found '{}', expected the names of two subjects of the campaign",
+                            excerpt(name)));
+}
+
+}  // namespace
+
+Subjects TrialOptions::keep_contracts(Subjects made) const {
+  Subjects all;
+  for (auto& subject : made)
+    for (auto& each : keep_contract(std::move(subject), beyond_contract)) all.push_back(std::move(each));
+  tell_apart(all);
+  for (const std::string& name : comparison.versions) expect_subject(name, all);
+  return all;
+}
+
+namespace {
+
+/// The name of a fact about a renamed subject.
+std::string subject_fact(const std::string& subject) { return std::string(about_subject) + subject; }
 
 std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }
 
@@ -74,8 +98,14 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
     info["query-memory"] = fmt::format("{}", limits.bytes);
     again += fmt::format(" --query-time {} --query-memory {}", limits.time, limits.bytes);
   }
+  if (!comparison.versions.empty()) {
+    info["versions"] = fmt::format("{}", fmt::join(comparison.versions, ","));
+    again += fmt::format(" --versions {}", shell_quoted(info["versions"]));
+  }
   for (const auto& subject : made)
-    if (const auto plugin = plugin_identity(*subject)) {
+    if (const auto plugin = plugin_identity(*subject); !plugin) {
+      if (!given_name(*subject).empty()) info[subject_fact(subject->name())] = text_of(*subject);
+    } else {
       info[plugin_fact(subject->name()) + " sha256"] = plugin->sha256;
       info[plugin_fact(subject->name()) + " version"] = plugin->version;
       if (const std::string contract = in_words(subject->contract()); !contract.empty())
@@ -90,11 +120,13 @@ std::string shrinking_line(std::size_t left) {
 
 namespace {
 
-/// The name of a plug-in with the whole path of its file. A program's command stays as it is.
-std::string absolute_name(const std::string& name) {
-  if (is_program(name)) return name;
-  const std::string path = PluginName::parse(name).path;
-  return std::filesystem::absolute(path).lexically_normal().string() + name.substr(path.size());
+/// The text of a plug-in with the whole path of its file. A program's command stays as it is.
+std::string absolute_text(const Subject& subject) {
+  const auto [name, plugin] = SubjectText::parse(text_of(subject));
+  const std::string given = name.empty() ? "" : name + "=";
+  if (is_program(plugin)) return given + plugin;
+  const std::string path = PluginName::parse(plugin).path;
+  return given + std::filesystem::absolute(path).lexically_normal().string() + plugin.substr(path.size());
 }
 
 }  // namespace
@@ -105,7 +137,7 @@ RunInfo plugin_environment(const Subjects& made) {
     const auto plugin = plugin_identity(*subject);
     if (!plugin) continue;
     const std::string name = plugin_fact(subject->name());
-    environment[name] = absolute_name(plugin->path);
+    environment[name] = absolute_text(*subject);
     if (!plugin->build_id.empty()) environment[name + " build id"] = plugin->build_id;
   }
   return environment;

@@ -27,9 +27,8 @@ struct TrialOptions {
 
   /// The subjects, which are asked what their contracts allow (contracted.hpp). Throws Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// The same for these names.
-  Subjects make_subjects(const std::vector<std::string>& names, const Stop& stop,
-                         std::optional<double> given_bound) const;
+  /// The same of subjects that are made without regard to their contracts, under different names (tell_apart).
+  Subjects keep_contracts(Subjects made) const;
 
   /// Everything that a run's results depend on, with the digest and the version of each plug-in; `what` is the
   /// subcommand with its own arguments. The entry `again` is the command that repeats the run.

@@ -21,6 +21,7 @@
 #include "fuzz/libfuzzer/query_bytes.hpp"
 #include "fuzz/libfuzzer/untraced.hpp"
 #include "fuzz/subjects/built_in.hpp"
+#include "fuzz/subjects/named.hpp"
 #include "oracle/contract.hpp"
 #include "reports/campaign/finding_case.hpp"
 
@@ -45,8 +46,10 @@ std::string environment(const char* name, const char* otherwise) {
 
 const Subject& subject() {
   // A plug-in runs in this process, since libFuzzer sees no other one's coverage.
-  static const std::string name = environment("NEARMISS_SUBJECT", target.subject);
-  static const auto subject = is_plugin(name) ? make_subject(name) : make_built_in(name);
+  static const SubjectText text = SubjectText::parse(environment("NEARMISS_SUBJECT", target.subject));
+  static const bool is_object = is_plugin(text.subject);
+  static const auto subject =
+      named(is_object ? make_subject(text.subject) : make_built_in(text.subject), text.name, is_object);
   return *subject;
 }
 

@@ -23,8 +23,6 @@ class Contracted final : public ForwardingSubject {
         subject_(std::move(subject)),
         keeps_(keeps) {}
 
-  [[nodiscard]] const Subject& subject() const { return *subject_; }
-
   using ForwardingSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     const Part part = asked(queries);
@@ -96,11 +94,6 @@ std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> sub
   made.push_back(std::make_unique<Contracted>(shared, true));
   if (asks_beyond) made.push_back(std::make_unique<Contracted>(shared, false));
   return made;
-}
-
-const Subject& without_contract(const Subject& subject) {
-  const auto* const contracted = dynamic_cast<const Contracted*>(&subject);
-  return contracted == nullptr ? subject : contracted->subject();
 }
 
 std::string in_words(const Contract& contract) {

@@ -18,9 +18,6 @@ inline constexpr std::string_view beyond_contract = " (beyond contract)";
 /// a subject without a contract.
 std::vector<std::unique_ptr<Subject>> keep_contract(std::unique_ptr<Subject> subject, bool asks_beyond);
 
-/// The subject that keep_contract() took, if it made this one; otherwise this one.
-const Subject& without_contract(const Subject& subject);
-
 /// What a contract takes for granted, in words; "" if nothing.
 std::string in_words(const Contract& contract);
 

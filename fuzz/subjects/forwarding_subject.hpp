@@ -16,6 +16,8 @@ class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}
 
+  [[nodiscard]] const Subject& to() const { return to_; }
+
   using BatchSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
     to_.decide(queries, verdicts);
@@ -43,11 +45,14 @@ class ForwardingSubject : public BatchSubject {
     return to_.needed_tolerance(query);
   }
 
- protected:
-  [[nodiscard]] const Subject& to() const { return to_; }
-
  private:
   const Subject& to_;
 };
+
+/// The subject that answers in the end: what a chain of forwarding subjects leads to.
+inline const Subject& innermost(const Subject& subject) {
+  const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
+  return forwarding == nullptr ? subject : innermost(forwarding->to());
+}
 
 }  // namespace nearmiss

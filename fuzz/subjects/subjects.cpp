@@ -1,13 +1,28 @@
 #include "fuzz/subjects/subjects.hpp"
 
-#include <string>
+#include <fmt/format.h>
 
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/peers.hpp"
 
 namespace nearmiss {
 
 namespace {
+
+using Subjects = std::vector<std::unique_ptr<Subject>>;
+
+/// The plug-in of a subject without a given name.
+std::optional<std::string> plugin_of(std::string_view subject) {
+  return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
+}
 
 std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::optional<double> given_bound) {
   auto subject = try_make_built_in(name, given_bound);
@@ -17,25 +32,63 @@ std::unique_ptr<Subject> make_built_in_or_refuse(std::string_view name, std::opt
   refuse_subject(name, known);
 }
 
+/// The name of a plug-in's file, with the detector if it was chosen; the detector comes first if the file's name cannot begin
+/// a name. "" if there is no file, or no such name.
+std::string name_of_file(const Subject& subject) {
+  const auto plugin = plugin_identity(subject);
+  if (!plugin || is_program(plugin->path)) return "";
+  const PluginName parsed = PluginName::parse(plugin->path);
+  const std::string stem = std::filesystem::path(parsed.path).stem().string();
+  const std::string own = innermost(subject).name();
+  const std::string detector = own.substr(0, own.find(':'));
+  const std::string chosen = parsed.subject.empty() ? "" : "." + detector;
+  for (const std::string& name : {stem + chosen, detector + "-" + stem})
+    if (is_given_name(name)) return name;
+  return "";
+}
+
 }  // namespace
 
-std::optional<std::string> plugin_named(std::string_view name) {
-  return is_plugin(name) ? std::string(name) : plugin_of_peer(name);
+std::optional<std::string> plugin_named(std::string_view text) {
+  return plugin_of(SubjectText::parse(text).subject);
 }
 
-std::unique_ptr<Subject> make_any_subject(std::string_view name, std::optional<double> given_bound,
+std::unique_ptr<Subject> make_any_subject(std::string_view text, std::optional<double> given_bound,
                                           const isolation::PluginLimits& limits) {
-  if (const auto plugin = plugin_named(name)) return make_isolated_plugin(*plugin, limits);
-  return make_built_in_or_refuse(name, given_bound);
+  const auto [name, subject] = SubjectText::parse(text);
+  const auto plugin = plugin_of(subject);
+  return named(plugin ? make_isolated_plugin(*plugin, limits) : make_built_in_or_refuse(subject, given_bound),
+               name, plugin.has_value());
 }
 
-std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view name,
-                                                        std::optional<double> given_bound,
-                                                        const isolation::PluginLimits& limits) {
-  if (const auto plugin = plugin_named(name)) return make_isolated_plugins(*plugin, limits);
-  std::vector<std::unique_ptr<Subject>> subjects;
-  subjects.push_back(make_built_in_or_refuse(name, given_bound));
+Subjects make_any_subjects(std::string_view text, std::optional<double> given_bound,
+                           const isolation::PluginLimits& limits) {
+  const auto plugin = plugin_named(text);
+  if (plugin && SubjectText::parse(text).name.empty()) return make_isolated_plugins(*plugin, limits);
+  Subjects subjects;
+  subjects.push_back(make_any_subject(text, given_bound, limits));
   return subjects;
+}
+
+void tell_apart(Subjects& subjects) {
+  std::vector<std::string> names;
+  std::map<std::string, int> times;
+  for (const auto& subject : subjects) ++times[names.emplace_back(subject->name())];
+  for (auto& subject : subjects)
+    if (times.at(subject->name()) > 1 && given_name(*subject).empty())
+      if (const std::string name = name_of_file(*subject); !name.empty())
+        subject = named(std::move(subject), name, true);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < subjects.size(); ++i)
+    if (!seen.insert(subjects[i]->name()).second)
+      throw Error(fmt::format("found two subjects named '{}', expected different names, such as NAME={}",
+                              names[i], SubjectText::parse(text_of(*subjects[i])).subject));
+}
+
+std::string text_of(const Subject& subject) {
+  const std::string name = given_name(subject);
+  const auto plugin = plugin_identity(subject);
+  return (name.empty() ? "" : name + "=") + (plugin ? plugin->path : innermost(subject).name());
 }
 
 }  // namespace nearmiss

@@ -9,6 +9,7 @@
 #include "fuzz/families/classify.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
+#include "fuzz/trial/versions.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {
@@ -99,7 +100,8 @@ class Judging {
         batch_(batch),
         comparison_(comparison),
         answers_(answers),
-        decisions_(batch.queries.size()) {
+        decisions_(batch.queries.size()),
+        versions_(subjects, comparison) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       counts_.push_back(nullptr);
       least_kept_.push_back(0);
@@ -128,7 +130,9 @@ class Judging {
         std::optional<Truth> own = rounded_[s].truth(i);
         try_subject(i, s, own ? *own : truth);
       }
+      versions_.finish_query(result_.findings);
     }
+    versions_.add_to(result_.statistics.versions, batch_.kind, batch_.family);
     return std::move(result_);
   }
 
@@ -177,8 +181,9 @@ class Judging {
       count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
                       batch_.factors(i), !outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
-    if (auto failure = failure_of(outcome, truth))
-      keep(i, subjects_[s]->name(), std::move(*failure), truth.query(), outcome);
+    auto failure = failure_of(outcome, truth);
+    versions_.note(s, outcome, failure ? std::optional(result_.findings.size()) : std::nullopt);
+    if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth.query(), outcome);
   }
 
   void keep(std::size_t i, const std::string& subject, Failure failure, const Query& query,
@@ -207,6 +212,7 @@ class Judging {
   std::vector<Rounded> rounded_;     // by subject
   std::vector<Decision> decisions_;  // by query
   std::vector<bool> near_;           // by query; empty if not asked for
+  VersionComparison versions_;
 };
 
 /// Checks all coordinates. This also fetches all queries from memory, which would otherwise count in the time of the

@@ -65,7 +65,7 @@ struct TrialResult {
 /// Receives results as they come, in an order that does not depend on threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
-/// Selects the queries on which all methods of the oracle are compared.
+/// Selects what is compared: the queries on which all methods of the oracle are, and the versions of a CCD.
 struct Comparison {
   /// The sample of the hard queries, which the filter leaves undecided, is larger by this factor.
   static constexpr std::uint64_t more_of_undecided = 64;
@@ -75,6 +75,8 @@ struct Comparison {
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
   bool near_bounds = false;     ///< also compares all queries that the filter decides near its bounds
+  /// The names of two subjects of which the second is compared with the first (versions.hpp); or none.
+  std::vector<std::string> versions = {};
 
   [[nodiscard]] std::uint64_t one_in_undecided() const {
     return one_in <= more_of_undecided ? 1 : one_in / more_of_undecided;

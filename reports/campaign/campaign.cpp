@@ -89,10 +89,12 @@ std::vector<Finding> Campaign::findings() const {
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Finding> all;
-  std::set<std::tuple<Signature, QueryClass, Kind, std::array<double, 24>, double>> known;
+  std::set<std::tuple<Signature, QueryClass, std::string, Kind, std::array<double, 24>, double>> known;
   for (auto& [place, finding] : placed) {
     const Query& shrunk = finding.shrunk;
-    if (known.emplace(signature_of(finding), finding.query_class, shrunk.kind, shrunk.x, shrunk.separation)
+    if (known
+            .emplace(signature_of(finding), finding.query_class, finding.broken_since, shrunk.kind, shrunk.x,
+                     shrunk.separation)
             .second)
       all.push_back(std::move(finding));
   }

@@ -18,8 +18,11 @@ namespace nearmiss {
 using RunInfo = std::map<std::string, std::string>;
 
 /// Beginning of the names of facts about a plug-in: "plug-in NAME sha256" and "plug-in NAME version" in a run, and
-/// "plug-in NAME", its path, and "plug-in NAME build id" in the environment of a shard.
+/// "plug-in NAME", which names it on the command line with its whole path, and "plug-in NAME build id" in the environment of
+/// a shard.
 inline constexpr std::string_view about_plugin = "plug-in ";
+/// Beginning of the name of the fact about a run's built-in subject that was renamed: "subject NAME" is "NAME=SUBJECT".
+inline constexpr std::string_view about_subject = "subject ";
 
 /// Whether a fact of a run says which code ran, and not what it was asked to do: the version and the commit of nearmiss,
 /// and the bytes and the version of each plug-in.

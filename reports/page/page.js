@@ -245,6 +245,7 @@ function drawHow() {
 
 drawHead();
 drawScorecard();
+drawVersions();
 drawBaseline();
 drawUnits();
 drawCounts();

@@ -129,3 +129,23 @@ function drawScorecard() {
   body.append(wide([made("span", "ok", { class: "mark" }), " ", toggle], { class: "verdict" }));
   table.append(rest);
 }
+
+/** Versions of one CCD: the queries that each of two fails, and the first one that the later version breaks. */
+function drawVersions() {
+  if (!report.versions) return;
+  show("versions-section");
+  fillTable(element("versions"), [text("version", "after"), text("against", "before"), text("class", "class"), text("kind", "kind"),
+    count("fixed", "fixed"), count("broken", "broken", true), count("both fail", "both"), count("neither fails", "neither"), count("queries", "queries")],
+  report.versions);
+  const pairs = new Map(report.versions.map(({ before, after }) => [`${after} ${before}`, { before, after }]));
+  for (const { before, after } of pairs.values()) {
+    const isCompared = (kind) => report.versions.some((row) => row.before === before && row.after === after && row.kind === kind);
+    for (const kind of ["vt", "ee"].filter((each) => !isCompared(each) && Boolean(report.subjects[before][each]) !== Boolean(report.subjects[after][each])))
+      element("broken").append(made("li", `${after} against ${before}: ${kind} is not compared, because one of them was not asked about it`));
+    const index = report.findings.findIndex((each) => each.subject === after && each.broken_since === before);
+    if (index < 0) continue;
+    const link = made("a", "simplest query that it breaks", { href: "#findings-section" });
+    link.addEventListener("click", () => showFinding(index));
+    element("broken").append(made("li", [`${after} against ${before}: the `, link, command(report.findings[index].again)]));
+  }
+}

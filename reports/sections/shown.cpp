@@ -102,13 +102,22 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
   return nullptr;
 }
 
-/// The path of a subject's plug-in on the machine that found it; nothing for a built-in subject.
-std::optional<std::string> plugin_path(const Run& run, const std::string& subject) {
+/// What names a subject's plug-in on the command line of the machine that asked it; nothing for a built-in subject.
+std::optional<std::string> plugin_text(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
-    if (const auto path = shard.environment.find(std::string(about_plugin) + subject);
-        path != shard.environment.end())
-      return path->second;
+    if (const auto text = shard.environment.find(std::string(about_plugin) + subject);
+        text != shard.environment.end())
+      return text->second;
   return std::nullopt;
+}
+
+/// What names a subject of a run on the command line, with the scene's bound if it has that.
+std::string text_of(const Run& run, const std::string& subject) {
+  const auto renamed = run.info.find(std::string(about_subject) + subject);
+  std::string text = renamed == run.info.end() ? subject : renamed->second;
+  if (text.ends_with(of_scene))
+    text.replace(text.rfind('@') + 1, std::string::npos, run.info.at("scene's bound"));
+  return plugin_text(run, subject).value_or(text);
 }
 
 }  // namespace
@@ -117,16 +126,17 @@ std::string replay_command(const Campaign& campaign, const ShownFinding& shown) 
   std::string command = fmt::format("nearmiss replay cases/{}", shown.shrunk.file);
   const std::string& subject = shown.finding.subject;
   if (subject.empty()) return command + " --compare 1";
+  const std::string& before = shown.finding.broken_since;
   const Run* const run = run_of(campaign, shown.finding);
-  const auto path = run == nullptr ? std::nullopt : plugin_path(*run, subject);
-  std::string name = path.value_or(subject);
-  if (run != nullptr && name.ends_with(of_scene))
-    name.replace(name.rfind('@') + 1, std::string::npos, run->info.at("scene's bound"));
-  command += fmt::format(" --subject {}", shell_quoted(name));
-  if (run == nullptr) return command;
+  if (run == nullptr) return command + fmt::format(" --subject {}", shell_quoted(subject));
+  const std::string texts = (before.empty() ? "" : text_of(*run, before) + ",") + text_of(*run, subject);
+  command += fmt::format(" --subject {}", shell_quoted(texts));
+  if (!before.empty() && run->info.contains("versions"))
+    command += fmt::format(" --versions {}", shell_quoted(before + "," + subject));
+  const bool has_plugin = plugin_text(*run, subject) || plugin_text(*run, before);
   for (const char* option : {"bound", "query-time", "query-memory"})
     if (const auto given = run->info.find(option);
-        given != run->info.end() && (path || given->first == "bound"))
+        given != run->info.end() && (has_plugin || given->first == "bound"))
       command += fmt::format(" --{} {}", option, given->second);
   return command;
 }

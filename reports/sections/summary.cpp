@@ -10,6 +10,7 @@
 #include "reports/sections/class_table.hpp"
 #include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/time_table.hpp"
+#include "reports/sections/version_table.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/text/text.hpp"
 
@@ -182,8 +183,9 @@ std::string summary_table(const Statistics& statistics) {
   if (!times.empty()) times += "\n";
   std::string common = common_factors_lines(statistics);
   if (!common.empty()) common += "\n";
-  return verdict_lines(statistics) + "\n" + counts_table(statistics) + "\n" + times + classes + common +
-         oracle_lines(statistics) + extremes + footnotes + footnote_on_units(statistics);
+  return verdict_lines(statistics) + version_lines(statistics) + "\n" + counts_table(statistics) + "\n" +
+         times + classes + common + oracle_lines(statistics) + extremes + footnotes +
+         footnote_on_units(statistics);
 }
 
 }  // namespace nearmiss

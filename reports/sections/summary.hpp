@@ -25,7 +25,7 @@ std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics);
 /// The failures of the oracle, in a line; "" without failures.
 std::string oracle_complaint(const Statistics& statistics);
 
-/// One line for each verdict; then a table with a row for each subject and kind, a table of times (time_table.hpp), a table by
+/// One line for each verdict, and for each pair of versions (version_table.hpp); then a table with a row for each subject and kind, a table of times (time_table.hpp), a table by
 /// class of families (class_table.hpp), what misses have in common (common_factors_table.hpp), and the oracle's counters.
 std::string summary_table(const Statistics& statistics);
 

@@ -41,6 +41,8 @@ struct Finding {
   QueryClass query_class = QueryClass::unclassified;
   Query simplest = {};  ///< the simplest known query that fails in the same way, of any class; often `shrunk`
   QueryClass simplest_class = QueryClass::unclassified;
+  /// The version of the subject's CCD that does not fail on `query`; "" if there is none, or it fails, too.
+  std::string broken_since = {};
 
   bool operator==(const Finding&) const = default;
 };
@@ -70,16 +72,17 @@ inline Signature signature_of(const Finding& finding) {
 /// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order and picks the first ones of each signature in each class of queries.
+/// Takes findings in order and picks the first ones of each signature in each class of queries; and likewise of those that an
+/// earlier version of the CCD answers rightly.
 class FirstFindings {
  public:
   /// Counts the finding. Whether it is among the first ones of its signature and class.
   bool take(const Finding& finding) {
-    return ++taken_[{signature_of(finding), finding.query_class}] <= findings_kept;
+    return ++taken_[{signature_of(finding), finding.query_class, finding.broken_since}] <= findings_kept;
   }
 
  private:
-  std::map<std::pair<Signature, QueryClass>, std::size_t> taken_;
+  std::map<std::tuple<Signature, QueryClass, std::string>, std::size_t> taken_;
 };
 
 }  // namespace nearmiss

@@ -57,20 +57,21 @@ Table<FindingRow> findings() {
     return column<FindingRow>(
         std::move(name), [pointer](FindingRow & row) -> auto& { return row.content.*pointer; });
   };
-  return {"finding",
-          "PRIMARY KEY (number), FOREIGN KEY (run) REFERENCES run",
-          {"number"},
-          {column<FindingRow>(
-               "number", [](FindingRow & row) -> auto& { return row.number; }),
-           column<FindingRow>(
-               "run", [](FindingRow & row) -> auto& { return row.run; }),
-           member("place", &Finding::place), member("what", &Finding::what),
-           member("subject", &Finding::subject), member("family", &Finding::family),
-           member("query", &Finding::query), member("provenance", &Finding::provenance),
-           member("ratio", &Finding::ratio), member("signature", &Finding::signature),
-           member("shrunk", &Finding::shrunk), member("time", &Finding::time),
-           member("is_shrunk", &Finding::is_shrunk), member("query_class", &Finding::query_class),
-           member("simplest", &Finding::simplest), member("simplest_class", &Finding::simplest_class)}};
+  return {
+      "finding",
+      "PRIMARY KEY (number), FOREIGN KEY (run) REFERENCES run",
+      {"number"},
+      {column<FindingRow>(
+           "number", [](FindingRow & row) -> auto& { return row.number; }),
+       column<FindingRow>(
+           "run", [](FindingRow & row) -> auto& { return row.run; }),
+       member("place", &Finding::place), member("what", &Finding::what), member("subject", &Finding::subject),
+       member("family", &Finding::family), member("query", &Finding::query),
+       member("provenance", &Finding::provenance), member("ratio", &Finding::ratio),
+       member("signature", &Finding::signature), member("shrunk", &Finding::shrunk),
+       member("time", &Finding::time), member("is_shrunk", &Finding::is_shrunk),
+       member("query_class", &Finding::query_class), member("simplest", &Finding::simplest),
+       member("simplest_class", &Finding::simplest_class), member("broken_since", &Finding::broken_since)}};
 }
 
 Table<PictureRow> pictures() {

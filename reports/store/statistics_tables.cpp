@@ -20,6 +20,7 @@ using CountsRow = MapRow<CountsKey, Counts>;
 using OracleRow = MapRow<KindAndFamily, OracleCounts>;
 using FunnelRow = MapRow<StepAndKind, Funnel>;
 using FactorRow = MapRow<FactorKey, FactorCounts>;
+using VersionRow = MapRow<VersionKey, VersionCounts>;
 using SeenRow = MapRow<Signature, std::uint64_t>;
 
 template <class Row, class Member, class Key>
@@ -62,6 +63,14 @@ Table<FactorRow> factors() {
       {key_column<FactorRow>("subject", &FactorKey::subject), key_column<FactorRow>("kind", &FactorKey::kind),
        key_column<FactorRow>("family", &FactorKey::family),
        key_column<FactorRow>("factor_values", &FactorKey::values)});
+}
+
+Table<VersionRow> versions() {
+  return counters_table<VersionRow>(
+      "version", "before, after, kind, family",
+      {key_column<VersionRow>("before", &VersionKey::before),
+       key_column<VersionRow>("after", &VersionKey::after), key_column<VersionRow>("kind", &VersionKey::kind),
+       key_column<VersionRow>("family", &VersionKey::family)});
 }
 
 Table<SeenRow> seen() {
@@ -121,6 +130,7 @@ void make_statistics_tables(SQLite::Database& db) {
   oracle().make(db);
   funnels().make(db);
   factors().make(db);
+  versions().make(db);
   seen().make(db);
   extremes().make(db);
   campaign().make(db);
@@ -131,6 +141,7 @@ void write_statistics(SQLite::Database& db, const Statistics& statistics) {
   write_map(db, oracle(), statistics.oracle);
   write_map(db, funnels(), statistics.funnels);
   write_map(db, factors(), statistics.factors);
+  write_map(db, versions(), statistics.versions);
   write_map(db, seen(), statistics.seen);
   std::vector<Extreme> rows;
   for (const auto& [name, each] : statistics.extremes) rows.push_back(each);
@@ -147,6 +158,7 @@ Statistics read_statistics(TableReader& read) {
   read_map(read, oracle(), statistics.oracle);
   read_map(read, funnels(), statistics.funnels);
   read_map(read, factors(), statistics.factors);
+  read_map(read, versions(), statistics.versions);
   read_map(read, seen(), statistics.seen);
   read(extremes(), [&](Extreme&& row) { statistics.extremes[row.name] = std::move(row); });
   return statistics;

@@ -14,7 +14,9 @@
 #define CONTRACT \
   { 0, 0, 0, 0, 0, 0 }
 #endif
-#define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
+#ifndef KINDS
+#define KINDS (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
+#endif
 
 /* The detector `text`, which answers test(x, toi), with a bound, which may be NULL. */
 #define EXPORT_DETECTOR(text, test, bound)                                                         \
@@ -28,7 +30,7 @@
                                               .name = (text),                                      \
                                               .version = "1",                                      \
                                               .about = "",                                         \
-                                              .kinds = ANY_KIND,                                   \
+                                              .kinds = KINDS,                                      \
                                               .bits = 0,                                           \
                                               .time_sort = TIME_SORT,                              \
                                               .takes_separation = TAKES_SEPARATION,                \

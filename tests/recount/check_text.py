@@ -69,6 +69,8 @@ def _check_output(comparison, where, text, json_report, verdicts):
     found = [line for line in lines if ' % of the missed ones have ' in line]
     expected = [common_factors(each) for each in json_report.get('common_factors', [])]
     comparison.same('text', f'{where} common factors', found, expected)
+    found = [line for line in lines if ' both fail, of ' in line]
+    comparison.same('text', f'{where} versions', found, versions(json_report))
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
     expected = oracle_line(json_report['oracle']['total'])
     comparison.same('text', f'{where} oracle', found and found[0], expected)
@@ -90,6 +92,29 @@ def common_factors(found):
         f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
         f'{collisions} missed; {found["text"]}'
     )
+
+
+def versions(json_report):
+    """A line for each pair of versions that were asked both kinds."""
+    rows = json_report.get('versions', [])
+    texts = {'fixed': 'fixed', 'broken': 'broken', 'both': 'both fail'}
+
+    def words(of, keys):
+        return ', '.join(f'{of[key]:,} {texts[key]}' for key in keys)
+
+    lines = []
+    for before, after in dict.fromkeys((row['before'], row['after']) for row in rows):
+        own = [row for row in rows if (row['before'], row['after']) == (before, after)]
+        total = {key: sum(row[key] for row in own) for key in (*texts, 'queries')}
+        parts = [
+            f'{row["class"]} {row["kind"]} {words(row, keys)}'
+            for row in own
+            if (keys := [key for key in texts if row[key]])
+        ]
+        queries = counted(total['queries'], 'query', 'queries')
+        inside = f' ({"; ".join(parts)})' if parts else ''
+        lines.append(f'{after} against {before}: {words(total, texts)}, of {queries}{inside}')
+    return lines
 
 
 def verdict(found, unknown):

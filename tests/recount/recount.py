@@ -27,6 +27,7 @@ from check_page import check_page
 from check_scorecard import check_scorecard
 from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
 from check_text import check_text
+from check_versions import check_versions
 from comparison import Comparison
 from scalars import Units
 from tally import Tally
@@ -56,6 +57,7 @@ def check_report(comparison, report, answers, units):
     comparison.section(check_deciders, 'deciders', report, answers)
     comparison.section(check_findings, 'findings', report, answers)
     comparison.section(check_common_factors, 'common_factors', report, answers)
+    comparison.section(check_versions, 'versions', report, answers)
 
 
 def check_all(comparison, report, answers, units):

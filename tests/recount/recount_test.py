@@ -29,7 +29,8 @@ from recount import check_report, recount
 
 # The subjects: one that misses, several with valid claims at various precisions, one that passes
 # queries on, one whose claim is refuted, and one with exact times; two plug-ins give estimates of
-# times, and lower bounds that are late.
+# times, and lower bounds that are late. The other plug-ins export the name of the latter, so they
+# are its versions.
 SUBJECTS = [
     'adaptive',
     'basic',
@@ -41,6 +42,7 @@ SUBJECTS = [
     'exact',
 ]
 PLUGINS = ['sampling', 'promises']
+VERSIONS = {'v1': 'v1', 'new': 'v2'}  # names of subjects and plug-ins
 CASES, SEED = 2200, 7
 
 # Values that cannot be recomputed: times; facts about the machine of a run; the oracle's counters
@@ -63,6 +65,11 @@ UNCHECKED = [
 ]
 
 
+def plugin(name):
+    """The path of a plug-in."""
+    return EXECUTABLE.parent / 'plugins' / f'{name}.so'
+
+
 def _is_larger(leaf, other):
     return isinstance(leaf, (int, float)) and leaf > other
 
@@ -78,7 +85,11 @@ class Recount(unittest.TestCase):
             cls.folder,
             CASES,
             SEED,
-            [*SUBJECTS, *(str(EXECUTABLE.parent / 'plugins' / f'{name}.so') for name in PLUGINS)],
+            [
+                *SUBJECTS,
+                *(str(plugin(name)) for name in PLUGINS),
+                *(f'{name}={plugin(of)}' for name, of in VERSIONS.items()),
+            ],
             'all',
         )
         cls.json = cls.report.json()
@@ -140,6 +151,11 @@ class Recount(unittest.TestCase):
             set(sorts.items()),
         )
         self.assertGreater(self.json['error_against_time']['subjects']['always']['late'], 0)
+        pairs = {(each['before'], each['after']) for each in self.json['versions']}
+        self.assertEqual(pairs, {('always', name) for name in VERSIONS})
+        for name in ('fixed', 'broken', 'both', 'neither'):
+            self.assertGreater(sum(each[name] for each in self.json['versions']), 0)
+        self.assertTrue(any('broken_since' in each for each in self.json['findings']))
 
     def test_a_change_of_any_sort_of_value_in_report_json_is_found(self):
         chosen = self.one_leaf_of_each_pattern(self.json)

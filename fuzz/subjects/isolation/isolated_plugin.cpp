@@ -9,7 +9,7 @@
 #include "ccd/error.hpp"
 #include "ccd/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
-#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 
 namespace nearmiss {
@@ -268,9 +268,11 @@ std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& n
   const std::vector<std::string> names = first->names();
   const bool has_chosen = is_program(name) || !PluginName::parse(name).subject.empty();
   std::vector<std::unique_ptr<Subject>> subjects;
-  subjects.push_back(std::make_unique<IsolatedPlugin>(std::move(code), limits, std::move(first)));
-  for (std::size_t i = 1; i < names.size() && !has_chosen; ++i)
-    subjects.push_back(make_isolated_plugin(with_subject(name, names[i]), limits));
+  if (has_chosen || names.size() == 1)
+    subjects.push_back(std::make_unique<IsolatedPlugin>(std::move(code), limits, std::move(first)));
+  else
+    for (const std::string& each : names)
+      subjects.push_back(make_isolated_plugin(with_subject(name, each), limits));
   return subjects;
 }
 
@@ -284,12 +286,12 @@ std::unique_ptr<Subject> make_isolated_plugin(const std::string& name, const Plu
 }
 
 std::optional<PluginIdentity> plugin_identity(const Subject& subject) {
-  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&without_contract(subject));
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&innermost(subject));
   return plugin == nullptr ? std::nullopt : std::optional(plugin->identity());
 }
 
 const DetectorInfo* plugin_info(const Subject& subject) {
-  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&without_contract(subject));
+  const auto* const plugin = dynamic_cast<const IsolatedPlugin*>(&innermost(subject));
   return plugin == nullptr ? nullptr : &plugin->info();
 }
 

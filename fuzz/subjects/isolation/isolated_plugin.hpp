@@ -27,7 +27,8 @@ std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& n
 
 /// Which code a plug-in is.
 struct PluginIdentity {
-  std::string path;      ///< or command, with its options, as it was given
+  std::string
+      path;  ///< or command, with its options, as it was given, and the detector if the file has several
   std::string version;   ///< the plug-in's own; "" if it gives none
   std::string sha256;    ///< of the file, in hexadecimal
   std::string build_id;  ///< GNU build id, in hexadecimal; "" if it has none

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { count, folder, jsonOf, makeReport, nearmiss, open } from "./session.mjs";
 
 async function checkVerdicts(page, report) {
@@ -169,6 +169,21 @@ async function checkOtherSections(page) {
   assert.equal(await page.isVisible("#environments-section"), false);
   const again = await page.locator("#how code").textContent();
   assert.equal(again, "nearmiss fuzz --subject basic,wang --compare 4096 --seed 1 --family all --cases 2200");
+}
+
+/** Two versions of a CCD: which queries the later one fixes and breaks, and how the first broken one is replayed. */
+export async function showsVersions(browser) {
+  const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
+  const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "small-integer", "--cases", "300"]));
+  const { versions, findings } = jsonOf("versions");
+  const rows = await page.locator("#versions tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.deepEqual(rows, versions.map((each) => ["after", "before", "class", "kind", "fixed", "broken", "both", "neither", "queries"].map((key) => String(each[key]))));
+  const { again } = findings.find((each) => each.broken_since === "old");
+  assert.match(again, /--subject old=\S+v1\.so,new=\S+v2\.so /);
+  const lines = await page.locator("#broken > li").allTextContents();
+  assert.equal(lines.filter((line) => line.startsWith("new against old: ") && line.includes(again)).length, 1);
+  assert.ok(lines.includes("vt against old: ee is not compared, because one of them was not asked about it"));
+  await page.close();
 }
 
 export async function showsFindings(browser) {

@@ -1,0 +1,106 @@
+#include "reports/sections/version_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "reports/statistics/family_class.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// What is shown of two versions.
+struct Measure {
+  std::string_view key;   ///< in report.json
+  std::string_view text;  ///< behind the number; "" if the terminal does not show it
+  std::uint64_t (*value)(const VersionCounts&);
+};
+
+constexpr std::array measures{
+    Measure{"fixed", "fixed", [](const VersionCounts& counts) { return counts.fixed; }},
+    Measure{"broken", "broken", [](const VersionCounts& counts) { return counts.broken; }},
+    Measure{"both", "both fail", [](const VersionCounts& counts) { return counts.both; }},
+    Measure{"neither", "", [](const VersionCounts& counts) { return counts.neither; }},
+    Measure{"queries", "", [](const VersionCounts& counts) { return counts.queries(); }},
+};
+
+using Versions = std::pair<std::string, std::string>;  // before and after
+using Part = std::pair<QueryClass, Kind>;
+using Parts = std::map<Part, VersionCounts>;
+
+std::map<Versions, Parts> by_class_and_kind(const VersionTable& table) {
+  std::map<Versions, Parts> sums;
+  for (const auto& [key, counts] : table)
+    sums[{key.before, key.after}][{class_of(key.family), key.kind}].merge(counts);
+  return sums;
+}
+
+/// "12 fixed, 3 broken"
+std::string in_words(const VersionCounts& counts, bool shows_zeros) {
+  std::vector<std::string> words;
+  for (const Measure& each : measures)
+    if (const std::uint64_t value = each.value(counts); !each.text.empty() && (value != 0 || shows_zeros))
+      words.push_back(fmt::format("{} {}", with_separators(value), each.text));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// "; ee not compared, because old was not asked about it" for each kind that one of two versions was asked about and both were not.
+std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
+  const auto [before, after] = versions;
+  std::set<Kind> compared;
+  for (const auto& [part, counts] : parts) compared.insert(part.second);
+  std::map<Kind, std::set<std::string>> asked;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == before || key.subject == after) asked[key.kind].insert(key.subject);
+  std::string text;
+  for (const auto& [kind, by] : asked)
+    if (!compared.contains(kind) && by.size() == 1)
+      text += fmt::format("; {} not compared, because {} was not asked about it", short_name(kind),
+                          by.contains(before) ? after : before);
+  return text;
+}
+
+}  // namespace
+
+std::string version_lines(const Statistics& statistics) {
+  std::string lines;
+  for (const auto& [versions, parts] : by_class_and_kind(statistics.versions)) {
+    VersionCounts sum;
+    std::vector<std::string> words;
+    for (const auto& [part, counts] : parts) {
+      sum.merge(counts);
+      if (const std::string own = in_words(counts, false); !own.empty())
+        words.push_back(fmt::format("{} {} {}", name(part.first), short_name(part.second), own));
+    }
+    lines += fmt::format("{} against {}: {}, of {}{}{}\n", versions.second, versions.first,
+                         in_words(sum, true), counted(sum.queries(), "query", "queries"),
+                         words.empty() ? "" : fmt::format(" ({})", fmt::join(words, "; ")),
+                         not_compared(versions, parts, statistics));
+  }
+  return lines;
+}
+
+nlohmann::ordered_json versions_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& [versions, parts] : by_class_and_kind(statistics.versions))
+    for (const auto& [part, counts] : parts) {
+      json.push_back({{"before", versions.first},
+                      {"after", versions.second},
+                      {"kind", short_name(part.second)},
+                      {"class", name(part.first)}});
+      for (const Measure& each : measures) json.back()[std::string(each.key)] = each.value(counts);
+    }
+  return json;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,181 @@
+// Names of subjects, and versions of a CCD, compared query by query.
+#include "fuzz/trial/versions.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ccd/error.hpp"
+#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "tests/fuzz/copied_plugin.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::plugin;
+using ::testing::ThrowsMessage;
+
+Subjects made_of(const std::vector<std::string>& texts) {
+  Subjects made;
+  for (const std::string& text : texts)
+    for (auto& each : make_any_subjects(text)) made.push_back(std::move(each));
+  tell_apart(made);
+  return made;
+}
+
+std::vector<std::string> names_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> names;
+  for (const auto& each : made_of(texts)) names.push_back(each->name());
+  return names;
+}
+
+TEST(SubjectNames, OfPluginsThatClashAreThoseOfTheirFiles) {
+  EXPECT_THAT(names_of({plugin("v1"), "wang", plugin("v2")}), ElementsAre("v1", "wang", "v2"));
+  EXPECT_THAT(names_of({plugin("v1")}), ElementsAre("always"));
+  EXPECT_THAT(names_of({plugin("several") + ":edges", "old=" + plugin("v1"), plugin("v2")}),
+              ElementsAre("edges", "old", "always"));
+}
+
+class SubjectFiles : public testing::TemporaryFolder {
+ protected:
+  [[nodiscard]] std::string copied(const std::string& name, const std::string& to) const {
+    std::filesystem::create_directories(file(to).parent_path());
+    std::filesystem::copy(plugin(name), file(to));
+    return file(to).string();
+  }
+};
+
+TEST_F(SubjectFiles, OfSeveralDetectorsGiveNamesWithTheDetector) {
+  const std::string other = copied("several", "a.so");
+  EXPECT_THAT(names_of({plugin("several") + ":told:answer=1", other + ":told:answer=1"}),
+              ElementsAre("several.told:answer=1", "a.told:answer=1"));
+  EXPECT_THAT(names_of({plugin("several"), other}),
+              ::testing::IsSupersetOf({"several.told", "a.told", "a.edges"}));
+  EXPECT_EQ(make_any_subject("new=" + other + ":told:answer=1")->name(), "new:answer=1");
+}
+
+TEST_F(SubjectFiles, WhoseNamesAreNoneFollowThatOfTheDetector) {
+  EXPECT_THAT(names_of({copied("v1", "81c6614.so"), plugin("v2")}), ElementsAre("always-81c6614", "v2"));
+}
+
+TEST_F(SubjectFiles, WithEqualNamesAreRefusedUnlessTheyAreRenamed) {
+  const std::string a = copied("v1", "a/mine.so");
+  const std::string b = copied("v2", "b/mine.so");
+  EXPECT_THAT(
+      [&] {
+        names_of({a, b});
+      },
+      ThrowsMessage<Error>("found two subjects named 'always', expected different names, such as NAME=" + b));
+  EXPECT_THAT(names_of({a, "new=" + b}), ElementsAre("always", "new"));
+  EXPECT_THAT([&] { names_of({a, a}); }, ThrowsMessage<Error>(HasSubstr("two subjects named 'always'")));
+  EXPECT_THAT([&] { names_of({"x=" + a, "x=" + a}); }, ThrowsMessage<Error>(HasSubstr("named 'x'")));
+  EXPECT_THAT([&] { names_of({"wang", "wang"}); }, ThrowsMessage<Error>(HasSubstr("such as NAME=wang")));
+  EXPECT_THAT(names_of({"x=" + a, "y=" + a, "wang", "z=wang@0.5"}), ElementsAre("x", "y", "wang", "z@0.5"));
+}
+
+TEST(SubjectNames, ComeBeforeTheFirstOfColonSlashAndEqualsSign) {
+  EXPECT_EQ(SubjectText::parse("a-1.b_C=./v.so:k=1").name, "a-1.b_C");
+  for (const char* none : {"./v.so:k=1", "fcl:tolerance=1", "pipe:./p --a=b", "wang", "./a=b/c.so"}) {
+    EXPECT_EQ(SubjectText::parse(none).name, "") << none;
+    EXPECT_EQ(SubjectText::parse(none).subject, none);
+  }
+  for (const char* bad : {"=./v.so", "1=./v.so", "a b=wang", "wang@2=wang"})
+    EXPECT_THAT([&] { SubjectText::parse(bad); },
+                ThrowsMessage<Error>(HasSubstr("expected NAME=SUBJECT with a name of letters")))
+        << bad;
+}
+
+TEST(SubjectNames, CanBeGivenToAllSubjects) {
+  for (const std::string text : {"new=wang", "new=defect:mu*0.5"})
+    EXPECT_EQ(make_any_subject(text)->name(), "new");
+  const std::string program = "new=pipe:" NEARMISS_PYTHON " " NEARMISS_EXAMPLES "/example.py";
+  const auto subject = make_any_subject(program);
+  EXPECT_EQ(subject->name(), "new");
+  EXPECT_EQ(text_of(*subject), program);
+  EXPECT_EQ(text_of(*make_any_subject("new=wang@0.5")), "new=wang@0.5");
+  EXPECT_THAT([] { make_any_subjects("new=" + plugin("several")); },
+              ThrowsMessage<Error>(HasSubstr("found several detectors, expected one of told")));
+}
+
+TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {
+  const Subjects subjects = made_of({plugin("v1"), "wang", plugin("v2"), "basic", "new=" + plugin("v3")});
+  EXPECT_THAT(predecessors(subjects, {}),
+              ElementsAre(std::nullopt, std::nullopt, std::optional(0UL), std::nullopt, std::optional(0UL)));
+  EXPECT_THAT(
+      predecessors(subjects, {"basic", "wang"}),
+      ElementsAre(std::nullopt, std::optional(3UL), std::optional(0UL), std::nullopt, std::optional(0UL)));
+}
+
+/// Collisions with these first coordinates.
+Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_triangle) {
+  Batch batch{.kind = kind, .family = "f"};
+  for (const double x : places)
+    batch.queries.push_back(kind == Kind::edge_edge
+                                ? testing::moved(testing::falling_edge(1, -1), x + 1)
+                                : testing::moved(testing::falling_vertex(0.25, 0.25, 1, -1), x - 0.25));
+  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  return batch;
+}
+
+// v1 reports x > 0, v2 reports x > 0.25 and x < -0.5; all are collisions.
+TEST(Versions, AreComparedOnTheQueriesThatBothWereAsked) {
+  const Subjects subjects = made_of({plugin("v1"), plugin("v2"), plugin("v3"), "wang"});
+  const auto result = hold_trial(subjects, batch_at({1, 0.5, 0.125, -0.25, -0.25, -1}));
+  const auto& versions = result.statistics.versions;
+  EXPECT_THAT(versions, ::testing::SizeIs(2));
+  EXPECT_EQ(versions.at({"v1", "v2", Kind::vertex_triangle, "f"}),
+            (VersionCounts{.fixed = 1, .broken = 1, .both = 2, .neither = 2}));
+  std::vector<std::string> broken;
+  for (const Finding& each : result.findings)
+    if (!each.broken_since.empty())
+      broken.push_back(each.subject + " " + each.broken_since + " " + each.provenance);
+  EXPECT_THAT(broken, ElementsAre("v2 v1 2"));
+}
+
+TEST(Versions, AreNotComparedOnKindsThatOneOfThemDoesNotDecide) {
+  const Subjects subjects = made_of({plugin("v1"), plugin("v3")});
+  const auto result = hold_trial(subjects, batch_at({1}, Kind::edge_edge));
+  EXPECT_THAT(result.statistics.versions, ::testing::IsEmpty());
+}
+
+TEST(Versions, AddUpInAnyOrder) {
+  const Subjects subjects = made_of({plugin("v1"), plugin("v2")});
+  const auto one = hold_trial(subjects, batch_at({1, 0.125, -1})).statistics;
+  const auto other = hold_trial(subjects, batch_at({0.125})).statistics;
+  Statistics forward = one;
+  forward.merge(other);
+  Statistics backward = other;
+  backward.merge(one);
+  EXPECT_EQ(forward.versions, backward.versions);
+  EXPECT_EQ(forward.versions.begin()->second, (VersionCounts{.fixed = 1, .broken = 2, .neither = 1}));
+}
+
+TEST(AVersion, AnswersRightlyIfItAnswersAndDoesNotFail) {
+  const auto holds = [](const std::string& name, double x) {
+    const auto subject = std::move(keep_contract(make_any_subject(plugin(name)), false).front());
+    return AnswersRightly(*subject)(batch_at({x}).queries.front());
+  };
+  EXPECT_TRUE(holds("v1", 0.125));
+  EXPECT_FALSE(holds("v1", -1));
+  EXPECT_FALSE(holds("error", 0.125));
+  EXPECT_FALSE(holds("never_asked", 0.125));
+}
+
+TEST(FirstFindings, OfAVersionAreKeptApartIfItBreaksThem) {
+  FirstFindings first;
+  Finding finding{.subject = "new", .signature = "s"};
+  for (std::size_t i = 0; i < findings_kept; ++i) EXPECT_TRUE(first.take(finding));
+  EXPECT_FALSE(first.take(finding));
+  finding.broken_since = "old";
+  EXPECT_TRUE(first.take(finding));
+}
+
+}  // namespace
+}  // namespace nearmiss

@@ -1,0 +1,108 @@
+// Two versions of one CCD on the command line: names, what is fixed and broken, and how a broken query is replayed.
+#include "tests/tools/command_line.hpp"
+
+namespace nearmiss {
+namespace {
+
+using testing::CommandLine;
+using ::testing::HasSubstr;
+
+class VersionsOfACcd : public CommandLine {
+ protected:
+  VersionsOfACcd() {
+    std::filesystem::copy(plugin("v1"), file("v1.so"));
+    std::filesystem::copy(plugin("v2"), file("v2.so"));
+  }
+
+  /// Sums a number over classes and kinds.
+  static std::uint64_t sum(const nlohmann::json& versions, const char* of) {
+    std::uint64_t sum = 0;
+    for (const auto& each : versions) sum += each[of].get<std::uint64_t>();
+    return sum;
+  }
+};
+
+TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
+  const Output output =
+      run("fuzz --subject ./v1.so,./v2.so --family small-integer,uniform --cases 400 --db a.db");
+  EXPECT_EQ(output.code, 1) << output.error;
+  EXPECT_THAT(output.out, HasSubstr("v2 against v1: "));
+  EXPECT_THAT(output.out, HasSubstr("v1 answers rightly, and v2 does not:"));
+  EXPECT_EQ(run("report a.db -o report").code, 1);
+  const auto report = read_json("report/report.json");
+  const auto& versions = report["versions"];
+  EXPECT_EQ(sum(versions, "queries"), 400);
+  EXPECT_EQ(
+      sum(versions, "fixed") + sum(versions, "broken") + sum(versions, "both") + sum(versions, "neither"),
+      400);
+  const auto missed_by = [&](const char* subject) {
+    return report["subjects"][subject]["vt"]["false_negatives"].get<std::uint64_t>() +
+           report["subjects"][subject]["ee"]["false_negatives"].get<std::uint64_t>();
+  };
+  EXPECT_EQ(sum(versions, "both") + sum(versions, "fixed"), missed_by("v1"));
+  EXPECT_EQ(sum(versions, "both") + sum(versions, "broken"), missed_by("v2"));
+  EXPECT_GT(sum(versions, "fixed"), 0);
+  EXPECT_GT(sum(versions, "broken"), 0);
+}
+
+TEST_F(VersionsOfACcd, AreReplayedUnderTheirNames) {
+  EXPECT_EQ(run("fuzz --subject old=./v1.so,new=./v2.so --family small-integer --cases 400 --db a.db").code,
+            1);
+  EXPECT_EQ(run("report a.db -o report").code, 1);
+  const auto findings = read_json("report/report.json")["findings"];
+  for (const auto& finding : findings) {
+    if (!finding.contains("broken_since")) continue;
+    const std::string again = finding["again"];
+    EXPECT_THAT(again,
+                HasSubstr(" --subject old=" + file("v1.so").string() + ",new=" + file("v2.so").string()));
+    std::filesystem::copy(file("report") / finding["original_file"], file("broken.case"));
+    const std::string subjects = again.substr(again.find(" --subject"));
+    const Output output = run("replay broken.case" + subjects);
+    EXPECT_THAT(output.out, HasSubstr("new against old: 0 fixed, 1 broken, 0 both fail, of 1 query"));
+    return;
+  }
+  FAIL() << "no finding is broken";
+}
+
+TEST_F(VersionsOfACcd, MergeAndResumeToTheSameComparison) {
+  const std::string fuzz = "fuzz --subject ./v1.so,./v2.so --family small-integer --cases 4000 -q ";
+  EXPECT_EQ(run(fuzz + "--json whole.json").code, 1);
+  EXPECT_EQ(run(fuzz + "--db 0.db --shard 0/2").code, 1);
+  EXPECT_EQ(run(fuzz + "--db 1.db --shard 1/2").code, 1);
+  EXPECT_EQ(run(fuzz + "--db 1.db --shard 1/2 --resume").code, 1);
+  EXPECT_EQ(run("merge all.db 1.db 0.db").code, 1);
+  EXPECT_EQ(run("report all.db -o report").code, 1);
+  EXPECT_EQ(read_json("report/report.json")["versions"], read_json("whole.json")["versions"]);
+}
+
+TEST_F(VersionsOfACcd, SayWhichKindIsNotCompared) {
+  const Output output = run("fuzz --subject ./v1.so,old=" + plugin("v3") + " --family uniform --cases 100");
+  EXPECT_THAT(output.out, HasSubstr("; ee not compared, because old was not asked about it\n"));
+}
+
+TEST_F(VersionsOfACcd, CanBeChosen) {
+  const std::string fuzz = "fuzz --subject basic,other=wang --family uniform --cases 100 --versions ";
+  EXPECT_THAT(run(fuzz + "basic,other").out, HasSubstr("other against basic: "));
+  expect_refused(fuzz + "basic,wang", {"--versions: found 'wang'"});
+}
+
+TEST_F(VersionsOfACcd, NeedDifferentNames) {
+  expect_refused("fuzz --cases 10 --subject ./v1.so,./v1.so --db new.db",
+                 {"found two subjects named 'always', expected different names, such as NAME=./v1.so"});
+  expect_refused("bench --subject new=./v1.so,new=./v2.so", {"found two subjects named 'new'"});
+}
+
+TEST_F(VersionsOfACcd, AreRenamedForEveryCommand) {
+  write("q.vt", hit);
+  EXPECT_EQ(run("subjects new=./v1.so").out.substr(0, 4), "new ");
+  EXPECT_EQ(run("subjects --targets new=./v1.so").out, "false_negative new=./v1.so\n");
+  EXPECT_THAT(run("verdict --kind vt --subject new=" + plugin("error") + " q.vt").error,
+              HasSubstr("new: no answer"));
+  EXPECT_THAT(run("shrink q.vt --subject new=" + plugin("never")).out, HasSubstr("false-negative of new"));
+  EXPECT_THAT(run("scene spikes@20 --bound pair,scene --subject old=wang,./v1.so,./v2.so").out,
+              ::testing::AllOf(HasSubstr("old@scene: "), HasSubstr("v2 against v1: ")));
+  EXPECT_THAT(run("bench q.vt --queries 1 --runs 1 --subject ./v1.so,./v2.so").out, HasSubstr(" v2 "));
+}
+
+}  // namespace
+}  // namespace nearmiss
