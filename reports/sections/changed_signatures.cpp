@@ -1,0 +1,268 @@
+#include "reports/sections/changed_signatures.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/family.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using What = Finding::What;
+
+/// A sort of failure, and the subject that fails.
+using Sort = std::pair<What, std::string>;
+
+/// The level of each of several tests that share a risk.
+double level_of(double risk, std::size_t tests) {
+  return risk / static_cast<double>(std::max<std::size_t>(1, tests));
+}
+
+/// The expected number of new signatures in a campaign with `ratio` times as many queries. This number is
+/// computed from the number of times that each known signature was seen, with the series of Good and Toulmin
+/// 1956, or with its first term for a larger campaign.
+double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
+  double expected = 0;
+  for (const std::uint64_t times : seen) {
+    if (ratio > 1)
+      expected += times == 1 ? ratio : 0;
+    else
+      expected -= std::pow(-ratio, static_cast<double>(times));
+  }
+  return std::max(expected, 0.0);
+}
+
+/// The subjects that were asked now, but not in the baseline.
+std::vector<std::string> absent_subjects(const Statistics& now, const Statistics& before) {
+  std::vector<std::string> absent;
+  for (const auto& [key, sum] : now.by_subject_and_kind())
+    if ((absent.empty() || absent.back() != key.subject) && now.queries_of(key.subject) != 0 &&
+        before.queries_of(key.subject) == 0)
+      absent.push_back(key.subject);
+  return absent;
+}
+
+/// The date of a campaign: the earliest start of a shard; "" if it is not known.
+std::string date_of(const Campaign& campaign) {
+  std::string date;
+  for (const Run& run : campaign.runs)
+    for (const Shard& shard : run.shards)
+      if (date.empty() || (!shard.started.empty() && shard.started < date)) date = shard.started;
+  return date;
+}
+
+std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns) {
+  std::map<Signature, Sightings> all;
+  for (const Campaign& each : campaigns) {
+    const std::string date = date_of(each);
+    std::map<std::string, SubjectCode> codes;
+    for (const auto& [signature, times] : each.statistics.seen) {
+      const auto [of_subject, is_unknown] = codes.try_emplace(signature.subject);
+      if (is_unknown) of_subject->second = code_of(each, signature.subject);
+      const SubjectCode& code = of_subject->second;
+      const auto [place, is_first] = all.try_emplace(signature, Sightings{date, date, 0, code, code});
+      place->second.last = date;
+      place->second.last_code = code;
+      ++place->second.campaigns;
+    }
+  }
+  return all;
+}
+
+std::uint64_t faults(const Counts& counts, Fault fault) {
+  return counts.faults[static_cast<std::size_t>(fault)];
+}
+
+/// The number of queries that a subject was not asked.
+std::uint64_t unasked(const Counts& counts) {
+  return faults(counts, Fault::not_asked) + faults(counts, Fault::contract);
+}
+
+/// The number of queries that could have failed in a sort: a miss needs an answer, a fault only a question.
+std::uint64_t chances(const Counts& counts, What what) {
+  return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
+}
+
+/// The number of failures of a sort; 0 for the oracle's.
+std::uint64_t failures(const Counts& counts, What what) {
+  if (what == What::false_negative) return counts.false_negatives;
+  if (what == What::refuted_bound) return counts.refuted_bounds;
+  if (what == What::late) return counts.late;
+  return what == What::fault ? counts.faults_total() - unasked(counts) : 0;
+}
+
+/// How often a subject could fail in a sort now, compared with before. Nobody knows in which family a signature was seen.
+struct Chances {
+  std::uint64_t before = 0;  ///< number of random queries
+  double least =
+      HUGE_VAL;  ///< the smallest ratio of the numbers of queries now and before, over the families and kinds before
+  double most = 0;  ///< the largest one
+
+  [[nodiscard]] bool known() const { return before != 0; }
+  [[nodiscard]] std::uint64_t now(double ratio) const {
+    return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
+  }
+};
+
+/// The chances of each sort in which a signature was seen.
+class AllChances {
+ public:
+  AllChances(const Statistics& now, const Statistics& before) : now_(now), before_(before) {}
+
+  [[nodiscard]] const Chances& of(const Sort& sort) {
+    const auto [place, is_unknown] = known_.try_emplace(sort);
+    if (is_unknown) count(sort, place->second);
+    return place->second;
+  }
+
+ private:
+  void count(const Sort& sort, Chances& sum) const {
+    for (const auto& [key, counts] : before_.counts) {
+      const std::uint64_t earlier = chances(counts, sort.first);
+      if (key.subject != sort.second || !is_random(key.family) || earlier == 0) continue;
+      const auto same = now_.counts.find(key);
+      const std::uint64_t again = same == now_.counts.end() ? 0 : chances(same->second, sort.first);
+      const double ratio = static_cast<double>(again) / static_cast<double>(earlier);
+      sum.before += earlier;
+      sum.least = std::min(sum.least, ratio);
+      sum.most = std::max(sum.most, ratio);
+    }
+  }
+
+  const Statistics& now_;
+  const Statistics& before_;
+  std::map<Sort, Chances> known_;
+};
+
+/// The number of failures of a sort in cases and meshes.
+std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
+  std::uint64_t sum = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == sort.second && !is_random(key.family)) sum += failures(counts, sort.first);
+  return sum;
+}
+
+/// The probability that a failure which was seen `before` times is seen at least `now` times, if nothing has changed.
+double chance_of_more(std::uint64_t now, std::uint64_t before, const Chances& chances) {
+  if (!chances.known()) return 1;
+  return fisher_test({now, std::max(now, chances.now(chances.most))},
+                     {before, std::max(before, chances.before)})
+      .more;
+}
+
+/// The probability that a failure which was seen `before` times is not seen now.
+double chance_of_none(std::uint64_t before, const Chances& chances) {
+  if (!chances.known()) return 1;
+  return fisher_test({0, chances.now(chances.least)}, {before, std::max(before, chances.before)}).less;
+}
+
+/// Finds out which of the signatures that were seen now are new.
+void find_new(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
+              ChangedSignatures& changes) {
+  // The numbers of times that signatures were seen before, by sort of failure.
+  std::map<Sort, std::vector<std::uint64_t>> seen_before;
+  for (const auto& [signature, count] : before.seen)
+    seen_before[{signature.what, signature.subject}].push_back(count);
+  const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
+  const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
+  const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
+  for (const auto& [signature, count] : now.seen) {
+    if (std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
+      continue;
+    const bool is_unseen = before.times_seen(signature) == 0;
+    const bool fails_anyway =
+        !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
+    const bool is_new = fails_anyway
+                            ? chance_of_more(count, before.times_seen(signature),
+                                             all_chances.of({signature.what, signature.subject})) < level
+                            : is_unseen;
+    if (is_new)
+      changes.new_signatures.push_back(signature);
+    else if (is_unseen)
+      changes.unseen_signatures.push_back(signature);
+    else
+      changes.lasting_signatures.push_back(signature);
+  }
+  for (const auto& [sort, seen] : seen_before) {
+    const Proportion queries{now.queries_of(sort.second), before.queries_of(sort.second)};
+    if (queries.total != 0) changes.expected_unseen += expected_unseen(seen, queries.rate());
+  }
+}
+
+/// Finds out which of the signatures that were seen before are gone.
+void find_gone(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
+               ChangedSignatures& changes) {
+  std::set<Sort> still_fail;
+  for (const auto& [signature, count] : now.seen) still_fail.emplace(signature.what, signature.subject);
+  std::map<Sort, std::uint64_t> seen_before;
+  std::vector<Signature> candidates;
+  for (const auto& [signature, count] : before.seen) {
+    seen_before[{signature.what, signature.subject}] += count;
+    if (now.times_seen(signature) == 0) candidates.push_back(signature);
+  }
+  const double level = level_of(risk, candidates.size() + seen_before.size());
+  for (const Signature& each : candidates) {
+    const Sort sort{each.what, each.subject};
+    const Chances& of_sort = all_chances.of(sort);
+    const auto chance = [&, in_cases = unsampled(before, sort)](std::uint64_t times) {
+      return chance_of_none(times - std::min(times, in_cases), of_sort);
+    };
+    const bool is_gone = chance(before.times_seen(each)) < level ||
+                         (!still_fail.contains(sort) && chance(seen_before.at(sort)) < level);
+    (is_gone ? changes.gone_signatures : changes.unrepeated_signatures).push_back(each);
+  }
+}
+
+/// "in version 2" or "since sha256 0123456789ab", if the code is another; "" otherwise.
+std::string fixed_text(const SubjectCode& then, const SubjectCode& now) {
+  if (now == then || now.text().empty() || then.text().empty()) return "";
+  return now.version != then.version && !now.version.empty() ? "in version " + now.version
+                                                             : "since " + now.build;
+}
+
+}  // namespace
+
+SubjectCode code_of(const Campaign& campaign, const std::string& subject) {
+  constexpr std::size_t shown_digits = 12;
+  const auto values = [&](const std::string& fact) {
+    std::set<std::string> found;
+    for (const Run& run : campaign.runs)
+      if (const auto value = run.info.find(fact); value != run.info.end() && !value->second.empty())
+        found.insert(value->second);
+    return found;
+  };
+  const auto joined = [](const std::set<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, " | "));
+  };
+  const std::string plugin = std::string(about_plugin) + subject;
+  const std::set<std::string> digests = values(plugin + " sha256");
+  std::set<std::string> builds;
+  for (const std::string& digest : digests) builds.insert("sha256 " + digest.substr(0, shown_digits));
+  if (!digests.empty()) return {joined(values(plugin + " version")), joined(builds)};
+  for (const std::string& commit : values("commit")) builds.insert("commit " + commit);
+  return {joined(values("version")), joined(builds)};
+}
+
+ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
+                                     const Statistics& before, double risk) {
+  ChangedSignatures changes{.sightings = sightings_in(baseline),
+                            .absent_subjects = absent_subjects(now.statistics, before)};
+  AllChances all_chances(now.statistics, before);
+  find_new(now.statistics, before, risk, all_chances, changes);
+  find_gone(now.statistics, before, risk, all_chances, changes);
+  for (const Signature& each : changes.gone_signatures)
+    if (const std::string text = fixed_text(changes.sightings.at(each).last_code, code_of(now, each.subject));
+        !text.empty())
+      changes.fixed.emplace(each, text);
+  return changes;
+}
+
+}  // namespace nearmiss
