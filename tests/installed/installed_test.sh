@@ -16,10 +16,10 @@ quietly() { "$@" >"$folder/log" 2>&1 || fail "$*: $(tail -30 "$folder/log")"; }
 
 quietly cmake --install "$build" --prefix "$folder/first"
 # The target `product` builds all of this, so that a user of tools/run can install.
-ninja -C "$build" -t inputs product >"$folder/product"
+ninja -C "$build" -t commands product >"$folder/product"
 while read -r each; do
-  grep -q "/\?$(basename "$each" | sed 's/[.+]/\\&/g')$" "$folder/product" || fail "the target product does not build $each"
-done < <(find "$folder/first" -type f \( -name '*.so*' -o -name '*.1.gz' -o -perm /1 \))
+  grep -q -- "-o \S*${each##*/} " "$folder/product" || fail "the target product does not build $each"
+done < <(find "$folder/first/bin" "$folder/first/lib" -type f \( -name '*.so*' -o -perm /1 \))
 mv "$folder/first" "$folder/prefix"
 "$build/tests/answered_queries" 30000 1 >"$folder/queries"
 
