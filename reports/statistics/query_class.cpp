@@ -29,18 +29,18 @@ bool coincide(Iterator first) {
 
 int exoticness(const Query& query, QueryClass of) {
   const auto all = points(query);
-  if (std::count(all.begin(), all.end(), all[0]) == 8) return 5;
   switch (of) {
     case QueryClass::ordinary:
       return 0;
     case QueryClass::degenerate:
+      if (std::count(all.begin(), all.end(), all[0]) == 8) return 3;
       return coincide(all.begin()) || coincide(all.begin() + 4) ? 2 : 1;
     case QueryClass::extreme:
-      return 3;
+      return 4;
     case QueryClass::unclassified:
       break;
   }
-  return 4;
+  return 5;
 }
 
 }  // namespace nearmiss

@@ -25,8 +25,8 @@ inline constexpr std::array<std::string_view, 4> class_names{"ordinary", "degene
 constexpr std::string_view name(QueryClass of) { return class_names[static_cast<std::size_t>(of)]; }
 
 /// A rank by which failures are shown, the lowest first: 0 for ordinary queries; 1 for degenerate ones in which no two vertices
-/// coincide at t = 0 or at t = 1; 2 for other degenerate ones; 3 for extreme ones; 4 for unclassified ones; 5 for queries of any
-/// class with all vertices at one point for the whole step, such as 24 zeros.
+/// coincide at t = 0 or at t = 1; 2 for other degenerate ones; 3 for those with all vertices at one point for the whole step, such
+/// as 24 zeros; 4 for extreme queries; 5 for unclassified ones.
 int exoticness(const Query& query, QueryClass of);
 
 }  // namespace nearmiss

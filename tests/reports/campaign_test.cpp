@@ -152,6 +152,7 @@ TEST(Campaign, ShowsOrdinaryQueriesFirstThenFrequentFailuresThenSimpleQueries) {
   const auto add = [&](const std::string& name, const std::string& signature, QueryClass of, double number) {
     findings.push_back(finding(findings.size(), name, number, signature));
     findings.back().query_class = of;
+    if (number == 0) findings.back().shrunk = {};
     ++campaign.statistics.seen[signature_of(findings.back())];
   };
   add("zeros", "a", QueryClass::degenerate, 0);
