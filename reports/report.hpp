@@ -22,7 +22,7 @@ struct ReportContext {
 };
 
 /// The version of report.json, which reports/report.schema.json describes.
-inline constexpr int report_schema_version = 1;
+inline constexpr int report_schema_version = 2;
 
 /// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, a verdict on each subject,
 /// error against run time, the histogram's borders, the names of the stages, the first findings of each signature and the

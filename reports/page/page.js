@@ -28,15 +28,34 @@ function drawNavigation() {
     document.querySelector("nav").append(made("a", titles[section.parentNode.id] ?? section.textContent, { href: `#${section.parentNode.id}` }));
 }
 
+/** Run times that differ by more than those of equal campaigns do. */
+function drawChangedTimes({ changed_times: times, compared_times: compared, campaigns_with_times: campaigns }) {
+  const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
+  if (campaigns === 0) return say("Run times are not compared: the baseline ran on another model of processor.");
+  const slower = times.filter((each) => each.slower).length;
+  say(times.length === 0 ? `None of ${integer(compared)} run times differs by more than those of equal campaigns do.`
+    : `${slower} of ${integer(compared)} run times are slower and ${times.length - slower} faster than in equal campaigns.`, slower > 0);
+  if (times.length === 0) return undefined;
+  const ns = (title, field) => ({ title, number: (r) => r[field], text: (r) => short(r[field]) });
+  return fillTable(element("changed-times"), [
+    { title: "run time", text: (r) => (r.slower ? "slower" : "faster"), bad: (r) => r.slower }, text("subject", "subject"), text("kind", "kind"),
+    text("family", "family"), ns("ns before", "before_ns"), ns("ns expected", "expected_ns"), ns("ns now", "now_ns"), ns("now / expected", "ratio"),
+    { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
+  ], times);
+}
+
 function drawBaseline() {
   const baseline = report.baseline;
   if (!baseline) return;
   show("baseline");
-  const way = (each) => `${each.what}, ${each.signature}` + (each.first_seen ? ` (first seen ${each.first_seen}, last seen ${each.last_seen})` : "");
+  const sighting = (date, code) => (code ? `${date} by ${code}` : date);
+  const way = (each) => `${each.what}, ${each.signature}` +
+    (each.first_seen ? ` (first seen ${sighting(each.first_seen, each.first_code)}, last seen ${sighting(each.last_seen, each.last_code)})` : "") +
+    (each.fixed ? `, fixed ${each.fixed}` : "");
   const groups = [
     ["new_signatures", "new way to fail", "new ways to fail", true], ["lasting_signatures", "way to fail as before", "ways to fail as before", true],
     ["unseen_signatures", "not in the baseline, as chance explains", "not in the baseline, as chance explains", false],
-    ["gone_signatures", "no longer seen", "no longer seen", false],
+    ["gone_signatures", "way to fail gone", "ways to fail gone", false], ["unrepeated_signatures", "not seen again, as chance explains", "not seen again, as chance explains", false],
   ];
   const say = (content, bad) => element("news").append(made("li", content, bad ? { class: "bad" } : {}));
   const subjects = new Set(groups.flatMap(([field]) => baseline[field].map((each) => each.subject)));
@@ -64,6 +83,7 @@ function drawBaseline() {
       text("family", "family"), rate("before", "before"), rate("now", "now"),
       { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
     ], baseline.changed_rates);
+  drawChangedTimes(baseline);
   const pair = (title, field, form = short) => ({ title, number: (r) => r.now[field],
     text: (r) => `${form(r.before[field], r.before)} → ${form(r.now[field], r.now)}` });
   const marked = (x, counts) => fraction(x) + unitMark(counts);

@@ -53,9 +53,11 @@ const changeCell = ({ since, clean }) => {
   const parts = [
     ...(since.new > 0 ? [made("strong", counted(since.new, "new way to fail", "new ways to fail"), { class: "bad" })] : []),
     ...(since.worse > 0 ? [made("strong", counted(since.worse, "rate worse", "rates worse"), { class: "bad" })] : []),
+    ...(since.slower > 0 ? [made("strong", counted(since.slower, "run time slower", "run times slower"), { class: "bad" })] : []),
     ...(since.absent ? ["not in the baseline"] : []),
   ];
-  const rest = [since.lasting > 0 && `${counted(since.lasting, "way", "ways")} as before`, since.better > 0 && counted(since.better, "rate better", "rates better")]
+  const rest = [since.lasting > 0 && `${counted(since.lasting, "way", "ways")} as before`, since.gone > 0 && `${counted(since.gone, "way", "ways")} gone`,
+    since.better > 0 && counted(since.better, "rate better", "rates better"), since.faster > 0 && counted(since.faster, "run time faster", "run times faster")]
     .filter(Boolean).join(", ");
   const lines = parts.map((each) => made("div", each));
   if (lines.length === 0) lines.push(made("div", clean ? "nothing new" : "nothing worse"));

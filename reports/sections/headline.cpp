@@ -33,9 +33,17 @@ std::string since_text(const Changes& since, std::size_t asked) {
   std::size_t worse = 0;
   for (const ChangedRate& rate : since.rates) worse += rate.worse() ? 1 : 0;
   if (worse != 0) news.push_back(counted(worse, "worse rate", "worse rates"));
+  std::size_t subjects = 0;
+  std::size_t families = 0;
+  for (const ChangedTime& time : since.times.changed)
+    if (time.slower()) ++(time.is_of_subject() ? subjects : families);
+  if (subjects != 0) news.push_back(counted(subjects, "subject slower", "subjects slower"));
+  if (families != 0) news.push_back(counted(families, "family slower", "families slower"));
   const std::size_t lasting = since.lasting_signatures.size();
+  const std::size_t gone = since.gone_signatures.size();
   return (lasting == 0 ? "" : counted(lasting, "way to fail", "ways to fail") + " as before, ") +
-         (news.empty() ? "nothing worse" : listed(news)) + " since the baseline";
+         (news.empty() ? "nothing worse" : listed(news)) + " since the baseline" +
+         (gone == 0 ? "" : ", and " + counted(gone, "way to fail is gone", "ways to fail are gone"));
 }
 
 }  // namespace

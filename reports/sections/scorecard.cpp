@@ -36,11 +36,16 @@ std::map<std::string, OfSubject> by_subject(const Statistics& statistics) {
   return subjects;
 }
 
-/// The number of a subject's ways to fail, and of its rates that are worse.
+/// The numbers of a subject's ways to fail, rates and run times that have changed.
 ordered_json changes_of(const std::string& subject, const Changes& since) {
   const auto of_subject = [&](const auto& each) { return each.subject == subject; };
   const auto number = [&](const std::vector<Signature>& signatures) {
     return std::count_if(signatures.begin(), signatures.end(), of_subject);
+  };
+  const auto times = [&](bool slower) {
+    return std::count_if(
+        since.times.changed.begin(), since.times.changed.end(),
+        [&](const ChangedTime& each) { return of_subject(each) && each.slower() == slower; });
   };
   return {
       {"new", number(since.new_signatures)},
@@ -50,6 +55,8 @@ ordered_json changes_of(const std::string& subject, const Changes& since) {
                               [&](const ChangedRate& each) { return of_subject(each) && each.worse(); })},
       {"better", std::count_if(since.rates.begin(), since.rates.end(),
                                [&](const ChangedRate& each) { return of_subject(each) && !each.worse(); })},
+      {"slower", times(true)},
+      {"faster", times(false)},
       {"absent", std::find(since.absent_subjects.begin(), since.absent_subjects.end(), subject) !=
                      since.absent_subjects.end()}};
 }

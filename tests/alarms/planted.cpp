@@ -1,8 +1,9 @@
-// The subjects basic and wang as plug-ins with a planted defect. If the environment variable NEARMISS_PLANTED
+// The subjects basic and wang as plug-ins with planted defects. If the environment variable NEARMISS_PLANTED
 // is N, one answer in N is wrong, chosen by the bits of the coordinates. If it is 0 or not set, no answer is
-// wrong.
+// wrong. If NEARMISS_SLOWED is a number above 1, queries of the family kilometres are decided that often, on average.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -20,16 +21,43 @@ namespace {
 using nearmiss::Kind;
 using nearmiss::Query;
 
-bool is_chosen(const Query& query) {
-  static const char* const text = std::getenv("NEARMISS_PLANTED");
-  static const unsigned long long one_in = text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
-  if (one_in == 0) return false;
+/// The value of an environment variable; 0 if it is not set.
+double number_in(const char* variable) {
+  const char* const text = std::getenv(variable);
+  return text == nullptr ? 0 : std::strtod(text, nullptr);
+}
+
+std::uint64_t hash_of(const Query& query) {
   std::uint64_t hash = 0;
   for (const double x : query.x) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U;
     hash ^= hash >> 29;
   }
-  return hash % one_in == 0;
+  return hash;
+}
+
+bool is_wrong(const Query& query) {
+  static const auto one_in = static_cast<std::uint64_t>(number_in("NEARMISS_PLANTED"));
+  return one_in != 0 && hash_of(query) % one_in == 0;
+}
+
+/// Whether a query is like those of the family kilometres: small primitives, far from the origin.
+bool is_of_kilometres(const Query& query) {
+  double farthest = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < query.x.size(); ++i) {
+    farthest = std::max(farthest, std::abs(query.x[i]));
+    size = std::max(size, std::abs(query.x[i] - query.x[i % 3]));
+  }
+  return size <= 3 && farthest > 100 && farthest < 20000;
+}
+
+/// How often to decide a query: NEARMISS_SLOWED times on average.
+int decisions(const Query& query) {
+  static const double mean = number_in("NEARMISS_SLOWED");
+  if (mean <= 1 || !is_of_kilometres(query)) return 1;
+  const double fraction = static_cast<double>(hash_of(query) % 1000) / 1000;
+  return static_cast<int>(mean + fraction);
 }
 
 template <Kind kind>
@@ -48,8 +76,9 @@ template <Kind kind>
 int decide(const double* x) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
-  const bool hit = PLANTED_IN<kind>(query);
-  return hit != is_chosen(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
+  volatile bool hit = false;  // so that every decision is made
+  for (int i = decisions(query); i > 0; --i) hit = PLANTED_IN<kind>(query);
+  return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 
 void decide_all(void* /*state*/, int kind, std::size_t n, const double* x, const double* /*h*/, int* answer,

@@ -152,8 +152,8 @@ TEST(Changes, WaysToFailComeAndGo) {
   const Changes found = changes(now, before);
   ASSERT_THAT(found.new_signatures, SizeIs(1));
   EXPECT_EQ(found.new_signatures[0].text, "vt crash SEGV");
-  ASSERT_THAT(found.gone_signatures, SizeIs(1));
-  EXPECT_EQ(found.gone_signatures[0].text, "old");
+  ASSERT_THAT(found.unrepeated_signatures, SizeIs(1));
+  EXPECT_EQ(found.unrepeated_signatures[0].text, "old");
   EXPECT_TRUE(found.for_the_worse());
 }
 
@@ -268,14 +268,14 @@ TEST(Baseline, KnowsWhenEachSignatureWasSeen) {
   EXPECT_EQ(found.sightings.at(on_edge), (Sightings{"2026-01-03", "2026-01-03", 1}));
   EXPECT_THAT(found.new_signatures, IsEmpty());
   EXPECT_THAT(found.lasting_signatures, ElementsAre(inside));
-  EXPECT_THAT(found.gone_signatures, ElementsAre(on_edge));
+  EXPECT_THAT(found.unrepeated_signatures, ElementsAre(on_edge));
   EXPECT_EQ(describe(found),
             "lasting: false-negative of wang, ee inside, first seen 2026-01-01, last seen 2026-01-03\n");
   const auto json = changes_json(found);
   EXPECT_EQ(json["lasting_signatures"][0]["first_seen"], "2026-01-01");
   EXPECT_EQ(json["lasting_signatures"][0]["last_seen"], "2026-01-03");
   EXPECT_EQ(json["lasting_signatures"][0]["campaigns"], 2);
-  EXPECT_EQ(json["gone_signatures"][0]["first_seen"], "2026-01-03");
+  EXPECT_EQ(json["unrepeated_signatures"][0]["first_seen"], "2026-01-03");
 }
 
 // A failure is new once. While it is there, it is lasting, and the campaign fails.

@@ -1,0 +1,108 @@
+#include "reports/sections/changed_rates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "reports/statistics/family.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
+constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
+
+/// The rates that are compared, for one subject, kind and family.
+std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
+  return {{"false negatives", {counts.false_negatives, counts.collisions}},
+          {"false positives", {counts.false_positives, counts.others()}},
+          {"late times", {counts.late, counts.times_promised}},
+          {beyond_the_bound, {counts.distances.at_least_one(), counts.others()}},
+          {"no answer", {counts.faults_total(), counts.queries}}};
+}
+
+/// All rates that both campaigns have, whether changed or not.
+std::vector<ChangedRate> pairs_of_rates(const Statistics& now, const Statistics& before) {
+  std::vector<ChangedRate> pairs;
+  for (const auto& [key, counts] : now.counts) {
+    const auto earlier = before.counts.find(key);
+    if (earlier == before.counts.end() || !is_random(key.family)) continue;
+    const auto rates = rates_of(counts);
+    const auto earlier_rates = rates_of(earlier->second);
+    for (std::size_t i = 0; i < rates.size(); ++i)
+      if (rates[i].second.total != 0 && earlier_rates[i].second.total != 0)
+        pairs.push_back({rates[i].first, key.subject, std::string(short_name(key.kind)), key.family,
+                         earlier_rates[i].second, rates[i].second});
+  }
+  for (ChangedRate& each : pairs) each.p = fisher_test(each.now, each.before).either();
+  return pairs;
+}
+
+/// A family has few failures up to one of these numbers. All are tried, because larger campaigns have more
+/// failures.
+constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
+
+/// A subject and the name of one of its rates.
+using RateName = std::pair<std::string, std::string_view>;
+
+/// The pairs that have at least one failure and at most `few` in both campaigns together, by the rate's name.
+/// Selecting pairs by this sum favours neither campaign, because each failure counted in the sum is as likely
+/// in one campaign as in the other.
+std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> pairs_with_few(
+    const std::vector<ChangedRate>& pairs, std::uint64_t few) {
+  std::map<RateName, std::vector<std::pair<Proportion, Proportion>>> found;
+  for (const ChangedRate& each : pairs)
+    if (const std::uint64_t both = each.now.count + each.before.count; both != 0 && both <= few)
+      found[{each.subject, each.what}].emplace_back(each.now, each.before);
+  return found;
+}
+
+/// The rates of each subject over all families and kinds with few failures. The function takes the number in
+/// `fews` that gives the smallest p, and multiplies this p by the length of `fews`.
+std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) {
+  std::map<RateName, ChangedRate> best;
+  for (const std::uint64_t few : fews)
+    for (const auto& [name, proportions] : pairs_with_few(pairs, few)) {
+      if (proportions.size() == 1) continue;  // a single family is compared elsewhere
+      ChangedRate sum{name.second, name.first, "vt, ee", fmt::format("families with at most {}", few),
+                      {},          {}};
+      for (const auto& [now, before] : proportions) {
+        sum.now += now;
+        sum.before += before;
+      }
+      sum.p = std::min(1.0, fews.size() * pooled_test(proportions).either());
+      if (const auto [own, fresh] = best.try_emplace(name, sum); !fresh && sum.p < own->second.p)
+        own->second = sum;
+    }
+  std::vector<ChangedRate> sums;
+  for (auto& [name, sum] : best) sums.push_back(std::move(sum));
+  return sums;
+}
+
+/// Names the bound of subjects that claim none.
+void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
+  std::set<std::string> claim_nothing;
+  for (const auto& [key, counts] : now.counts)
+    if (counts.distance_unit() != DistanceUnit::claimed_bound) claim_nothing.insert(key.subject);
+  for (ChangedRate& each : rates)
+    if (each.what == beyond_the_bound && claim_nothing.contains(each.subject)) each.what = beyond_wangs_bound;
+}
+
+}  // namespace
+
+ComparedRates compare_rates(const Statistics& now, const Statistics& before, double risk) {
+  ComparedRates rates{pairs_of_rates(now, before), 0};
+  for (ChangedRate& each : rates_where_few(rates.changed)) rates.changed.push_back(std::move(each));
+  rates.compared = rates.changed.size();
+  const double level = risk / static_cast<double>(std::max<std::size_t>(1, rates.compared));
+  std::erase_if(rates.changed, [&](const ChangedRate& each) { return each.p >= level; });
+  name_bounds(rates.changed, now);
+  return rates;
+}
+
+}  // namespace nearmiss

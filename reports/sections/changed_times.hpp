@@ -1,0 +1,54 @@
+// Run times that differ from those of earlier campaigns.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/campaign/campaign.hpp"
+
+namespace nearmiss {
+
+/// A run time per query that differs by more than those of equal campaigns do.
+struct ChangedTime {
+  /// ChangedTime::all_families, and "vt, ee", for a subject as a whole.
+  std::string subject, kind, family;
+  double before = 0;  ///< ns in the baseline: the geometric mean over its campaigns
+  double expected =
+      0;  ///< ns that would be expected now: `before`, times how much slower everything else has become
+  double now = 0;  ///< ns
+  double p = 1;    ///< the probability of such a difference if nothing has changed
+
+  static constexpr std::string_view all_families = "all families";
+
+  [[nodiscard]] bool is_of_subject() const { return family == all_families; }
+  [[nodiscard]] double ratio() const { return now / expected; }
+  [[nodiscard]] bool slower() const { return now > expected; }
+};
+
+struct ComparedTimes {
+  std::vector<ChangedTime> changed = {};
+  std::size_t compared = 0;
+  std::size_t campaigns = 0;  ///< number of the baseline's campaigns on a processor of the same model
+};
+
+/// Compares the run times of a campaign with those of earlier ones on a processor of the same model: of each subject as a
+/// whole, and of each of its families and kinds. A time is the geometric mean over batches, weighted by their numbers of
+/// queries; that of a subject as a whole is the geometric mean over families and kinds.
+///
+/// A busy machine makes everything slower. Therefore each family is compared with the subject's other families: its time is
+/// divided by its time in the earlier campaign, and this ratio by the median ratio of the subject's families. A subject as a
+/// whole is compared with the other subjects: its median ratio is divided by the median of all subjects' and of 1. This is also
+/// done for the families of a subject that has only a few.
+///
+/// What is left is compared with its spread by Welch's test. The variance of a logarithm is the sum of that which the batches
+/// show, and of that by which the families of the subject differ in addition: most of them have not changed. It is at least
+/// that between the earlier campaigns, if there are several.
+///
+/// @param risk the probability that a time is found to have changed although none has; each comparison has an equal part of
+///             it (Bonferroni)
+ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
+
+}  // namespace nearmiss

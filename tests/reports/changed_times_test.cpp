@@ -1,0 +1,151 @@
+// Comparison of run times with those of a baseline.
+#include "reports/sections/changed_times.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/sections/baseline.hpp"
+#include "reports/sections/headline.hpp"
+#include "tests/reports/campaigns.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::nearmiss::testing::campaign;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// How many times as long as usual a subject takes for a family.
+using Slowness = std::function<double(const CountsKey&)>;
+
+double usual(const CountsKey& /*key*/) { return 1; }
+
+const CountsKey one{"mine", Kind::edge_edge, "f7"};
+
+double one_slower(const CountsKey& key) { return key == one ? 1.5 : 1; }
+
+/// A number from -1 to 1 that looks random.
+double noise(const std::string& text) {
+  return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
+}
+
+/// A night of the subjects, for `families` families. The times of a family differ by up to 2 % from night to night, and those
+/// of its ten batches by up to 20 %.
+Campaign night(const std::string& seed, const Slowness& slowness,
+               std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
+  std::map<CountsKey, Counts> all;
+  for (const std::string& subject : subjects)
+    for (int i = 0; i < families; ++i)
+      for (const Kind kind : kinds) {
+        const CountsKey key{subject, kind, "f" + std::to_string(i)};
+        const std::string name = seed + subject + key.family + std::string(short_name(kind));
+        const double ns = 100 * (1 + i) * slowness(key) * (1 + 0.02 * noise(name));
+        Counts& counts = all[key];
+        counts.queries = 10000;
+        for (int batch = 0; batch < 10; ++batch) {
+          const double of_batch = ns * (1 + 0.2 * noise(name + std::to_string(batch)));
+          counts.times.add(kind, key.family, {1000, static_cast<std::uint64_t>(1000 * of_batch)});
+        }
+      }
+  return campaign(seed, std::move(all));
+}
+
+std::vector<ChangedTime> changed(const Campaign& now, const std::vector<Campaign>& before) {
+  return compare_times(now, before, false_alarm_risk).changed;
+}
+
+TEST(ChangedTimes, EqualNightsHaveNone) {
+  const ComparedTimes found =
+      compare_times(night("2", usual), std::vector{night("1", usual)}, false_alarm_risk);
+  EXPECT_THAT(found.changed, IsEmpty());
+  EXPECT_EQ(found.compared, 2 * (2 * 20 + 1));
+  EXPECT_EQ(found.campaigns, 1);
+}
+
+TEST(ChangedTimes, AFamilyThatIsSlowerIsTold) {
+  const Changes found = changes(night("2", one_slower), night("1", usual));
+  ASSERT_THAT(found.times.changed, SizeIs(1));
+  const ChangedTime& time = found.times.changed[0];
+  EXPECT_NEAR(time.ratio(), 1.5, 0.07);
+  EXPECT_TRUE(time.slower());
+  EXPECT_THAT(describe(found), HasSubstr("slower: mine ee in f7, 1.5"));
+  EXPECT_FALSE(found.for_the_worse());
+  const Headline line = headline(night("2", one_slower).statistics, found);
+  EXPECT_THAT(line.text, HasSubstr("1 family slower since the baseline"));
+  EXPECT_TRUE(line.clean);
+  EXPECT_EQ(changes_json(found)["changed_times"][0]["family"], "f7");
+}
+
+TEST(ChangedTimes, AFamilyThatIsFasterIsTold) {
+  const Changes found = changes(night("2", usual), night("1", one_slower));
+  EXPECT_THAT(describe(found), HasSubstr("faster: mine ee in f7, 0.6"));
+  EXPECT_THAT(headline(night("2", usual).statistics, found).text,
+              HasSubstr("nothing worse since the baseline"));
+}
+
+TEST(ChangedTimes, ABusyMachineSaysNothing) {
+  const Slowness busy = [](const CountsKey&) { return 1.7; };
+  EXPECT_THAT(changed(night("2", busy), {night("1", usual)}), IsEmpty());
+  EXPECT_THAT(changed(night("2", busy, {"mine"}), {night("1", usual, {"mine"})}), IsEmpty());
+  const Slowness busy_and_one_slower = [](const CountsKey& key) { return 1.7 * one_slower(key); };
+  EXPECT_THAT(changed(night("2", busy_and_one_slower), {night("1", usual)}), SizeIs(1));
+}
+
+TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
+  const auto slow = [](double factor) {
+    return [factor](const CountsKey& key) { return key.subject == "mine" ? factor : 1.0; };
+  };
+  for (const double factor : {2.0, 118.0, 1 / 118.0}) {
+    const auto found = changed(night("2", slow(factor)), {night("1", usual)});
+    ASSERT_THAT(found, SizeIs(1)) << factor;
+    EXPECT_TRUE(found[0].is_of_subject());
+    EXPECT_EQ(found[0].subject, "mine");
+    EXPECT_NEAR(found[0].ratio() / factor, 1, 0.05);
+  }
+  const auto alone = changed(night("2", slow(118), {"mine"}), {night("1", usual, {"mine"})});
+  ASSERT_THAT(alone, SizeIs(1));
+  EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
+}
+
+// A family whose times differ by 1.5 between the nights of the baseline does so now.
+TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
+  std::vector<Campaign> nights;
+  for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
+  EXPECT_THAT(changed(night("now", one_slower), nights), IsEmpty());
+  EXPECT_THAT(changed(night("now", usual), nights), IsEmpty());
+  const auto other =
+      changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
+  EXPECT_THAT(other, SizeIs(4));  // both subjects and kinds
+}
+
+// The spread between many families is not known if there is only one.
+TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
+  const auto few = [](double factor) {
+    return [factor](const CountsKey& key) {
+      return key.subject == "mine" && key.kind == Kind::edge_edge ? factor : 1.0;
+    };
+  };
+  const std::vector before{night("1", usual, {"mine", "wang"}, 1)};
+  EXPECT_THAT(changed(night("2", few(1.3), {"mine", "wang"}, 1), before), IsEmpty());
+  const auto found = changed(night("2", few(3), {"mine", "wang"}, 1), before);
+  ASSERT_THAT(found, SizeIs(::testing::Ge(1)));
+  EXPECT_EQ(found[0].kind, "ee");
+}
+
+TEST(ChangedTimes, OfAnotherProcessorAreNotCompared) {
+  Campaign before = night("1", usual);
+  before.runs[0].shards[0].environment["cpu"] = "another";
+  const ComparedTimes found = compare_times(night("2", one_slower), {&before, 1}, false_alarm_risk);
+  EXPECT_EQ(found.compared, 0);
+  EXPECT_EQ(found.campaigns, 0);
+}
+
+}  // namespace
+}  // namespace nearmiss

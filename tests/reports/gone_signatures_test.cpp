@@ -1,0 +1,107 @@
+// Ways to fail that a baseline has, and a campaign has not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/sections/baseline.hpp"
+#include "reports/sections/headline.hpp"
+#include "tests/reports/campaigns.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::nearmiss::testing::campaign;
+using ::nearmiss::testing::counts;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Seen = std::map<Signature, std::uint64_t>;
+
+const auto missed = Finding::What::false_negative;
+const CountsKey key{"mine", Kind::edge_edge, "uniform"};
+const Signature inside{missed, "mine", "ee inside"};
+const Signature on_edge{missed, "mine", "ee on-edge"};
+
+/// A campaign of a plug-in that began at the date.
+Campaign night(const std::string& date, Seen seen, const std::string& version = "1",
+               const std::string& sha256 = "a", std::uint64_t queries = 200000) {
+  Campaign made = campaign(date, {{key, counts(queries, queries / 2, 0, 0)}});
+  made.runs[0].shards[0].started = date;
+  made.runs[0].info["plug-in mine version"] = version;
+  made.runs[0].info["plug-in mine sha256"] = sha256 + "0123456789abcdef";
+  made.statistics.seen = std::move(seen);
+  return made;
+}
+
+TEST(Gone, IsWhatChanceWouldHardlyHide) {
+  const Changes found = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 40}, {on_edge, 20}}));
+  EXPECT_THAT(found.gone_signatures, ElementsAre(inside));
+  EXPECT_EQ(describe(found),
+            "lasting: false-negative of mine, ee on-edge, first seen 1 (version 1), last seen 1 (version 1)\n"
+            "gone: false-negative of mine, ee inside, first seen 1 (version 1), last seen 1 (version 1)\n");
+  EXPECT_THAT(headline({}, found).text, HasSubstr("1 way to fail is gone"));
+  const Changes chance = changes(night("2", {{on_edge, 20}}), night("1", {{inside, 4}, {on_edge, 20}}));
+  EXPECT_THAT(chance.gone_signatures, IsEmpty());
+  EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
+}
+
+// Each of them may be hidden by chance, but not all together.
+TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
+  Seen rare;
+  for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
+  EXPECT_EQ(changes(night("2", {}), night("1", rare)).gone_signatures.size(), 30);
+  EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
+}
+
+TEST(Gone, NeedsTheQueriesOfEveryFamily) {
+  const Campaign before = night("1", {{inside, 40}});
+  EXPECT_THAT(changes(night("2", {}, "1", "a", 20000), before).gone_signatures, IsEmpty());
+  Campaign other = night("2", {});
+  other.statistics.counts = {{{"mine", Kind::edge_edge, "parallel"}, counts(200000, 100000, 0, 0)}};
+  EXPECT_THAT(changes(other, before).gone_signatures, IsEmpty());
+  Campaign crashes = night("2", {});
+  crashes.statistics.counts[key].faults[static_cast<std::size_t>(Fault::crash)] = 100000;
+  crashes.statistics.counts[key].collisions = 0;
+  EXPECT_THAT(changes(crashes, before).gone_signatures, ElementsAre(inside));
+  crashes.statistics.counts[key].faults[static_cast<std::size_t>(Fault::crash)] = 199000;
+  EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
+}
+
+// The campaign replays fewer of the cases in which it was seen.
+TEST(Gone, DoesNotCountFailuresInCases) {
+  Campaign before = night("1", {{inside, 40}});
+  before.statistics.counts[{"mine", Kind::edge_edge, "planar/"}] = counts(50, 50, 38, 0);
+  EXPECT_THAT(changes(night("2", {}), before).gone_signatures, IsEmpty());
+}
+
+TEST(Gone, IsFixedIfTheCodeHasChanged) {
+  const std::vector before{night("1", {{inside, 40}}, "1", "a"), night("2", {{inside, 30}}, "2", "b")};
+  const auto text = [&](const std::string& version, const std::string& sha256) {
+    return describe(changes(night("3", {}, version, sha256), before));
+  };
+  const std::string seen =
+      ": false-negative of mine, ee inside, first seen 1 (version 1), last seen 2 (version 2)\n";
+  EXPECT_EQ(text("3", "c"), "fixed in version 3" + seen);
+  EXPECT_EQ(text("2", "c"), "fixed since sha256 c0123456789a" + seen);
+  EXPECT_EQ(text("2", "b"), "gone" + seen);
+  const auto json = changes_json(changes(night("3", {}, "3", "c"), before));
+  EXPECT_EQ(json["gone_signatures"][0]["fixed"], "in version 3");
+  EXPECT_EQ(json["gone_signatures"][0]["first_code"], "version 1");
+  EXPECT_EQ(json["gone_signatures"][0]["last_code"], "version 2");
+}
+
+TEST(Gone, OfABuiltInSubjectIsFixedInAVersionOfNearmiss) {
+  Campaign before = night("1", {{inside, 40}});
+  before.runs[0].info = {{"version", "0.1"}, {"commit", "abc"}};
+  Campaign now = night("2", {});
+  now.runs[0].info = {{"version", "0.1"}, {"commit", "def"}};
+  EXPECT_THAT(describe(changes(now, before)), HasSubstr("fixed since commit def: "));
+  EXPECT_EQ(code_of(now, "mine"), (SubjectCode{"0.1", "commit def"}));
+}
+
+}  // namespace
+}  // namespace nearmiss
