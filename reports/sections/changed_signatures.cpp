@@ -26,12 +26,6 @@ double level_of(double risk, std::size_t tests) {
   return risk / static_cast<double>(std::max<std::size_t>(1, tests));
 }
 
-/// The number of queries with this signature, among all queries of its subject.
-Proportion proportion_of(const Statistics& statistics, const Signature& signature) {
-  const std::uint64_t seen = statistics.times_seen(signature);
-  return {seen, std::max(seen, statistics.queries_of(signature.subject))};
-}
-
 /// The expected number of new signatures in a campaign with `ratio` times as many queries. This number is
 /// computed from the number of times that each known signature was seen, with the series of Good and Toulmin
 /// 1956, or with its first term for a larger campaign.
@@ -83,38 +77,6 @@ std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns)
   return all;
 }
 
-/// Finds out which of the signatures that were seen now are new.
-void find_new(const Statistics& now, const Statistics& before, double risk, ChangedSignatures& changes) {
-  // The numbers of times that signatures were seen before, by sort of failure.
-  std::map<Sort, std::vector<std::uint64_t>> seen_before;
-  for (const auto& [signature, count] : before.seen)
-    seen_before[{signature.what, signature.subject}].push_back(count);
-  const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
-  const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
-  const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
-  for (const auto& [signature, count] : now.seen) {
-    if (std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
-      continue;
-    const bool is_unseen = before.times_seen(signature) == 0;
-    const bool fails_anyway =
-        !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
-    const bool is_new =
-        fails_anyway
-            ? fisher_test(proportion_of(now, signature), proportion_of(before, signature)).more < level
-            : is_unseen;
-    if (is_new)
-      changes.new_signatures.push_back(signature);
-    else if (is_unseen)
-      changes.unseen_signatures.push_back(signature);
-    else
-      changes.lasting_signatures.push_back(signature);
-  }
-  for (const auto& [sort, seen] : seen_before) {
-    const Proportion queries{now.queries_of(sort.second), before.queries_of(sort.second)};
-    if (queries.total != 0) changes.expected_unseen += expected_unseen(seen, queries.rate());
-  }
-}
-
 std::uint64_t faults(const Counts& counts, Fault fault) {
   return counts.faults[static_cast<std::size_t>(fault)];
 }
@@ -137,45 +99,107 @@ std::uint64_t failures(const Counts& counts, What what) {
   return what == What::fault ? counts.faults_total() - unasked(counts) : 0;
 }
 
-/// How often a subject could fail in a sort, before and now.
+/// How often a subject could fail in a sort now, compared with before. Nobody knows in which family a signature was seen.
 struct Chances {
-  std::uint64_t before = 0;     ///< in random queries
-  std::uint64_t unsampled = 0;  ///< failures in cases and meshes before
-  double share = 0;             ///< the smallest fraction now / before over its families and kinds
+  std::uint64_t before = 0;  ///< number of random queries
+  double least =
+      HUGE_VAL;  ///< the smallest ratio of the numbers of queries now and before, over the families and kinds before
+  double most = 0;  ///< the largest one
 
-  [[nodiscard]] std::uint64_t now() const {
-    return static_cast<std::uint64_t>(share * static_cast<double>(before));
+  [[nodiscard]] bool known() const { return before != 0; }
+  [[nodiscard]] std::uint64_t now(double ratio) const {
+    return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
   }
 };
 
-Chances chances(const Statistics& now, const Statistics& before, const Sort& sort) {
-  Chances sum;
-  std::optional<double> share;
-  for (const auto& [key, counts] : before.counts) {
-    if (key.subject != sort.second) continue;
-    if (!is_random(key.family)) {
-      sum.unsampled += failures(counts, sort.first);
-      continue;
-    }
-    const std::uint64_t earlier = chances(counts, sort.first);
-    if (earlier == 0) continue;
-    const auto same = now.counts.find(key);
-    const std::uint64_t again = same == now.counts.end() ? 0 : chances(same->second, sort.first);
-    sum.before += earlier;
-    share = std::min(share.value_or(HUGE_VAL), static_cast<double>(again) / static_cast<double>(earlier));
+/// The chances of each sort in which a signature was seen.
+class AllChances {
+ public:
+  AllChances(const Statistics& now, const Statistics& before) : now_(now), before_(before) {}
+
+  [[nodiscard]] const Chances& of(const Sort& sort) {
+    const auto [place, is_unknown] = known_.try_emplace(sort);
+    if (is_unknown) count(sort, place->second);
+    return place->second;
   }
-  sum.share = share.value_or(0);
+
+ private:
+  void count(const Sort& sort, Chances& sum) const {
+    for (const auto& [key, counts] : before_.counts) {
+      const std::uint64_t earlier = chances(counts, sort.first);
+      if (key.subject != sort.second || !is_random(key.family) || earlier == 0) continue;
+      const auto same = now_.counts.find(key);
+      const std::uint64_t again = same == now_.counts.end() ? 0 : chances(same->second, sort.first);
+      const double ratio = static_cast<double>(again) / static_cast<double>(earlier);
+      sum.before += earlier;
+      sum.least = std::min(sum.least, ratio);
+      sum.most = std::max(sum.most, ratio);
+    }
+  }
+
+  const Statistics& now_;
+  const Statistics& before_;
+  std::map<Sort, Chances> known_;
+};
+
+/// The number of failures of a sort in cases and meshes.
+std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
+  std::uint64_t sum = 0;
+  for (const auto& [key, counts] : statistics.counts)
+    if (key.subject == sort.second && !is_random(key.family)) sum += failures(counts, sort.first);
   return sum;
 }
 
-/// The probability that a failure seen `times` before is not seen now, if nothing has changed.
-double chance_of_none(std::uint64_t times, const Chances& chances) {
-  const std::uint64_t random = times - std::min(times, chances.unsampled);
-  return fisher_test({0, chances.now()}, {std::min(random, chances.before), chances.before}).less;
+/// The probability that a failure which was seen `before` times is seen at least `now` times, if nothing has changed.
+double chance_of_more(std::uint64_t now, std::uint64_t before, const Chances& chances) {
+  if (!chances.known()) return 1;
+  return fisher_test({now, std::max(now, chances.now(chances.most))},
+                     {before, std::max(before, chances.before)})
+      .more;
+}
+
+/// The probability that a failure which was seen `before` times is not seen now.
+double chance_of_none(std::uint64_t before, const Chances& chances) {
+  if (!chances.known()) return 1;
+  return fisher_test({0, chances.now(chances.least)}, {before, std::max(before, chances.before)}).less;
+}
+
+/// Finds out which of the signatures that were seen now are new.
+void find_new(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
+              ChangedSignatures& changes) {
+  // The numbers of times that signatures were seen before, by sort of failure.
+  std::map<Sort, std::vector<std::uint64_t>> seen_before;
+  for (const auto& [signature, count] : before.seen)
+    seen_before[{signature.what, signature.subject}].push_back(count);
+  const auto is_only_before = [&](const auto& each) { return now.times_seen(each.first) == 0; };
+  const auto only_before = std::count_if(before.seen.begin(), before.seen.end(), is_only_before);
+  const double level = level_of(risk, now.seen.size() + static_cast<std::size_t>(only_before));
+  for (const auto& [signature, count] : now.seen) {
+    if (std::binary_search(changes.absent_subjects.begin(), changes.absent_subjects.end(), signature.subject))
+      continue;
+    const bool is_unseen = before.times_seen(signature) == 0;
+    const bool fails_anyway =
+        !signature.subject.empty() && seen_before.contains({signature.what, signature.subject});
+    const bool is_new = fails_anyway
+                            ? chance_of_more(count, before.times_seen(signature),
+                                             all_chances.of({signature.what, signature.subject})) < level
+                            : is_unseen;
+    if (is_new)
+      changes.new_signatures.push_back(signature);
+    else if (is_unseen)
+      changes.unseen_signatures.push_back(signature);
+    else
+      changes.lasting_signatures.push_back(signature);
+  }
+  for (const auto& [sort, seen] : seen_before) {
+    const Proportion queries{now.queries_of(sort.second), before.queries_of(sort.second)};
+    if (queries.total != 0) changes.expected_unseen += expected_unseen(seen, queries.rate());
+  }
 }
 
 /// Finds out which of the signatures that were seen before are gone.
-void find_gone(const Statistics& now, const Statistics& before, double risk, ChangedSignatures& changes) {
+void find_gone(const Statistics& now, const Statistics& before, double risk, AllChances& all_chances,
+               ChangedSignatures& changes) {
   std::set<Sort> still_fail;
   for (const auto& [signature, count] : now.seen) still_fail.emplace(signature.what, signature.subject);
   std::map<Sort, std::uint64_t> seen_before;
@@ -187,11 +211,12 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   const double level = level_of(risk, candidates.size() + seen_before.size());
   for (const Signature& each : candidates) {
     const Sort sort{each.what, each.subject};
-    const Chances of_sort = chances(now, before, sort);
-    const bool is_gone =
-        !each.subject.empty() &&
-        (chance_of_none(before.times_seen(each), of_sort) < level ||
-         (!still_fail.contains(sort) && chance_of_none(seen_before.at(sort), of_sort) < level));
+    const Chances& of_sort = all_chances.of(sort);
+    const auto chance = [&, in_cases = unsampled(before, sort)](std::uint64_t times) {
+      return chance_of_none(times - std::min(times, in_cases), of_sort);
+    };
+    const bool is_gone = chance(before.times_seen(each)) < level ||
+                         (!still_fail.contains(sort) && chance(seen_before.at(sort)) < level);
     (is_gone ? changes.gone_signatures : changes.unrepeated_signatures).push_back(each);
   }
 }
@@ -230,8 +255,9 @@ ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campai
                                      const Statistics& before, double risk) {
   ChangedSignatures changes{.sightings = sightings_in(baseline),
                             .absent_subjects = absent_subjects(now.statistics, before)};
-  find_new(now.statistics, before, risk, changes);
-  find_gone(now.statistics, before, risk, changes);
+  AllChances all_chances(now.statistics, before);
+  find_new(now.statistics, before, risk, all_chances, changes);
+  find_gone(now.statistics, before, risk, all_chances, changes);
   for (const Signature& each : changes.gone_signatures)
     if (const std::string text = fixed_text(changes.sightings.at(each).last_code, code_of(now, each.subject));
         !text.empty())

@@ -60,12 +60,13 @@ struct ChangedSignatures {
 /// If a subject has no failure of a sort in the baseline, each failure of that sort is new. Any failure
 /// of the oracle is new. A subject that fails anyway shows a few unseen signatures every time. Therefore such
 /// a subject's signature is new only if Fisher's exact test finds it more frequent among the subject's
-/// queries than chance explains.
+/// queries than chance explains. A signature that is no longer seen is gone if the same test finds it less frequent, or if the
+/// subject has no failure of that sort any more and the test finds all of them together less frequent.
 ///
-/// A signature that is no longer seen is gone if the same test finds it less frequent, or if the subject has no failure
-/// of that sort any more and the test finds all of them together less frequent. The number of queries is the least that
-/// any family allows: if a family of the baseline has a tenth of its queries now, a tenth of all queries counts. Failures in
-/// cases and meshes do not count, because these are no random samples.
+/// Campaigns that ended by time have asked some families more than others. Nobody knows in which families a signature
+/// was seen. Therefore the test takes the ratio of the numbers of queries, now and before, of the family that makes the result
+/// least certain: the largest one for a signature that may be new, the smallest for one that may be gone. Failures in
+/// cases and meshes do not make a signature gone, because these may not have been asked again.
 ///
 /// @param before the sum of the baseline's statistics
 /// @param risk the probability that a signature is found to be new although none is, and also that one is found to be

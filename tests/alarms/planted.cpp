@@ -52,12 +52,12 @@ bool is_of_kilometres(const Query& query) {
   return size <= 3 && farthest > 100 && farthest < 20000;
 }
 
-/// How often to decide a query: NEARMISS_SLOWED times on average.
+/// How often to decide a query: NEARMISS_SLOWED times on average, and at least once.
 int decisions(const Query& query) {
   static const double mean = number_in("NEARMISS_SLOWED");
-  if (mean <= 1 || !is_of_kilometres(query)) return 1;
+  if (!is_of_kilometres(query)) return 1;
   const double fraction = static_cast<double>(hash_of(query) % 1000) / 1000;
-  return static_cast<int>(mean + fraction);
+  return std::max(1, static_cast<int>(mean + fraction));
 }
 
 template <Kind kind>
@@ -77,7 +77,12 @@ int decide(const double* x) {
   Query query{.kind = kind};
   std::copy(x, x + query.x.size(), query.x.begin());
   volatile bool hit = false;  // so that every decision is made
-  for (int i = decisions(query); i > 0; --i) hit = PLANTED_IN<kind>(query);
+  int made = 0;
+  do {
+    hit = PLANTED_IN<kind>(query);
+    ++made;
+  } while (made <
+           decisions(query));  // asked as often as it decides, so that this takes its part of the time, too
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 

@@ -37,7 +37,7 @@ double noise(const std::string& text) {
 }
 
 /// A night of the subjects, for `families` families. The times of a family differ by up to 2 % from night to night, and those
-/// of its ten batches by up to 20 %.
+/// of its 40 batches by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -48,8 +48,8 @@ Campaign night(const std::string& seed, const Slowness& slowness,
         const std::string name = seed + subject + key.family + std::string(short_name(kind));
         const double ns = 100 * (1 + i) * slowness(key) * (1 + 0.02 * noise(name));
         Counts& counts = all[key];
-        counts.queries = 10000;
-        for (int batch = 0; batch < 10; ++batch) {
+        counts.queries = 40000;
+        for (int batch = 0; batch < 40; ++batch) {
           const double of_batch = ns * (1 + 0.2 * noise(name + std::to_string(batch)));
           counts.times.add(kind, key.family, {1000, static_cast<std::uint64_t>(1000 * of_batch)});
         }

@@ -57,6 +57,18 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
+// A campaign that ended by time has asked the family of this signature twice as much as before, and the others as much.
+TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
+  const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
+    Campaign made = night(date, {{inside, seen}});
+    made.statistics.counts[{"mine", Kind::edge_edge, "parallel"}] = counts(queries, queries / 2, 0, 0);
+    return made;
+  };
+  const Campaign before = night_of("1", 1000, 100);
+  EXPECT_THAT(changes(night_of("2", 2000, 200), before).new_signatures, IsEmpty());
+  EXPECT_THAT(changes(night_of("2", 1000, 200), before).new_signatures, ElementsAre(inside));
+}
+
 TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   const Campaign before = night("1", {{inside, 40}});
   EXPECT_THAT(changes(night("2", {}, "1", "a", 20000), before).gone_signatures, IsEmpty());
