@@ -5,6 +5,7 @@
 
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 

@@ -5,14 +5,13 @@ import math
 import sqlite3
 from collections import defaultdict
 from dataclasses import dataclass, field
-from statistics import mean, stdev
+from statistics import mean, variance
 
 from scipy.stats import hypergeom, t
 
 RISK = 1e-3
 FEWEST_FAMILIES = 8
-FAMILY, SUBJECT, MACHINE = 0.04, 0.08, 0.15
-DEGREES_OF_FREEDOM = 20
+FAMILY, SUBJECT, MACHINE = 0.05, 0.08, 0.15
 ALL = 'all families'
 
 
@@ -24,7 +23,6 @@ class Night:
     counts: dict = field(default_factory=dict)
     seen: dict = field(default_factory=dict)
     processors: set = field(default_factory=set)
-    facts: list = field(default_factory=list)
 
     @classmethod
     def of(cls, store):
@@ -35,33 +33,186 @@ class Night:
         for row in database.execute('SELECT * FROM counts'):
             key = row['subject'], row['kind'], row['family']
             night.counts[key] = dict(row)
-            batches = json.loads(row['times_batches'])
-            if batches:
-                night.times[key] = math.log(median_ns(batches[0][2]))
+            bins = [
+                each for *_, of_family in json.loads(row['times_batches']) for each in of_family
+            ]
+            if len(bins) > 1 and _is_random(row['family']):
+                night.times[key] = _log_time(bins)
         for row in database.execute('SELECT * FROM seen'):
             night.seen[row['what'], row['subject'], row['signature']] = row['times']
         for (environment,) in database.execute('SELECT environment FROM shard'):
             night.processors.add(json.loads(environment).get('cpu'))
-        night.facts = [json.loads(info) for (info,) in database.execute('SELECT info FROM run')]
         database.close()
         return night
 
 
-def median_ns(bins):
-    """The median of times in ps, each with its number of queries."""
-    queries = 0
-    for time, count in sorted(bins):
-        queries += count
-        if 2 * queries >= sum(count for _, count in bins):
-            return time / 1000
-    raise ValueError('no query was timed')
+def _is_random(family):
+    return not family.endswith('/') and not family.startswith('scene:')
 
 
-def median(values):
+def _log_time(bins):
+    """The mean logarithm of the times, its variance, and the degrees of freedom."""
+    queries = sum(count for _, count in bins)
+    logs = [(math.log(ps / 1000), count) for ps, count in bins]
+    middle = sum(log * count for log, count in logs) / queries
+    squares = sum(count * (log - middle) ** 2 for log, count in logs)
+    return middle, squares / (len(bins) - 1) / queries, len(bins) - 1
+
+
+def _median(values):
     """The median; between two, the one nearer to 0."""
     values = sorted(values)
     return min(values[(len(values) - 1) // 2], values[len(values) // 2], key=abs)
 
 
-def is_random(family):
-    return not family.endswith('/') and not family.startswith('scene:')
+class _Times:
+    """The ratios of times, and their tests."""
+
+    def __init__(self, now, nights):
+        self.now, self.nights = now, nights
+        self.subjects = defaultdict(list)
+        for key in now.times:
+            self.subjects[key[0]].append(key)
+        self.common, self.own = defaultdict(list), defaultdict(list)
+        for night in nights:
+            self._compare(night)
+
+    def _compare(self, night):
+        ratios = {
+            key: time[0] - night.times[key][0]
+            for key, time in self.now.times.items()
+            if key in night.times
+        }
+        by_subject = {
+            subject: [ratios[key] for key in keys if key in ratios]
+            for subject, keys in self.subjects.items()
+        }
+        medians = {subject: _median(logs) for subject, logs in by_subject.items() if logs}
+        machine = _median([0, *medians.values()])
+        for subject, ratio in medians.items():
+            self._note((subject, 'vt, ee', ALL), ratio, machine)
+        for key, ratio in ratios.items():
+            has_spread = len(self.subjects[key[0]]) >= FEWEST_FAMILIES
+            self._note(key, ratio, medians[key[0]] if has_spread else machine)
+
+    def _note(self, key, ratio, common):
+        self.common[key].append(common)
+        self.own[key].append(ratio - common)
+
+    def _sampling(self, key):
+        """The variances of the times, each with its degrees of freedom."""
+        nights = [night.times[key] for night in self.nights if key in night.times]
+        terms = [self.now.times[key], *nights]
+        shares = [1, *([len(nights) ** -2] * len(nights))]
+        return [(share * value, free) for share, (_, value, free) in zip(shares, terms)]
+
+    def _spread(self, key):
+        """The variances of a change, each with its degrees of freedom."""
+        subject, _, family = key
+        factor = 1 + 1 / len(self.own[key])
+        families = [each for each in self.own if each[0] == subject and each[2] != ALL]
+        if family == ALL:
+            terms = [
+                (value / len(self.subjects[subject]) ** 2, free)
+                for each in families
+                for value, free in self._sampling(each)
+            ]
+        else:
+            terms = self._sampling(key)
+        if family == ALL or len(self.subjects[subject]) < FEWEST_FAMILIES:
+            assumed = SUBJECT if len(self.subjects) > 1 else MACHINE
+            return [*terms, (assumed**2 * factor / 2, math.inf)]
+        usual = 1.4826 * _median([abs(mean(self.own[each])) for each in families])
+        sampled = _median([sum(v for v, _ in self._sampling(each)) for each in families])
+        least = FAMILY**2 * (1 + 1 / len(self.own[families[-1]])) / 2
+        return [*terms, (max(usual**2 - sampled, least), len(families) - 1)]
+
+    def tested(self):
+        """What report.json says about each time, in order."""
+        order = {'vt, ee': 'vt'}
+        kinds = ['vt', 'ee']
+        for key in sorted(
+            self.own, key=lambda k: (k[0], kinds.index(order.get(k[1], k[1])), k[2])
+        ):
+            own, terms = self.own[key], self._spread(key)
+            value = sum(v for v, _ in terms)
+            weight = sum(v**2 / free for v, free in terms)
+            free = min(value**2 / weight, 1e6) if weight else 1e6
+            between = variance(own) * (1 + 1 / len(own)) if len(own) > 1 else 0
+            change = mean(own)
+            if key[2] == ALL:
+                now = mean(self.now.times[each][0] for each in self.subjects[key[0]])
+            else:
+                now = self.now.times[key][0]
+            yield key, {
+                'slower': change > 0,
+                'ratio': math.exp(change),
+                'p': 2 * t.sf(abs(change) / math.sqrt(max(value, between)), free),
+                'before_ns': math.exp(now - change - mean(self.common[key])),
+                'expected_ns': math.exp(now - change),
+                'now_ns': math.exp(now),
+            }
+
+
+def _check_times(comparison, where, found, now, nights):
+    nights = [night for night in nights if night.processors == now.processors]
+    tested = list(_Times(now, nights).tested()) if nights else []
+    comparison.same('changes', f'{where} campaigns', found['campaigns_with_times'], len(nights))
+    comparison.same('changes', f'{where} compared', found['compared_times'], len(tested))
+    changed = [(key, row) for key, row in tested if row['p'] < RISK / len(tested)]
+    names = [(row['subject'], row['kind'], row['family']) for row in found['changed_times']]
+    comparison.same('names', f'{where} changed', names, [key for key, _ in changed])
+    for row, (key, expected) in zip(found['changed_times'], changed):
+        comparison.same('changes', f'{where} {key}', row['slower'], expected['slower'])
+        for name in ('ratio', 'p', 'before_ns', 'expected_ns', 'now_ns'):
+            relative = 1e-6 if name == 'p' else 1e-9
+            comparison.near(
+                'changes', f'{where} {key} {name}', row[name], expected[name], relative
+            )
+
+
+def _gone(now, nights):
+    """The signatures that only the baseline has: those that are gone, and the others. Subjects
+    without faults are asked about random queries."""
+    before, seen, of_sort = defaultdict(int), defaultdict(int), defaultdict(int)
+    for night in nights:
+        for key, row in night.counts.items():
+            before[key] += row['queries']
+        for signature, times in night.seen.items():
+            seen[signature] += times
+            of_sort[signature[:2]] += times
+    candidates = [signature for signature in seen if signature not in now.seen]
+    level = RISK / (len(candidates) + len(of_sort)) if seen else 0
+
+    def chance_of_none(subject, times):
+        asked = {key: number for key, number in before.items() if key[0] == subject}
+        least = min(
+            now.counts[key]['queries'] / number if key in now.counts else 0
+            for key, number in asked.items()
+        )
+        again = int(least * sum(asked.values()))
+        return hypergeom.cdf(0, again + sum(asked.values()), times, again)
+
+    still = {signature[:2] for signature in now.seen}
+    gone = {
+        signature
+        for signature in candidates
+        if chance_of_none(signature[1], seen[signature]) < level
+        or (
+            signature[:2] not in still
+            and chance_of_none(signature[1], of_sort[signature[:2]]) < level
+        )
+    }
+    return gone, set(candidates) - gone
+
+
+def check_baseline(comparison, where, found, now, nights):
+    """Checks the run times that have changed, and the signatures that are gone, by the stores of
+    the campaign and of its baseline."""
+    now, nights = Night.of(now), [Night.of(each) for each in nights]
+    _check_times(comparison, where, found, now, nights)
+    for name, expected in zip(('gone', 'unrepeated'), _gone(now, nights)):
+        signatures = [
+            (row['what'], row['subject'], row['signature']) for row in found[f'{name}_signatures']
+        ]
+        comparison.same('names', f'{where} {name}', sorted(signatures), sorted(expected))

@@ -3,6 +3,8 @@
 
 import argparse
 import copy
+import json
+import os
 import re
 import shutil
 import subprocess
@@ -13,6 +15,7 @@ from pathlib import Path
 
 from asking import Nearmiss
 from changes import changed, found, leaves, pattern, put
+from check_baseline import check_baseline
 from check_counts import check_statistics
 from check_csv import (
     check_classes_csv,
@@ -25,6 +28,7 @@ from check_csv import (
 from check_page import check_page
 from check_sections import front
 from check_text import check_text
+from comparison import Comparison
 from recount import check_report, recount
 
 # The subjects: one that misses, several with valid claims at various precisions, one that passes
@@ -282,6 +286,60 @@ class Recount(unittest.TestCase):
             self.assertEqual(
                 'DIFFERENCE CSV: statistics.csv' in done.stdout, code == 1, done.stdout
             )
+
+
+class Baseline(unittest.TestCase):
+    """A campaign with a baseline of two. A plug-in that failed does so no more, and takes a hundred
+    times as long for one family."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix='nearmiss-recount-'))
+        planted = EXECUTABLE.parent / 'plugins' / 'planted_in_wang.so'
+        cls.stores = [cls.folder / f'{i}.db' for i in range(3)]
+        for seed, store in enumerate(cls.stores):
+            defect = {'NEARMISS_SLOWED': '100'} if seed == 2 else {'NEARMISS_PLANTED': '50'}
+            command = f'fuzz --family uniform,kilometres,floats,decimals,parallel --cases 3000 --seed {seed} --subject wang,{planted} -q --db {store}'
+            cls.run_nearmiss(*command.split(), **defect)
+        baseline = [part for each in cls.stores[:2] for part in ('--baseline', each)]
+        cls.run_nearmiss('report', cls.stores[2], *baseline, '-o', cls.folder / 'report')
+        cls.json = json.loads((cls.folder / 'report' / 'report.json').read_text())['baseline']
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    @staticmethod
+    def run_nearmiss(*arguments, **environment):
+        """Runs nearmiss in an environment, and returns its output. Misses are no errors here."""
+        done = subprocess.run(
+            [EXECUTABLE, *arguments],
+            env={**os.environ, **environment},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode in (0, 1), done.stderr
+        return done.stdout
+
+    def check(self, comparison):
+        check_baseline(comparison, 'baseline', self.json, self.stores[2], self.stores[:2])
+
+    def test_changes_are_what_the_stores_say(self):
+        comparison = Comparison()
+        self.check(comparison)
+        self.assertEqual(comparison.differences, [])
+        slower = {(row['family'], row['kind']) for row in self.json['changed_times']}
+        self.assertLessEqual({('kilometres', 'vt'), ('kilometres', 'ee')}, slower)
+        self.assertGreater(len(self.json['gone_signatures']), 0)
+
+    def test_a_change_of_any_value_is_found(self):
+        checked = ('changed_times', 'compared_times', 'campaigns_with_times', 'gone_signatures')
+        for path, leaf in leaves({name: self.json[name] for name in checked}):
+            if re.search(r'_seen$|_code$|^campaigns$|^fixed$', str(path[-1])):
+                continue
+            with self.subTest(path=path), put(self.json, path, changed(leaf)):
+                self.assertTrue(found(self.check))
 
 
 if __name__ == '__main__':

@@ -227,7 +227,8 @@ export async function showsTheBaseline(browser) {
   assert.match(news, /Not in the baseline: basic-plain\./);
   assert.match(news, /basic: \d+ ways to fail as before, \d+ not in the baseline, as chance explains/);
   assert.doesNotMatch(news, /basic(-plain)?: \d+ new/); // the baseline has this failure
-  assert.match(news, /false-negative, [^(]+ \(first seen 20\d\d-\S+Z, last seen 20\d\d-\S+Z\)/);
+  assert.match(news, /false-negative, [^(]+ \(first seen 20\d\d-\S+Z by version [\d.]+, last seen 20\d\d-\S+Z by version [\d.]+\)/);
+  assert.match(news, / run times (differs by more than those of equal campaigns do|are slower and \d+ faster than in equal campaigns)\./);
   assert.match(news, /By chance, about \d+ ways that are not in the baseline were expected\./);
   assert.equal(await count(page, "#news details[open]"), 0);
   assert.match(await page.locator(".verdict", { hasText: /^FAILbasic\d/ }).textContent(), /nothing worse\d+ ways as before/);
