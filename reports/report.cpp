@@ -22,7 +22,7 @@
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/scorecard.hpp"
 #include "reports/sections/shown.hpp"
-#include "reports/sections/summary.hpp"
+#include "reports/sections/verdicts.hpp"
 #include "reports/sections/trade_off.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
@@ -171,10 +171,10 @@ ordered_json report_json(const Campaign& campaign, const ReportContext& context)
   json.update(summary_json({campaign.runs, by_shown_family(statistics)}));
   std::optional<Changes> since;
   if (!context.baseline.empty()) since = changes(campaign, context.baseline);
-  const Headline line = headline(statistics, since);
-  json["headline"] = {{"clean", line.clean}, {"text", line.text}};
+  const Headline line = headline(statistics, since, context.failing);
+  json["headline"] = {{"clean", line.clean}, {"text", line.text}, {"alarms", line.alarms}};
   const std::vector<ShownFinding> findings = shown_findings(campaign);
-  json["verdicts"] = scorecard_json(statistics, findings, since);
+  json["verdicts"] = scorecard_json(statistics, findings, since, context.failing);
   json["oracle"]["complaint"] = oracle_complaint(statistics);
   json["error_against_time"] = trade_offs_json(statistics);
   json["histogram_borders"] = borders_json();

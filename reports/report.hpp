@@ -10,6 +10,7 @@
 #include "reports/campaign/campaign.hpp"
 #include "reports/sections/environment_table.hpp"
 #include "reports/sections/power_table.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -19,10 +20,11 @@ struct ReportContext {
   std::vector<Hunt> hunts = {};         ///< hunts for known defects
   std::string audit = {};               ///< audit of rounding constants (audit_table.hpp)
   std::vector<Environment> environments = {};
+  Failures failing = usual_failures();  ///< the failures that count
 };
 
 /// The version of report.json, which reports/report.schema.json describes.
-inline constexpr int report_schema_version = 1;
+inline constexpr int report_schema_version = 2;
 
 /// Everything that the page shows: the version; summary_json by shown family (family.hpp); the headline, a verdict on each subject,
 /// error against run time, the histogram's borders, the names of the stages, the first findings of each signature and the

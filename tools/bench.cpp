@@ -18,6 +18,7 @@
 #include "tools/bench_comparison.hpp"
 #include "tools/bench_history.hpp"
 #include "tools/commands.hpp"
+#include "tools/fail_on.hpp"
 #include "tools/json_output.hpp"
 #include "tools/median.hpp"
 #include "tools/record.hpp"
@@ -38,6 +39,7 @@ struct Options {
   std::uint64_t queries = 20000;
   int runs = 31;
   JsonOutput json;
+  FailOnOption fail_on;
   std::filesystem::path history;
   std::vector<std::filesystem::path> compared;  ///< the histories before and after a change, or none
 };
@@ -99,15 +101,26 @@ double time_once(const Subject& subject, const std::vector<Query>& queries, std:
   return std::max(1.0, static_cast<double>(sum.nanoseconds)) / static_cast<double>(sum.queries);
 }
 
-/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike.
+/// Counts which answers are none. Nothing else is judged here.
+void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
+  counts.queries += verdicts.size();
+  for (const Verdict& each : verdicts)
+    if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
+}
+
+/// Times all subjects in turn, in every run, so that noise of the machine affects all of them alike. `answered` has the counters
+/// of each subject.
 std::vector<RunTimes> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
-                               const Stop& stop) {
+                               const Stop& stop, Statistics& answered) {
   std::vector<RunTimes> times(subjects.size());
   std::vector<Verdict> verdicts(queries.size());
+  const Kind kind = queries.front().kind;
   for (int run = 0; run < runs; ++run)
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       stop.check();
       times[s].push_back(time_once(*subjects[s], queries, verdicts));
+      Counts& counts = answered.counts[{subjects[s]->name(), kind, ""}];
+      if (subjects[s]->decides(kind)) count_faults(verdicts, counts);
     }
   return times;
 }
@@ -165,6 +178,7 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
+  Statistics answered;  ///< only queries and faults
 };
 
 void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
@@ -191,7 +205,7 @@ void time_input(const Subjects& subjects, const Input& input, int runs, const St
   std::vector<double> weights;
   std::size_t count = 0;
   for (const auto& [kind, queries] : input.queries) {
-    by_kind.push_back(time_all(subjects, queries, runs, stop));
+    by_kind.push_back(time_all(subjects, queries, runs, stop, results.answered));
     print_rows(out, subjects, input, short_name(kind), queries.size(), by_kind.back());
     add_rows(results, subjects, input, kind, by_kind.back());
     weights.push_back(static_cast<double>(queries.size()));
@@ -237,7 +251,7 @@ int run(const Options& options) {
     results.run.about.merge(run_info("bench"));
     append_to_history(options.history, results.run);
   }
-  return stop.is_requested() ? exit_interrupted : exit_fine;
+  return stop.is_requested() ? exit_interrupted : options.fail_on.exit_code(results.answered);
 }
 
 }  // namespace
@@ -254,6 +268,7 @@ void add_bench(CLI::App& app, int& exit_code) {
                    "Number of random queries of each kind");
   add_count_option(*command, "--runs", options->runs, 1, 1'000'000, "Number of runs");
   options->json.add_to(*command, "Write the results as JSON");
+  options->fail_on.add_to(*command);
   auto* history =
       command
           ->add_option("--history", options->history,

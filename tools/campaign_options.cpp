@@ -155,6 +155,7 @@ int record_campaign(const CampaignOptions& options) {
         },
         stop);
   }
+  if (!stop.is_requested()) record.add_unasked(subjects);
   return record.finish(stop.is_requested(), reached.complete || (only_time_ends_it && !stop.is_requested()));
 }
 

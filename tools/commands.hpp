@@ -6,9 +6,9 @@
 namespace nearmiss::tools {
 
 /// Exit codes: a contract with scripts. They are the same for every subcommand that shows results.
-inline constexpr int exit_fine = 0;  ///< also if a subject gave no answer to some queries
-/// The results that were shown have a false negative, a late time, a refuted bound, an oracle disagreement, or a mismatch
-/// with a recorded truth, whether or not a baseline has it too.
+inline constexpr int exit_fine = 0;
+/// The results that were shown have one of usual_failures() (reports/statistics/failure.hpp), or one that --fail-on names, whether
+/// or not a baseline has it too.
 inline constexpr int exit_found = 1;
 inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input, or output that cannot be written
 inline constexpr int exit_interrupted = 130;

@@ -35,11 +35,11 @@ constexpr const char* about =
     "Try: nearmiss demo, then nearmiss fuzz --subject basic,wang --cases 100000";
 
 constexpr const char* exit_codes =
-    "\nExit codes: 0 fine; 1 the results have a false negative, a late time, a refuted bound, an oracle\n"
-    "disagreement or a mismatch with a recorded truth; 2 bad usage, bad input, or output that cannot be "
-    "written (one\n"
-    "line on stderr says what); 130 interrupted, everything so far is saved. Queries that a subject does\n"
-    "not answer are counted, and are no reason for 1.\n\n"
+    "\nExit codes: 0 fine; 1 the results have a miss, a late time, a refuted bound, a fault of a subject, a\n"
+    "subject of which nothing was asked, an oracle disagreement or a wrong recorded truth, or what "
+    "--fail-on\n"
+    "names: unknown, contract, slow; 2 bad usage, bad input, or output that cannot be written (one line on\n"
+    "stderr says what); 130 interrupted, everything so far is saved.\n\n"
     "Environment: NEARMISS_LANES=2, 4 or 8 sets how many doubles are computed side by side, at most as many "
     "as the\n"
     "machine can, which is the default. It changes no answer.";

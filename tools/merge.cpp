@@ -5,6 +5,7 @@
 #include "reports/store/salvage.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
+#include "tools/fail_on.hpp"
 
 namespace nearmiss::tools {
 
@@ -31,6 +32,7 @@ void add_merge(CLI::App& app, int& exit_code) {
     std::filesystem::path out;
     std::vector<std::filesystem::path> in;
     bool salvage = false;
+    FailOnOption fail_on;
   };
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("merge", "Add up the stores of several runs or shards into a new one");
@@ -39,14 +41,15 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_flag(
       "--salvage", options->salvage,
       "Take the intact part of damaged stores, and say what was lost; nothing can resume the result");
+  options->fail_on.add_to(*command);
   command->callback([options, &exit_code] {
     const Campaign merged = options->salvage ? salvage_campaigns(options->in) : load_campaigns(options->in);
     write_campaign(merged, options->out);
-    fmt::print("{}", summary_table(merged.statistics));
+    fmt::print("{}", summary_table(merged.statistics, options->fail_on.failures()));
     for (const Run& run : merged.runs)
       if (const std::string missing = missing_shards(run); !missing.empty())
         fmt::print("{}: {}\n", run.info.at("command"), missing);
-    exit_code = found_anything(merged.statistics) ? exit_found : exit_fine;
+    exit_code = options->fail_on.exit_code(merged.statistics);
   });
 }
 

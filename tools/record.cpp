@@ -56,6 +56,7 @@ void RecordOptions::add_to(CLI::App& command) {
   command
       .add_option("--db", db, "Save statistics and findings in this new store, for nearmiss report and merge")
       ->type_name("FILE");
+  fail_on.add_to(command);
   command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
@@ -158,12 +159,21 @@ void Record::save_shrunk() {
   last_save_of_shrunk_ = Clock::now();
 }
 
+void Record::add_unasked(const Subjects& subjects) {
+  for (const auto& subject : subjects) {
+    const auto is_own = [&](const auto& each) { return each.first.subject == subject->name(); };
+    if (std::any_of(statistics_.counts.begin(), statistics_.counts.end(), is_own)) continue;
+    for (const auto& [of, queries] : statistics_.oracle)
+      (void)statistics_.counts[{subject->name(), of.first, of.second}];
+  }
+}
+
 int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
   save_shrunk();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
-  fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_) : "",
+  fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",
              sweep_tables(statistics_) + option_sweep_tables(statistics_) + ladder_table(statistics_) +
                  decider_tables(statistics_),
              funnel_tables(statistics_));
@@ -177,7 +187,7 @@ int Record::finish(bool interrupted, bool complete) {
   std::fflush(text);  // so that it is there if the file cannot be written
   options_.json.write(summary_json(campaign));
   if (interrupted) return exit_interrupted;
-  return found_anything(statistics_) ? exit_found : exit_fine;
+  return options_.fail_on.exit_code(statistics_);
 }
 
 }  // namespace nearmiss::tools

@@ -12,14 +12,16 @@
 #include "fuzz/trial/trial.hpp"
 #include "reports/campaign/campaign.hpp"
 #include "reports/store/store.hpp"
+#include "tools/fail_on.hpp"
 #include "tools/json_output.hpp"
 
 namespace nearmiss::tools {
 
-/// --json FILE|-, --db FILE and --quiet
+/// --json FILE|-, --db FILE, --fail-on A,B and --quiet
 struct RecordOptions {
   JsonOutput json = {};
   std::filesystem::path db = {};
+  FailOnOption fail_on = {};
   bool quiet = false;       ///< shows no progress
   bool summary = true;      ///< prints the table of subjects
   bool resume = false;      ///< continues the run in `db`, if the file exists
@@ -53,6 +55,9 @@ class Record {
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
+
+  /// Counts that these subjects were on trial, also those that could be asked nothing.
+  void add_unasked(const Subjects& subjects);
 
   /// Saves, writes the JSON, prints the summary and the first findings, and returns the exit code.
   int finish(bool interrupted, bool complete);

@@ -84,6 +84,7 @@ int run(const Options& options) {
       fmt::print(options.record.json.text(), "{}: not asked about {}, because it answers for contact only\n",
                  subject->name(),
                  counted(with_separation, "case with a separation", "cases with a separation"));
+  if (!stop.is_requested()) record.add_unasked(subjects);
   return record.finish(stop.is_requested(), !stop.is_requested());
 }
 

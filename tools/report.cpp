@@ -8,6 +8,7 @@
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
+#include "tools/fail_on.hpp"
 
 namespace nearmiss::tools {
 
@@ -16,22 +17,23 @@ namespace {
 struct Options {
   std::vector<std::filesystem::path> stores, baseline;
   std::filesystem::path folder, power, audit, environments;
+  FailOnOption fail_on;
 };
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {
   const Campaign campaign = load_campaigns(options.stores);
-  ReportContext context;
+  ReportContext context{.failing = options.fail_on.failures()};
   for (const auto& each : options.baseline) context.baseline.push_back(load_campaign(each));
   if (!options.power.empty()) context.hunts = load_hunts(options.power);
   if (!options.audit.empty()) context.audit = load_audit(options.audit);
   if (!options.environments.empty()) context.environments = load_environments(options.environments);
   write_report(campaign, context, options.folder);
-  fmt::print("{}\n", summary_table(campaign.statistics));
+  fmt::print("{}\n", summary_table(campaign.statistics, context.failing));
   if (!context.baseline.empty()) fmt::print("{}", describe(changes(campaign, context.baseline)));
   fmt::print("report: {}\n",
              std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
-  return found_anything(campaign.statistics) ? exit_found : exit_fine;
+  return options.fail_on.exit_code(campaign.statistics);
 }
 
 }  // namespace
@@ -60,6 +62,7 @@ void add_report(CLI::App& app, int& exit_code) {
   add_file("--audit", options->audit, "Show the audit of rounding constants, from nearmiss audit --json");
   add_file("--environments", options->environments,
            "Show which compilers, flags and modes keep the guarantee, from tools/environments");
+  options->fail_on.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -225,6 +225,7 @@ int run(Options options) {
   fmt::print(text, "{}", describe(scene));
   if (record.statistics().counts.empty())
     fmt::print(text, "no subject was asked: the plan decides all pairs\n");
+  if (!stop.is_requested()) record.add_unasked(all.subjects);
   const int code = record.finish(stop.is_requested(), !stop.is_requested());
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = verified.asking.count();

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "fuzz/trial/case_order.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -15,12 +16,6 @@ std::uint64_t index_of(const Finding& finding) {
   std::uint64_t index = 0;
   std::from_chars(text.data() + text.rfind(':') + 1, text.data() + text.size(), index);
   return index;
-}
-
-/// Whether a finding is a failure of the subject's promises.
-bool counts(Finding::What what) {
-  return what == Finding::What::false_negative || what == Finding::What::refuted_bound ||
-         what == Finding::What::late;
 }
 
 }  // namespace
@@ -40,7 +35,7 @@ std::optional<FirstFailure> find_first_failure(const CampaignPlan& plan, const S
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
         for (Finding& each : result.findings) {
-          if (!counts(each.what)) continue;
+          if (each.subject.empty() || !breaks_promise(failure_of(signature_of(each)))) continue;
           const std::uint64_t cases = cases_up_to(plan, each.family, index_of(each));
           if (first && first->cases <= cases) continue;
           const double part =

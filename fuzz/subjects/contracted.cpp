@@ -8,6 +8,7 @@
 
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "oracle/contract.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 

@@ -5,6 +5,7 @@
 
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -101,16 +102,14 @@ std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict
 
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth) {
   const Kind kind = truth.query().kind;
-  if (outcome.verdict.fault == Fault::not_asked || outcome.verdict.fault == Fault::contract)
-    return std::nullopt;
-  if (outcome.verdict.fault != Fault::none)
-    return Failure{Finding::What::fault, fault_signature(kind, outcome.verdict, outcome.fault_text)};
-  if (outcome.collision && !outcome.verdict.hit)
-    return Failure{Finding::What::false_negative, truth.contact()};
-  if (outcome.time && outcome.time->late) return Failure{Finding::What::late, truth.contact()};
-  if (outcome.bound_refuted)
-    return Failure{Finding::What::refuted_bound, report_signature(kind, outcome.verdict.stage)};
-  return std::nullopt;
+  const auto failure = failure_of(outcome);
+  const auto what = failure ? finding_of(*failure) : std::nullopt;
+  if (!what) return std::nullopt;
+  if (what == Finding::What::fault)
+    return Failure{*what, fault_signature(kind, outcome.verdict, outcome.fault_text)};
+  if (what == Finding::What::refuted_bound)
+    return Failure{*what, report_signature(kind, outcome.verdict.stage)};
+  return Failure{*what, truth.contact()};
 }
 
 std::optional<Failure> oracle_failure(const Query& query) {

@@ -1,4 +1,4 @@
-// The judge: the only place that decides whether an answer of a subject is a failure, and of which kind.
+// The judge: compares the answers of a subject with the truth. reports/statistics/failure.hpp says which outcomes are failures.
 #pragma once
 
 #include <compare>
@@ -59,7 +59,7 @@ class Judge {
   std::unique_ptr<Subject> wang_;  // used for a subject that claims no bound
 };
 
-/// How an outcome fails; nothing if it does not.
+/// The finding of an outcome that fails (reports/statistics/failure.hpp); nothing if it does not fail, or makes none.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
 /// How the oracle fails on a query, that is, how its methods disagree; nothing if they agree.

@@ -1,13 +1,22 @@
 // Draws the first table: a row for each subject, the worst first.
 "use strict";
 
-const missedCell = ({ counts, classes }) => {
+/** "vt 53 of 504, ee 0 of 701": the missed collisions of a class, kind by kind. */
+const missedByKind = (subject, name) => Object.entries(report.subjects[subject]).map(([kind, { classes }]) => [kind, classes[name]])
+  .filter(([, counts]) => counts?.collisions > 0)
+  .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
+
+/** The least exotic class by kind, then the rates of the others, and the sum. */
+const missedCell = ({ counts, classes, subject, failures }) => {
+  if (failures.includes("not-asked")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
-  const ofClasses = Object.entries(classes).filter(([, each]) => each.collisions > 0)
-    .map(([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`).join(" · ");
-  if (counts.false_negatives === 0) return [missedText(counts), small(ofClasses)];
-  return [made("strong", missedText(counts), { class: "bad" }),
-    ` ${rateText(counts.false_negative_rate, counts.false_negative_rate_interval_95)}`, small(ofClasses)];
+  const [first, ...others] = Object.entries(classes).filter(([, each]) => each.collisions > 0);
+  const rateOf = ([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`;
+  if (counts.false_negatives === 0) return [missedText(counts), small([first, ...others].map(rateOf).join(" · "))];
+  const [name, { false_negatives: missed }] = first;
+  const text = `${name === "unclassified" ? "" : `${name} `}${missedByKind(subject, name)}`;
+  return [missed > 0 ? made("strong", text, { class: "bad" }) : text,
+    small([...others.map(rateOf), `in all ${missedText(counts)}`].join(" · "))];
 };
 
 const falseCell = ({ counts, subject }) => {
@@ -20,11 +29,11 @@ const falseCell = ({ counts, subject }) => {
     small(far ? made("a", farthest, { href: far.file }) : farthest), ...unknown];
 };
 
-/** The number of queries without an answer; the reasons are its title. Queries that break a subject's contract are no failures. */
+/** The number of queries without an answer; the reasons are its title. Slow queries and those that break a contract are no failures. */
 function noAnswerCell(verdict) {
-  const reasons = Object.keys(verdict.faults);
+  const reasons = [...new Set(Object.keys(verdict.faults).map((why) => (["time", "not-asked"].includes(why) ? "slow" : why)))];
   if (reasons.length === 0) return "0";
-  const isFailure = reasons.some((why) => why !== "contract");
+  const isFailure = verdict.failures.includes("fault");
   return [made(isFailure ? "strong" : "span", integer(faults(verdict)), { title: faultText(verdict), ...(isFailure ? { class: "bad" } : {}) }),
     small(reasons.length === 1 ? reasons[0] : `${reasons[0]}, …`)];
 }
@@ -79,9 +88,10 @@ function subjectCell({ subject, finding }) {
   return link;
 }
 
-/** Failed subjects by their rates of misses, then the others by their run times. */
+/** Failed subjects by their rates of misses, ordinary ones first, then the others by their run times. */
 function inOrder(verdicts) {
-  const key = (verdict) => [verdict.clean ? 1 : 0, -verdict.counts.false_negative_rate, -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
+  const rates = ({ classes }) => ["ordinary", "degenerate", "extreme", "unclassified"].map((name) => -(classes[name]?.false_negative_rate ?? 0));
+  const key = (verdict) => [verdict.clean ? 1 : 0, ...rates(verdict), -verdict.counts.late, verdict.clean ? usualTime(verdict) ?? Infinity : 0];
   return [...verdicts].sort((a, b) => {
     const [x, y] = [key(a), key(b)];
     const i = x.findIndex((each, k) => each !== y[k]);

@@ -235,6 +235,12 @@ std::string text_of(const Signature& signature) {
                      signature.subject.empty() ? "the oracle" : signature.subject, signature.text);
 }
 
+/// "worse: false negatives of mine vt in uniform, 1 of 20 before, 9 of 20 now"
+std::string text_of(const ChangedRate& rate) {
+  return fmt::format("{}: {} of {} {} in {}, {} before, {} now", rate.worse() ? "worse" : "better", rate.what,
+                     rate.subject, rate.kind, rate.family, text_of(rate.before), text_of(rate.now));
+}
+
 /// ", first seen 2026-01-02T22:00:00Z, last seen 2026-01-09T22:00:00Z"; "" if the baseline does not have it.
 std::string sightings_text(const Changes& changes, const Signature& signature) {
   const auto known = changes.sightings.find(signature);
@@ -252,17 +258,6 @@ void name_bounds(std::vector<ChangedRate>& rates, const Statistics& now) {
 }
 
 }  // namespace
-
-bool Changes::for_the_worse() const {
-  return !new_signatures.empty() || std::any_of(rates.begin(), rates.end(), std::mem_fn(&ChangedRate::worse));
-}
-
-bool Changes::fails(std::span<const std::string> failed) const {
-  return for_the_worse() || !lasting_signatures.empty() ||
-         std::any_of(failed.begin(), failed.end(), [&](const std::string& each) {
-           return std::binary_search(absent_subjects.begin(), absent_subjects.end(), each);
-         });
-}
 
 Campaign add_up(std::span<const Campaign> campaigns) {
   Campaign sum;
@@ -293,6 +288,8 @@ Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
                   .rates = pairs_of_rates(now.statistics, baseline.statistics),
                   .compared_rates = 0,
                   .facts = changed_facts(now, baseline)};
+  for (const auto& [subject, failures] : failures_by_subject(baseline.statistics))
+    for (const FailureKind each : failures) changes.failed_before.emplace(subject, each);
   compare_signatures(now.statistics, baseline.statistics, changes);
   for (ChangedRate& each : rates_where_few(changes.rates)) changes.rates.push_back(std::move(each));
   changes.compared_rates = changes.rates.size();
@@ -300,6 +297,16 @@ Changes changes(const Campaign& now, std::span<const Campaign> campaigns) {
   std::erase_if(changes.rates, [&](const ChangedRate& each) { return each.p >= level; });
   name_bounds(changes.rates, now.statistics);
   return changes;
+}
+
+std::vector<std::string> lines_for_the_worse(const Changes& changes, const Failures& failing) {
+  std::vector<std::string> lines;
+  for (const Signature& each : changes.new_signatures)
+    if (failing.contains(failure_of(each)))
+      lines.push_back(fmt::format("new: {}{}", text_of(each), sightings_text(changes, each)));
+  for (const ChangedRate& each : changes.rates)
+    if (each.worse()) lines.push_back(text_of(each));
+  return lines;
 }
 
 std::string describe(const Changes& changes) {
@@ -310,10 +317,7 @@ std::string describe(const Changes& changes) {
     text += fmt::format("lasting: {}{}\n", text_of(each), sightings_text(changes, each));
   for (const std::string& each : changes.absent_subjects)
     text += fmt::format("not in the baseline: {}\n", each);
-  for (const ChangedRate& each : changes.rates)
-    text +=
-        fmt::format("{}: {} of {} {} in {}, {} before, {} now\n", each.worse() ? "worse" : "better",
-                    each.what, each.subject, each.kind, each.family, text_of(each.before), text_of(each.now));
+  for (const ChangedRate& each : changes.rates) text += text_of(each) + "\n";
   return text;
 }
 

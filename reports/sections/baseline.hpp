@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
 #include "reports/statistics/confidence.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -55,10 +58,8 @@ struct Changes {
   std::size_t compared_rates = 0;
   std::vector<ChangedFact> facts;
 
-  /// Whether there is a new way to fail, or a rate that is worse.
-  [[nodiscard]] bool for_the_worse() const;
-  /// Whether anything is worse, or fails as before, or one of the subjects that `failed` is not in the baseline.
-  [[nodiscard]] bool fails(std::span<const std::string> failed) const;
+  /// The failures of the baseline, by subject.
+  std::set<std::pair<std::string, FailureKind>> failed_before = {};
 };
 
 /// The probability that `changes` reports a changed rate although no rate has changed, and also that it
@@ -83,6 +84,10 @@ Changes changes(const Campaign& now, std::span<const Campaign> baseline);
 
 /// Compares a campaign with one earlier campaign.
 Changes changes(const Campaign& now, const Campaign& baseline);
+
+/// A line for each new way to fail that is one of the failures that count, and for each rate that is worse.
+std::vector<std::string> lines_for_the_worse(const Changes& changes,
+                                             const Failures& failing = usual_failures());
 
 /// A line for each change; "" without changes.
 std::string describe(const Changes& changes);

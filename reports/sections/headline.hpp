@@ -3,17 +3,24 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reports/sections/baseline.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
 struct Headline {
-  bool clean;  ///< nothing failed; with a baseline: !Changes::fails
+  bool clean;  ///< nothing failed, and nothing is worse than in the baseline
   std::string text;
+  /// What a night should wake somebody for: every failure that breaks a promise, every other failure that the baseline does not
+  /// have, and what is worse since the baseline; each in a line.
+  std::vector<std::string> alarms;
 };
 
-/// Which subjects failed, the number of queries, and whether anything is new since the baseline, if there is one.
-Headline headline(const Statistics& statistics, const std::optional<Changes>& since);
+/// Which subjects failed, in which class of queries, the number of queries, and whether anything is new since the baseline, if there
+/// is one. `failing` are the failures that count.
+Headline headline(const Statistics& statistics, const std::optional<Changes>& since,
+                  const Failures& failing = usual_failures());
 
 }  // namespace nearmiss

@@ -11,7 +11,7 @@
 #include "reports/campaign/complexity.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/ladder.hpp"
-#include "reports/sections/summary.hpp"
+#include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family_class.hpp"
 
 namespace nearmiss {
@@ -62,6 +62,12 @@ ordered_json faults_of(const Counts& counts) {
   return json;
 }
 
+ordered_json names_of(const Failures& failures) {
+  ordered_json json = ordered_json::array();
+  for (const FailureKind each : failures) json.push_back(name(each));
+  return json;
+}
+
 /// The index of the simplest failure: of the least exotic query, a miss if there is one, else a late time.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings) {
   const auto rank = [](const Finding& finding) {
@@ -80,14 +86,15 @@ ordered_json index_of_simplest(const std::string& subject, const std::vector<Sho
 }  // namespace
 
 ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
-                            const std::optional<Changes>& since) {
+                            const std::optional<Changes>& since, const Failures& failing) {
   const auto subjects = by_subject(statistics);
   ordered_json json = ordered_json::array();
-  for (const SubjectVerdict& each : subject_verdicts(statistics)) {
+  for (const SubjectVerdict& each : subject_verdicts(statistics, failing)) {
     const LadderPlace place = place_of(each.subject);
     const auto& [all, by_class] = subjects.at(each.subject);
     ordered_json row{{"subject", each.subject},
                      {"clean", each.clean},
+                     {"failures", names_of(each.failures)},
                      {"text", each.text},
                      {"algorithm", place.algorithm},
                      {"scalar", place.scalar},

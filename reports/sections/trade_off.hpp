@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/sections/ladder.hpp"
+#include "reports/statistics/failure.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
@@ -26,10 +27,11 @@ struct TradeOff {
     return place.unit ? std::optional(all.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it answered every query, missed no collision, gave no time that is late, and no
-  /// bound was refuted.
+  /// Whether the subject may be on a front: it answered every query, even if it could not tell, and failed in no other way.
   [[nodiscard]] bool sound() const {
-    return all.false_negatives == 0 && all.late == 0 && all.refuted_bounds == 0 && all.faults_total() == 0;
+    Failures failures = failures_of(subject, all);
+    failures.erase(FailureKind::unknown);
+    return failures.empty();
   }
 };
 

@@ -1,11 +1,15 @@
 // A subject that throws an exception for a query with x > 0.9, an exception without text for one with x = 0.5, crashes for
-// one with x = -2, or throws while it is loaded.
+// one with x = -2, or throws while it is loaded. Its answer to other queries is set when it is compiled.
 #include <csignal>
 #include <exception>
 #include <stdexcept>
 #include <string>
 
 #include "tests/plugin/one_by_one.h"
+
+#ifndef ANSWER
+#define ANSWER 0
+#endif
 
 namespace {
 
@@ -17,7 +21,7 @@ int answer(const double* x, double* /*toi*/) {
   if (x[0] > 0.9) throw std::runtime_error("no root in [" + std::to_string(x[0]) + ", 1]\n\x1b[31m");
   if (x[0] == 0.5) throw Silent();
   if (x[0] == -2) std::raise(SIGSEGV);
-  return 0;
+  return ANSWER;
 }
 
 const char* name() {

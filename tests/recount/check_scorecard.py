@@ -3,7 +3,7 @@
 from asking import KINDS
 from check_counts import check_rates
 from check_sections import check_places
-from tally import Tally, classes_of
+from tally import ON_REQUEST, Tally, classes_of, failures_of
 
 
 def check_scorecard(comparison, where, report, answers):
@@ -18,8 +18,9 @@ def check_scorecard(comparison, where, report, answers):
         check_rates(comparison, own, counts, Tally.of(answers, subject, KINDS))
         check_places(comparison, where, row, subject)
         comparison.same('counters', f'{own} faults', row['faults'], {})
-        failed = counts['false_negatives'] or counts['late'] or counts['refuted_bounds']
-        comparison.same('verdicts', f'{own} clean', row['clean'], not failed)
+        failed = failures_of(counts, row['faults'])
+        comparison.same('verdicts', f'{own} failures', row['failures'], failed)
+        comparison.same('verdicts', f'{own} clean', row['clean'], not set(failed) - ON_REQUEST)
         families = {
             name: each['class']
             for kind in KINDS

@@ -11,7 +11,7 @@ from check_numbers import ROUNDING, SOLVED, check_query
 from check_times import check_extreme_times, check_trade_off_times
 from enclosed import BORDERS, reported
 from scalars import ALGORITHMS, EPSILONS, exponent, paper_bound, place
-from tally import Tally
+from tally import Tally, failures_of
 
 TIME = 'ns_per_query'  # the field with the time that a front compares
 COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
@@ -49,7 +49,7 @@ def check_trade_offs(comparison, where, found, answers, units):
         check_rates(comparison, own, each, tally)
         check_places(comparison, where, each, subject)
         check_trade_off_times(comparison, own, each, tally.times)
-        sound = not (each['false_negatives'] or each['late'] or each['refuted_bounds'])
+        sound = not set(failures_of({'counts': each, 'faults': {}})) - {'unknown'}
         comparison.same('fronts', f'{own} sound', each['sound'], sound)
         unit = units.of_distances(subject)
         in_B = (

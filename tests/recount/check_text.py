@@ -8,16 +8,15 @@ import re
 
 from asking import KINDS
 from enclosed import BORDERS, LARGEST
+from tally import CLASSES
+
+WANGS = "wang's"
 
 
 def check_text(comparison, section, report, json_report):
     """Checks text in the report, and the output of nearmiss fuzz and nearmiss report."""
     verdicts = {
-        subject: verdict(
-            json_report['error_against_time']['subjects'][subject],
-            sum(by_kind[kind]['false_positives_by_stage'].get('unknown', 0) for kind in KINDS),
-        )
-        for subject, by_kind in json_report['subjects'].items()
+        subject: verdict(subject, json_report) for subject in sorted(json_report['subjects'])
     }
     _check_headline(comparison, section, json_report, verdicts)
     _check_verdicts(comparison, section, json_report, verdicts)
@@ -36,6 +35,12 @@ def _check_headline(comparison, section, json_report, verdicts):
     comparison.same('text', f'{section} headline', found['text'], expected)
     is_clean = all(clean for clean, _ in verdicts.values())
     comparison.same('text', f'{section} headline clean', found['clean'], is_clean)
+    expected = [
+        f'{subject} {said}'
+        for subject in verdicts
+        for _, said in failures_said(json_report['subjects'][subject])
+    ]
+    comparison.same('text', f'{section} headline alarms', found['alarms'], expected)
 
 
 def _check_verdicts(comparison, section, json_report, verdicts):
@@ -63,9 +68,9 @@ def _check_output(comparison, where, text, json_report, verdicts):
     if times(json_report):
         heading = ['subject', 'kind', 'class', 'sort']
         _check_table(comparison, where, lines, heading, times(json_report), last_is_time=False)
-    if len({row[2] for row in by_class(json_report)}) > 1:
+    if len({row[2] for row in class_rows(json_report)}) > 1:
         heading = ['subject', 'kind', 'class', 'queries']
-        _check_table(comparison, where, lines, heading, by_class(json_report))
+        _check_table(comparison, where, lines, heading, class_rows(json_report))
     found = [line for line in lines if ' % of the missed ones have ' in line]
     expected = [common_factors(each) for each in json_report.get('common_factors', [])]
     comparison.same('text', f'{where} common factors', found, expected)
@@ -92,55 +97,125 @@ def common_factors(found):
     )
 
 
-def verdict(found, unknown):
-    """Whether a subject is clean, with the text of its verdict.
+# The failures that count, the gravest first: the name, the counter, its total, and the words for it.
+FAILURES = (
+    ('miss', 'false_negatives', 'collisions', 'missed', 'collision'),
+    ('late', 'late', 'times_promised', 'was late in', 'time'),
+    (
+        'beyond-bound',
+        'refuted_bounds',
+        'false_positives',
+        'exceeded its bound in',
+        'false positive',
+    ),
+)
 
-    The number of false positives that are unknown is given."""
-    wangs = "wang's"
-    missed, refuted = found['false_negatives'], found['refuted_bounds']
-    text = f'MISSED {missed:,} of ' if missed else 'no miss in '
-    text += counted(found['collisions'], 'collision')
-    late = found['late']
+
+def verdict(subject, report):
+    """Whether a subject is clean, with the text of its verdict. A campaign that is recomputed has no
+    faults."""
+    found = report['error_against_time']['subjects'][subject]
+    kinds = report['subjects'][subject]
+    unknown = sum(kinds[kind]['false_positives_by_stage'].get('unknown', 0) for kind in KINDS)
+    missed, late, refuted = (found[counter] for _, counter, *_ in FAILURES)
+    if missed:
+        parts = [f'MISSED {class_by_class(kinds, "false_negatives", "collisions")}']
+    else:
+        parts = [f'no miss in {counted(found["collisions"], "collision")}']
     if late:
-        text += f', LATE in {late:,} of {counted(found["times_promised"], "time")}'
+        parts.append(f'LATE {class_by_class(kinds, "late", "times_promised")}')
     if refuted:
-        text += f', {refuted:,} BEYOND ITS BOUND'
+        parts.append(f'{refuted:,} BEYOND ITS BOUND')
     if found['unknown']:
-        text += (
-            f', UNKNOWN in {found["unknown"]:,} of {counted(found["queries"], "query", "queries")}'
-        )
+        of = counted(found['queries'], 'query', 'queries')
+        parts.append(f'UNKNOWN in {found["unknown"]:,} of {of}')
+    parts.append(false_positives(found, unknown))
     is_clean = not missed and not late and not refuted
+    return is_clean, ('; ' if missed or late else ', ').join(parts)
+
+
+def false_positives(found, unknown):
+    """How many there are, and the farthest. The number of those that are unknown is given."""
     if found['false_positives'] == 0:
-        return is_clean, text + ', no false positive'
-    text += ', ' + counted(found['false_positives'], 'false positive')
+        return 'no false positive'
+    text = counted(found['false_positives'], 'false positive')
     if unknown == found['false_positives']:
-        return is_clean, text + ', all unknown'
+        return text + ', all unknown'
     if unknown:
         text += f', {unknown:,} of them unknown'
     largest = found['max_fp_distance_over_bound']
     claims = found['bound_of_distances'] == 'claimed'
     if largest == LARGEST:
-        far = f'beyond {"a" if claims else wangs} bound of 0'
+        far = f'beyond {"a" if claims else WANGS} bound of 0'
     else:
-        far = f'at {fraction(largest)} {"of the" if claims else f"times {wangs}"} bound'
-    if not claims:
-        far += ' (it claims none)'
-    return is_clean, f'{text}, the farthest {far}'
+        far = f'at {fraction(largest)} {"of the" if claims else f"times {WANGS}"} bound'
+    return f'{text}, the farthest {far}' + ('' if claims else ' (it claims none)')
+
+
+def by_class(kinds, counter, total):
+    """For each class in which there are some of the total: the count and the total of each kind."""
+    classes = {
+        name: {
+            kind: (kinds[kind]['classes'][name][counter], kinds[kind]['classes'][name][total])
+            for kind in KINDS
+            if name in kinds[kind]['classes'] and kinds[kind]['classes'][name][total]
+        }
+        for name in CLASSES
+    }
+    return {name: of_kinds for name, of_kinds in classes.items() if of_kinds}
+
+
+def class_by_class(kinds, counter, total):
+    """ "ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001": the first class by kind."""
+    parts = []
+    for name, of_kinds in by_class(kinds, counter, total).items():
+        if parts:
+            count, whole = map(sum, zip(*of_kinds.values()))
+            text = f'{count:,} of {whole:,}'
+        else:
+            text = ', '.join(
+                f'{kind} {count:,} of {whole:,}' for kind, (count, whole) in of_kinds.items()
+            )
+        parts.append(f'{name} {text}' if parts or name != 'unclassified' else text)
+    return '; '.join(parts)
+
+
+def failures_said(kinds):
+    """The class and the words for each failure of a subject, the gravest first: in the least exotic
+    class in which it was seen."""
+    for _, counter, total, verb, noun in FAILURES:
+        for name, of_kinds in by_class(kinds, counter, total).items():
+            failed = {kind: each for kind, each in of_kinds.items() if each[0]}
+            if failed:
+                own = '' if name == 'unclassified' else f'{name} '
+                some = [f'{n:,} of {whole:,} {own}{kind}' for kind, (n, whole) in failed.items()]
+                is_one = [whole for _, whole in failed.values()] == [1]
+                yield name, f'{verb} {" and ".join(some)} {noun}{"" if is_one else "s"}'
+                break
 
 
 def headline(report, verdicts):
     """The verdict in a line."""
-    groups = [
-        sorted(name for name, (clean, _) in verdicts.items() if clean == wanted)
-        for wanted in (False, True)
-    ]
-    said = [
-        f'{listed(names)} {verb}'
-        for names, verb in zip(groups, ('failed', 'did not fail'))
-        if names
-    ]
+    failed = {}
+    for subject, (clean, _) in verdicts.items():
+        if not clean:
+            said = list(failures_said(report['subjects'][subject]))
+            name, first = min(said, key=lambda each: CLASSES.index(each[0]))
+            failed.setdefault(name, []).append((subject, first))
+    if [len(group) for group in failed.values()] == [1]:
+        ((subject, first),) = next(iter(failed.values()))
+        parts = [f'{subject} failed: it {first}']
+    else:
+        parts = [
+            f'{listed([subject for subject, _ in failed[name]])} failed {name} queries'
+            for name in CLASSES
+            if name in failed
+        ]
+    clean = [subject for subject, (is_clean, _) in verdicts.items() if is_clean]
+    if clean:
+        parts.append(f'{listed(clean)} did not fail')
     queries = report['oracle']['total']['queries']
-    return '; '.join(said) + f', in {counted(queries, "query", "queries")}.'
+    return '; '.join(parts) + f', in {counted(queries, "query", "queries")}.'
 
 
 def listed(names):
@@ -230,7 +305,7 @@ def times(report):
     ]
 
 
-def by_class(report):
+def class_rows(report):
     """The rows of the table by class, without times."""
     return [
         [

@@ -208,7 +208,7 @@ class Recount(unittest.TestCase):
 
     def test_a_change_in_any_text_is_found(self):
         for path, leaf in leaves({name: self.json[name] for name in ('headline', 'verdicts')}):
-            if path[-1] in ('text', 'clean', 'subject'):
+            if path[-1] in ('text', 'clean', 'subject') or 'alarms' in path:
                 with self.subTest(path=path), put(self.json, path, changed(leaf)):
                     self.assertTrue(self.finds(check_text, self.report, self.json))
         for name in ('fuzz_text', 'report_text'):

@@ -10,6 +10,7 @@ from enclosed import Enclosed
 from impact import Times
 
 CLASSES = ('ordinary', 'degenerate', 'extreme', 'unclassified')
+ON_REQUEST = {'unknown', 'contract', 'slow'}  # failures that count only with --fail-on
 
 
 @dataclass
@@ -91,6 +92,23 @@ def classes_of(class_of):
 
 def _by_name(stages):
     return {str(name): int(count) for name, count in zip(*np.unique(stages, return_counts=True))}
+
+
+def failures_of(counts, faults):
+    """The failures in a subject's counters, the gravest first."""
+    slow = faults.get('time', 0) + faults.get('not-asked', 0)
+    beyond = faults.get('contract', 0)
+    found = {
+        'miss': counts['false_negatives'],
+        'late': counts['late'],
+        'beyond-bound': counts['refuted_bounds'],
+        'fault': sum(faults.values()) - slow - beyond,
+        'not-asked': counts['queries'] == slow + beyond,
+        'unknown': counts['unknown'],
+        'contract': beyond,
+        'slow': slow,
+    }
+    return [name for name, count in found.items() if count]
 
 
 def stages(subject, counts):

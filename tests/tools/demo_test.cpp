@@ -30,8 +30,7 @@ TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
                     HasSubstr("nearmiss replay 'a miss.case' --subject basic,wang\n")));
   const Output replayed = run("replay 'a miss.case' --subject basic,wang");
   EXPECT_EQ(replayed.code, 1);
-  EXPECT_THAT(replayed.out,
-              AllOf(HasSubstr("FAIL basic: MISSED 1 of 1"), HasSubstr("ok  wang: no miss in 1")));
+  EXPECT_THAT(replayed.out, AllOf(HasSubstr("FAIL basic: MISSED "), HasSubstr("ok  wang: no miss in 1")));
 }
 
 TEST_F(DemoTest, SaysThatItCannotWrite) {

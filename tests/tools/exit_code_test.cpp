@@ -11,35 +11,83 @@ TEST_F(CommandLine, AMissGivesExitCodeOne) {
   write("q.vt", hit);
   const Output output = run("replay q.vt --subject " + plugin("never"));
   EXPECT_EQ(output.code, 1);
-  EXPECT_THAT(output.out, HasSubstr("MISSED 1 of 1 collision"));
+  EXPECT_THAT(output.out, HasSubstr("MISSED vt 1 of 1;"));
   EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
 }
 
-TEST_F(CommandLine, AMissGivesExitCodeOneWhereverItIsShown) {
-  write("q.vt", hit);
-  EXPECT_EQ(run("replay q.vt --db a.db --subject " + plugin("never")).code, 1);
-  EXPECT_EQ(run("merge b.db a.db").code, 1);
-  EXPECT_EQ(run("report b.db -o report").code, 1);
-  EXPECT_EQ(run("report b.db -o report --baseline a.db").code, 1);  // the baseline has the same miss
+/// What a subject does, and the exit codes of every subcommand that shows it.
+struct Shown {
+  const char* what;
+  const char* subject;  ///< a plug-in, with options; or a built-in one
+  int code;
+  const char* fails_on = "";  ///< with this value of --fail-on the code is 1
+  const char* environment = "NEARMISS_ONE_IN=10";
+  const char* options = "";
+  bool only_replayed = false;
+};
+
+class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
+ protected:
+  /// Queries of which most plug-ins that misbehave answer some.
+  void SetUp() override {
+    const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
+    ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);
+    write("q.vt", hit + miss + late + read("out.txt"));
+  }
+
+  /// Expects the exit code of the results that a command stores in a.db, wherever they are shown.
+  void expect_codes(const std::string& command) const {
+    const Shown& shown = GetParam();
+    const std::string subject = std::string(shown.subject).find(".so") == std::string::npos
+                                    ? shown.subject
+                                    : NEARMISS_PLUGINS "/" + std::string(shown.subject);
+    const std::string environment =
+        std::string(shown.environment) + " NEARMISS_MARK=" + file("mark").string();
+    const std::string trial = command + " -q --subject '" + subject + "' " + shown.options;
+    const Output output = run(trial + " --db a.db", environment);
+    EXPECT_EQ(output.code, shown.code) << trial << output.out << output.error;
+    EXPECT_EQ(output.out.find("FAIL") == std::string::npos, shown.code == 0) << output.out;
+    EXPECT_EQ(run("merge b.db a.db").code, shown.code) << trial;
+    EXPECT_EQ(run("report b.db -o report --baseline a.db").code, shown.code) << trial;
+    EXPECT_EQ(run("report b.db -o report").code, shown.code) << trial;
+    EXPECT_EQ(read_json("report/report.json")["headline"]["clean"], shown.code == 0) << trial;
+    EXPECT_EQ(read_json("report/report.json")["headline"]["alarms"].empty(), shown.code == 0) << trial;
+    if (*shown.fails_on != '\0') {
+      const std::string option = std::string(" --fail-on ") + shown.fails_on;
+      EXPECT_EQ(run(trial + option, environment).code, 1) << trial;
+      EXPECT_EQ(run("merge c.db a.db" + option).code, 1) << trial;
+      EXPECT_EQ(run("report b.db -o report" + option).code, 1) << trial;
+      EXPECT_EQ(read_json("report/report.json")["headline"]["clean"], false) << trial;
+    }
+    for (const char* name : {"a.db", "b.db", "c.db", "mark"}) std::filesystem::remove(file(name));
+  }
+};
+
+TEST_P(ExitCodes, AreThoseOfWhatIsShown) {
+  expect_codes("replay q.vt");
+  if (!GetParam().only_replayed) expect_codes("fuzz --cases 300 --family uniform");
 }
 
-TEST_F(CommandLine, ARefutedBoundGivesExitCodeOneWhereverItIsShown) {
-  write("q.vt", miss);
-  EXPECT_EQ(run("replay q.vt --db a.db --subject " + plugin("bounded")).code, 1);
-  EXPECT_EQ(run("merge b.db a.db").code, 1);
-  EXPECT_EQ(run("report b.db -o report").code, 1);
-}
+INSTANTIATE_TEST_SUITE_P(
+    All, ExitCodes,
+    ::testing::Values(Shown{"clean", "wang", 0}, Shown{"miss", "never.so", 1},
+                      Shown{"late", "promises.so", 1}, Shown{"refuted_bound", "bounded.so", 1},
+                      Shown{"crash", "crash.so", 1}, Shown{"exit", "leave.so", 1},
+                      Shown{"error", "fail.so", 1}, Shown{"exception", "throwing_else_reporting.so", 1},
+                      Shown{"memory", "eat.so", 1, "", "NEARMISS_ONE_IN=10", "--query-memory 64M"},
+                      Shown{"protocol", "intruding_close.so", 1}, Shown{"load", "leaves_later.so", 1},
+                      Shown{"invalid", "invalid_time.so", 1},
+                      Shown{"some_slow", "sleep.so", 0, "slow", "NEARMISS_ONE_IN=10", "--query-time 30ms"},
+                      Shown{"all_slow", "sleep.so", 1, "", "NEARMISS_ONE_IN=1", "--query-time 30ms"},
+                      Shown{"unknown", "several.so:told:answer=2", 0, "unknown"},
+                      Shown{"some_beyond_contract", "cautious.so", 0, "contract"},
+                      Shown{"all_beyond_contract", "never_asked.so", 1},
+                      Shown{"other_kind", "several.so:edges", 1, "", "NEARMISS_ONE_IN=10", "", true}),
+    [](const auto& each) { return std::string(each.param.what); });
 
-TEST_F(CommandLine, FaultsAloneGiveExitCodeZeroWhereverTheyAreShown) {
+TEST_F(CommandLine, FailOnTakesNamesOfFailures) {
   write("q.vt", hit);
-  const Output output = run("replay q.vt --db a.db --subject " + plugin("error"));
-  EXPECT_EQ(output.code, 0) << output.error;
-  EXPECT_THAT(output.out, HasSubstr("FAIL always: no miss in 0 collisions, NO ANSWER to 1 query (1 error)"));
-  EXPECT_EQ(run("merge b.db a.db").code, 0);
-  EXPECT_EQ(run("report b.db -o report").code, 0);
-  EXPECT_EQ(run("replay q.vt --db wang.db").code, 0);
-  for (const char* baseline : {"a.db", "wang.db"})
-    EXPECT_EQ(run(std::string("report b.db -o report --baseline ") + baseline).code, 0) << baseline;
+  expect_refused("replay q.vt --fail-on unknown,speed --db new.db", {"--fail-on: found 'speed'", "slow"});
 }
 
 TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {

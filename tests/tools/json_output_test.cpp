@@ -24,7 +24,7 @@ class JsonToStdout : public CommandLine {
 
 TEST_F(JsonToStdout, OfCommandsThatRunTrials) {
   write("q.vt", hit);
-  const json replayed = json_of("replay q.vt --subject " + plugin("never"), "MISSED 1 of 1 collision", 1);
+  const json replayed = json_of("replay q.vt --subject " + plugin("never"), "MISSED vt 1 of 1;", 1);
   EXPECT_EQ(replayed["subjects"]["always"]["vt"]["false_negatives"], 1);
   EXPECT_EQ(json_of("fuzz --cases 100", "no miss in")["oracle"]["total"]["queries"], 100);
   EXPECT_EQ(

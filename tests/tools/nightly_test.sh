@@ -59,6 +59,17 @@ expect "expected that all were first seen in the second night, at $began, found 
 night 0 --subject wang
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
+# Lasting faults: a subject that crashes now and then alarms once. A new way to fail alarms again.
+plugins=$(dirname "$nearmiss")/plugins
+NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so" --results "$folder/faults"
+expect_said '^FAIL misbehaving: .*NO ANSWER to '
+expect_said '^alarm: misbehaving failed to answer '
+NEARMISS_ONE_IN=5 night 0 --subject "wang,$plugins/crash.so" --results "$folder/faults"
+expect_said '^FAIL misbehaving: '
+NEARMISS_ONE_IN=5 night 0 --subject "wang,$plugins/crash.so" --results "$folder/faults"
+NEARMISS_ONE_IN=5 night 1 --subject "wang,$plugins/crash.so,basic" --results "$folder/faults"
+expect_said '^alarm: basic missed '
+expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving' "$folder/said")"
 # A night that cannot be read is left out; the clock may have been ahead.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"

@@ -98,7 +98,7 @@ TEST_F(SeparationOption, ShrinkKeepsALateTime) {
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
   const Output again = run("replay late.case --json r.json" + promises);
   EXPECT_EQ(again.code, 1);
-  EXPECT_THAT(again.out, HasSubstr("FAIL always: no miss in 1 collision, LATE in 1 of 1 time,"));
+  EXPECT_THAT(again.out, HasSubstr("FAIL always: no miss in 1 collision; LATE vt 1 of 1;"));
   const json counts = read_json("r.json")["subjects"]["always"]["vt"];
   EXPECT_EQ(counts["late"], 1);
   EXPECT_EQ(counts["times_promised"], 1);

@@ -23,8 +23,8 @@ async function answersEverything(browser, name) {
     assert.ok(row.includes(`${counts.false_negatives.toLocaleString("en-US")} of ${counts.collisions.toLocaleString("en-US")}`), row);
     assert.match(row, new RegExp(`${Number(times.median_ns.toPrecision(3)).toLocaleString("en-US")}, 99 % `));
   }
-  const rates = verdicts.map(({ counts }) => counts.false_negative_rate);
-  assert.match(await rows.first().textContent(), new RegExp(`^(FAIL|ok)${verdicts[rates.indexOf(Math.max(...rates))].subject.replaceAll("*", "\\*")}`));
+  const rates = verdicts.map(({ classes }) => classes.ordinary.false_negative_rate);
+  if (Math.max(...rates) > 0) assert.match(await rows.first().textContent(), new RegExp(`^FAIL${verdicts[rates.indexOf(Math.max(...rates))].subject.replaceAll("*", "\\*")}`));
   await page.close();
   return failed.length;
 }

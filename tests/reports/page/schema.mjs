@@ -29,7 +29,7 @@ export function everyReportFollowsItsSchema() {
   }
   for (const section of Object.keys(schema.properties)) assert.ok(sections.has(section), `no report has ${section}`);
   const { subjects, verdicts, findings } = jsonOf("found");
-  for (const wrong of [{ schema_version: 2 }, { unknown: 1 }, { verdicts: verdicts.map((each) => ({ ...each, clean: "yes" })) },
+  for (const wrong of [{ schema_version: 1 }, { unknown: 1 }, { verdicts: verdicts.map((each) => ({ ...each, clean: "yes" })) },
     { findings: findings.map((each) => ({ ...each, extra: 0 })) }, { subjects: { ...subjects, wang: { xx: subjects.wang.vt } } },
     { verdicts: verdicts.map(({ counts, ...rest }) => ({ ...rest, counts: { ...counts, queries: -1 } })) }])
     assert.notDeepEqual(errors({ ...jsonOf("found"), ...wrong }), [], JSON.stringify(wrong).slice(0, 60));

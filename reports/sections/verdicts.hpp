@@ -1,0 +1,40 @@
+// Verdicts on subjects in words, ordinary queries first.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/statistics/failure.hpp"
+#include "reports/statistics/query_class.hpp"
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// What a campaign says about a subject.
+struct SubjectVerdict {
+  std::string subject;
+  Failures failures;  ///< all that there are
+  bool clean = true;  ///< none of them is among those that count
+  std::string text;   ///< "no miss in 1,234 collisions" and so on
+  /// The failures that count: how the subject failed in the least exotic class in which it did, such as "missed 53 of 504
+  /// ordinary vt collisions".
+  std::map<FailureKind, std::string> said;
+  QueryClass least_exotic =
+      QueryClass::unclassified;  ///< the class in which a failure that counts was first seen
+
+  /// The gravest of the failures that count in the least exotic class, in words; "" for a clean subject.
+  std::string first = {};
+};
+
+/// A verdict on each subject, in the order of their names, if `failing` are the failures that count.
+std::vector<SubjectVerdict> subject_verdicts(const Statistics& statistics,
+                                             const Failures& failing = usual_failures());
+
+/// The failures of the oracle, in a line; "" without failures.
+std::string oracle_complaint(const Statistics& statistics);
+
+/// A line for each subject, " ok  NAME: ..." or "FAIL NAME: ...", and one for the oracle if it failed.
+std::string verdict_lines(const Statistics& statistics, const Failures& failing);
+
+}  // namespace nearmiss

@@ -1,0 +1,176 @@
+#include "reports/statistics/failure.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace nearmiss {
+
+namespace {
+
+std::uint64_t faults(const Counts& counts, Fault fault) {
+  return counts.faults[static_cast<std::size_t>(fault)];
+}
+
+/// Queries that a subject did not answer because it was slow: those over the time limit, and those that were not asked then.
+std::uint64_t slow(const Counts& counts) {
+  return faults(counts, Fault::time) + faults(counts, Fault::not_asked);
+}
+
+std::uint64_t beyond(const Counts& counts) { return faults(counts, Fault::contract); }
+
+std::uint64_t faulty(const Counts& counts) { return counts.faults_total() - slow(counts) - beyond(counts); }
+
+/// 1 if nothing is known of the subject: it was asked nothing, or answered nothing in time.
+std::uint64_t not_asked(const Counts& counts) {
+  return counts.queries == slow(counts) + beyond(counts) ? 1 : 0;
+}
+
+std::uint64_t none(const Counts& /*counts*/) { return 0; }
+std::uint64_t queries(const Counts& counts) { return counts.queries; }
+
+// In the order of FailureKind.
+constexpr std::array<FailureInfo, 10> infos{{
+    {FailureKind::oracle_disagreement, "oracle-disagreement", false, "", "", "", none, none},
+    {FailureKind::wrong_truth, "wrong-truth", false, "", "", "", none, none},
+    {FailureKind::miss, "miss", false, "missed", "collision", "collisions",
+     [](const Counts& counts) { return counts.false_negatives; },
+     [](const Counts& counts) { return counts.collisions; }},
+    {FailureKind::late, "late", false, "was late in", "time", "times",
+     [](const Counts& counts) { return counts.late; },
+     [](const Counts& counts) { return counts.times_promised; }},
+    {FailureKind::beyond_bound, "beyond-bound", false, "exceeded its bound in", "false positive",
+     "false positives", [](const Counts& counts) { return counts.refuted_bounds; },
+     [](const Counts& counts) { return counts.false_positives; }},
+    {FailureKind::fault, "fault", false, "failed to answer", "query", "queries", faulty, queries},
+    {FailureKind::not_asked, "not-asked", false, "was asked nothing", "", "", not_asked, queries},
+    {FailureKind::unknown, "unknown", true, "could not tell in", "query", "queries",
+     [](const Counts& counts) { return counts.unknown(); }, queries},
+    {FailureKind::contract, "contract", true, "was not asked, by its contract,", "query", "queries", beyond,
+     queries},
+    {FailureKind::slow, "slow", true, "was too slow in", "query", "queries", slow, queries},
+}};
+
+}  // namespace
+
+const FailureInfo& failure_info(FailureKind kind) { return infos[static_cast<std::size_t>(kind)]; }
+
+const Failures& all_failures() {
+  static const Failures all = [] {
+    Failures found;
+    for (const FailureInfo& each : infos) found.insert(each.kind);
+    return found;
+  }();
+  return all;
+}
+
+const Failures& usual_failures() {
+  static const Failures usual = [] {
+    Failures found = all_failures();
+    std::erase_if(found, [](FailureKind kind) { return failure_info(kind).on_request; });
+    return found;
+  }();
+  return usual;
+}
+
+Failures in_common(const Failures& some, const Failures& others) {
+  Failures both;
+  std::set_intersection(some.begin(), some.end(), others.begin(), others.end(),
+                        std::inserter(both, both.end()));
+  return both;
+}
+
+std::optional<FailureKind> failure_of(const Outcome& outcome) {
+  switch (outcome.verdict.fault) {
+    case Fault::none:
+      break;
+    case Fault::not_asked:
+      return std::nullopt;
+    case Fault::contract:
+      return FailureKind::contract;
+    case Fault::time:
+      return FailureKind::slow;
+    default:
+      return FailureKind::fault;
+  }
+  if (outcome.collision && !outcome.verdict.hit) return FailureKind::miss;
+  if (outcome.time && outcome.time->late) return FailureKind::late;
+  if (outcome.bound_refuted) return FailureKind::beyond_bound;
+  if (outcome.verdict.hit && outcome.verdict.stage == Stage::unknown) return FailureKind::unknown;
+  return std::nullopt;
+}
+
+namespace {
+
+/// Whether a fault is that of the time limit, by its signature.
+bool is_slow(std::string_view signature) {
+  constexpr auto time = static_cast<std::size_t>(Fault::time);
+  return std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) {
+    return signature == std::string(short_name(kind)).append(" ").append(fault_names[time]);
+  });
+}
+
+}  // namespace
+
+FailureKind failure_of(const Signature& signature) {
+  switch (signature.what) {
+    case Finding::What::false_negative:
+      return FailureKind::miss;
+    case Finding::What::refuted_bound:
+      return FailureKind::beyond_bound;
+    case Finding::What::oracle_disagreement:
+      return FailureKind::oracle_disagreement;
+    case Finding::What::truth_mismatch:
+      return FailureKind::wrong_truth;
+    case Finding::What::late:
+      return FailureKind::late;
+    case Finding::What::fault:
+      break;
+  }
+  return is_slow(signature.text) ? FailureKind::slow : FailureKind::fault;
+}
+
+std::optional<Finding::What> finding_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::oracle_disagreement:
+      return Finding::What::oracle_disagreement;
+    case FailureKind::wrong_truth:
+      return Finding::What::truth_mismatch;
+    case FailureKind::miss:
+      return Finding::What::false_negative;
+    case FailureKind::late:
+      return Finding::What::late;
+    case FailureKind::beyond_bound:
+      return Finding::What::refuted_bound;
+    case FailureKind::fault:
+    case FailureKind::slow:
+      return Finding::What::fault;
+    default:
+      return std::nullopt;
+  }
+}
+
+Failures failures_of(const std::string& subject, const Counts& counts) {
+  Failures found;
+  for (const FailureInfo& each : infos)
+    if (each.count(counts) > 0) found.insert(each.kind);
+  if (subject.ends_with(beyond_contract)) found.erase(FailureKind::not_asked);
+  return found;
+}
+
+std::map<std::string, Failures> failures_by_subject(const Statistics& statistics) {
+  std::map<std::string, Counts> by_subject;
+  for (const auto& [key, counts] : statistics.counts) by_subject[key.subject].merge(counts);
+  std::map<std::string, Failures> failures;
+  for (const auto& [subject, counts] : by_subject) failures[subject] = failures_of(subject, counts);
+  if (statistics.oracle_disagreements > 0) failures[""].insert(FailureKind::oracle_disagreement);
+  if (statistics.mismatches_with_recorded_truth > 0) failures[""].insert(FailureKind::wrong_truth);
+  return failures;
+}
+
+bool has_failed(const Statistics& statistics, const Failures& failing) {
+  const auto failures = failures_by_subject(statistics);
+  return std::any_of(failures.begin(), failures.end(),
+                     [&](const auto& each) { return !in_common(each.second, failing).empty(); });
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,96 @@
+// Verdicts on subjects in words.
+#include "reports/sections/verdicts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/reports/campaigns.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::nearmiss::testing::counts;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+Counts with(Counts counts, Fault fault, std::uint64_t number) {
+  counts.faults[static_cast<std::size_t>(fault)] = number;
+  return counts;
+}
+
+/// The line about the subject "mine" with these counters in a family of its own.
+std::string line_of(const Counts& counts, const Failures& failing = usual_failures()) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::edge_edge, "f"}] = counts;
+  EXPECT_EQ(has_failed(statistics, failing), verdict_lines(statistics, failing).starts_with("FAIL"));
+  return verdict_lines(statistics, failing);
+}
+
+TEST(Verdicts, TellOrdinaryMissesFirstAndByKind) {
+  Statistics statistics;
+  const auto add = [&](Kind kind, const char* family, const Counts& counts) {
+    statistics.counts[{"mine", kind, family}] = counts;
+  };
+  add(Kind::vertex_triangle, "uniform", counts(2000, 504, 53, 0));
+  add(Kind::edge_edge, "uniform", counts(2000, 701, 0, 0));
+  add(Kind::vertex_triangle, "planar", counts(9000, 5000, 1204, 0));
+  add(Kind::edge_edge, "planar", counts(9, 1, 0, 0));
+  add(Kind::edge_edge, "scale", counts(40000, 25000, 5678, 0));
+  add(Kind::edge_edge, "cases/", counts(4, 0, 0, 0));
+  EXPECT_EQ(verdict_lines(statistics, usual_failures()),
+            "FAIL mine: MISSED ordinary vt 53 of 504, ee 0 of 701; degenerate 1,204 of 5,001; extreme 5,678 "
+            "of 25,000; no false positive\n");
+}
+
+TEST(Verdicts, NameEachFailure) {
+  EXPECT_EQ(line_of(counts(9, 5, 0, 0)), " ok  mine: no miss in 5 collisions, no false positive\n");
+  EXPECT_EQ(line_of(counts(9, 5, 2, 0)), "FAIL mine: MISSED ee 2 of 5; no false positive\n");
+  EXPECT_EQ(line_of(with(with(counts(9, 5, 0, 0), Fault::crash, 1), Fault::load, 2)),
+            "FAIL mine: no miss in 5 collisions, NO ANSWER to 3 queries (1 crash, 2 load), no false "
+            "positive\n");
+  EXPECT_EQ(
+      line_of(with(counts(9, 5, 0, 0), Fault::contract, 2)),
+      " ok  mine: no miss in 5 collisions, no false positive; 2 queries not asked, beyond its contract\n");
+}
+
+TEST(Verdicts, NothingAskedAndNothingAnsweredAreNoPass) {
+  EXPECT_EQ(line_of({}), "FAIL mine: NOT ASKED: it decides no query of this sort\n");
+  EXPECT_EQ(line_of(with(counts(9, 0, 0, 0), Fault::contract, 9)),
+            "FAIL mine: NOT ASKED: 9 queries beyond its contract\n");
+  EXPECT_EQ(
+      line_of(with(with(counts(9, 0, 0, 0), Fault::time, 3), Fault::not_asked, 6)),
+      "FAIL mine: NO ANSWER IN TIME, SLOW in 9 queries (3 over the time limit, 6 not asked after that)\n");
+  Statistics statistics;  // all queries may well keep the contract
+  statistics.counts[{"mine (beyond contract)", Kind::edge_edge, "f"}] =
+      with(counts(9, 0, 0, 0), Fault::contract, 9);
+  EXPECT_FALSE(has_failed(statistics));
+}
+
+TEST(Verdicts, SlowQueriesFailOnRequest) {
+  const Counts slow = with(counts(9, 5, 0, 0), Fault::time, 1);
+  const char* const text =
+      "mine: no miss in 5 collisions, SLOW in 1 query (1 over the time limit), no false positive\n";
+  EXPECT_EQ(line_of(slow), std::string(" ok  ") + text);
+  EXPECT_EQ(line_of(slow, {FailureKind::slow}), std::string("FAIL ") + text);
+}
+
+TEST(Failures, AreThoseOfTheCountersFromTheGravest) {
+  EXPECT_THAT(failures_of("mine", counts(9, 5, 0, 0)), IsEmpty());
+  Counts all = with(with(with(counts(9, 5, 2, 0), Fault::crash, 1), Fault::time, 1), Fault::contract, 1);
+  all.late = all.refuted_bounds = 1;
+  all.true_by_stage[static_cast<std::size_t>(Stage::unknown)] = 1;
+  EXPECT_THAT(failures_of("mine", all),
+              ElementsAre(FailureKind::miss, FailureKind::late, FailureKind::beyond_bound, FailureKind::fault,
+                          FailureKind::unknown, FailureKind::contract, FailureKind::slow));
+}
+
+TEST(Failures, AFindingShowsTheOneThatMakesIt) {
+  for (const FailureKind kind : all_failures())
+    if (const auto what = finding_of(kind))
+      EXPECT_EQ(failure_of(Signature{*what, "mine", kind == FailureKind::slow ? "ee time" : "ee x time"}),
+                kind)
+          << name(kind);
+}
+
+}  // namespace
+}  // namespace nearmiss
