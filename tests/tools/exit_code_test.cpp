@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Shown{"crash", "crash.so", 1}, Shown{"exit", "leave.so", 1},
                       Shown{"error", "fail.so", 1}, Shown{"exception", "throwing_else_reporting.so", 1},
                       Shown{"memory", "eat.so", 1, "", "NEARMISS_ONE_IN=10", "--query-memory 64M"},
-                      Shown{"protocol", "intruding_close.so", 1}, Shown{"load", "leaves_later.so", 1},
+                      Shown{"protocol", "intruding_write.so", 1}, Shown{"load", "leaves_later.so", 1},
                       Shown{"invalid", "invalid_time.so", 1},
                       Shown{"some_slow", "sleep.so", 0, "slow", "NEARMISS_ONE_IN=10", "--query-time 30ms"},
                       Shown{"all_slow", "sleep.so", 1, "", "NEARMISS_ONE_IN=1", "--query-time 30ms"},
