@@ -49,7 +49,7 @@ def check_trade_offs(comparison, where, found, answers, units):
         check_rates(comparison, own, each, tally)
         check_places(comparison, where, each, subject)
         check_trade_off_times(comparison, own, each, tally.times)
-        sound = not set(failures_of({'counts': each, 'faults': {}})) - {'unknown'}
+        sound = not set(failures_of(each, {})) - {'unknown'}
         comparison.same('fronts', f'{own} sound', each['sound'], sound)
         unit = units.of_distances(subject)
         in_B = (

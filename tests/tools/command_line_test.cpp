@@ -81,7 +81,7 @@ TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
   EXPECT_THAT(again, ::testing::MatchesRegex("nearmiss replay cases/fault-misbehaving-001.case --subject "
                                              "/.*hang.so --query-time 20ms --query-memory [0-9]+"));
   const Output failure = run(again.substr(9), "cd report &&");
-  EXPECT_EQ(failure.code, 0) << failure.error;
+  EXPECT_EQ(failure.code, 1) << failure.error;
   EXPECT_EQ(
       run("shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
           .code,
@@ -231,16 +231,16 @@ TEST_F(CommandLine, ShrinkWritesACaseThatFailsInTheSameWay) {
 
 TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
   const std::string subject = " --subject " + plugin("bound_nan");
-  EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 0);
+  EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 1);
   EXPECT_GT(read_json("new.json")["subjects"]["always"]["vt"]["faults"]["error"], 50);
-  EXPECT_EQ(run("report a.db -o report").code, 0);
+  EXPECT_EQ(run("report a.db -o report").code, 1);
   const json finding = read_json("report/report.json")["findings"][0];
   EXPECT_EQ(finding["what"], "fault");
   const std::string found = "report/" + finding["file"].get<std::string>();
   const Output shrunk = run("shrink " + found + " -o shrunk.case" + subject);
   EXPECT_EQ(shrunk.code, 0) << shrunk.error;
   EXPECT_THAT(read("shrunk.case"), StartsWith("# fault of always: "));
-  EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 0);
+  EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 1);
   EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "fault");
 }
 
