@@ -254,7 +254,7 @@ class Recount(unittest.TestCase):
     @staticmethod
     def with_other_digit(line):
         """The line with another last digit in the last number before a time."""
-        end = line.rindex('  ') if re.search(r' (vt|ee|2\^\S+) ', line) else len(line)
+        end = line.rindex('  ') if re.search(r'  (vt|ee|2\^\S+) ', line) else len(line)
         i = max(i for i in range(end) if line[i].isdigit())
         return f'{line[:i]}{(int(line[i]) + 1) % 10}{line[i + 1:]}'
 
