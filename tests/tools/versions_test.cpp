@@ -46,8 +46,7 @@ TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
 }
 
 TEST_F(VersionsOfACcd, AreReplayedUnderTheirNames) {
-  EXPECT_EQ(run("fuzz --subject old=./v1.so,new=./v2.so --family small-integer --cases 400 --db a.db").code,
-            1);
+  EXPECT_EQ(run("fuzz --subject old=./v1.so,new=./v2.so --family uniform --cases 400 --db a.db").code, 1);
   EXPECT_EQ(run("report a.db -o report").code, 1);
   const auto findings = read_json("report/report.json")["findings"];
   for (const auto& finding : findings) {
@@ -99,7 +98,7 @@ TEST_F(VersionsOfACcd, AreRenamedForEveryCommand) {
   EXPECT_THAT(run("verdict --kind vt --subject new=" + plugin("error") + " q.vt").error,
               HasSubstr("new: no answer"));
   EXPECT_THAT(run("shrink q.vt --subject new=" + plugin("never")).out, HasSubstr("false-negative of new"));
-  EXPECT_THAT(run("scene spikes@20 --bound pair,scene --subject old=wang,./v1.so,./v2.so").out,
+  EXPECT_THAT(run("scene spikes@100 --bound pair,scene --subject old=wang,./v1.so,./v2.so").out,
               ::testing::AllOf(HasSubstr("old@scene: "), HasSubstr("v2 against v1: ")));
   EXPECT_THAT(run("bench q.vt --queries 1 --runs 1 --subject ./v1.so,./v2.so").out, HasSubstr(" v2 "));
 }

@@ -174,7 +174,7 @@ async function checkOtherSections(page) {
 /** Two versions of a CCD: which queries the later one fixes and breaks, and how the first broken one is replayed. */
 export async function showsVersions(browser) {
   const plugin = (name) => join(dirname(nearmiss), "plugins", `${name}.so`);
-  const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "small-integer", "--cases", "300"]));
+  const page = await open(browser, makeReport("versions", ["--subject", `old=${plugin("v1")},new=${plugin("v2")},vt=${plugin("v3")}`, "--family", "uniform", "--cases", "400"]));
   const { versions, findings } = jsonOf("versions");
   const rows = await page.locator("#versions tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
   assert.deepEqual(rows, versions.map((each) => ["after", "before", "class", "kind", "fixed", "broken", "both", "neither", "queries"].map((key) => String(each[key]))));
