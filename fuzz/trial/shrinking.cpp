@@ -32,7 +32,7 @@ Shrinking::~Shrinking() {
 
 void Shrinking::add(const Finding& finding) {
   const std::size_t number = count_++;
-  const std::size_t nth = ++added_[{signature_of(finding), finding.query_class}];
+  const std::size_t nth = ++added_[{signature_of(finding), finding.query_class, finding.broken_since}];
   if (finding.is_shrunk || nth > of_each_) return;
   {
     const std::lock_guard lock(mutex_);

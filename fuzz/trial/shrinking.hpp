@@ -25,7 +25,7 @@ namespace nearmiss {
 /// are shrunk to. Its functions are called by one thread at a time.
 class Shrinking {
  public:
-  /// Shrinks the first `of_each` findings of each signature and class. The subjects and `stop` must outlive it.
+  /// Shrinks the first `of_each` findings of each signature and class (as FirstFindings). The subjects and `stop` must outlive it.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
@@ -63,7 +63,7 @@ class Shrinking {
   int jobs_;
   const Stop& stop_;
   std::size_t of_each_;
-  std::map<std::pair<Signature, QueryClass>, std::size_t> added_;
+  std::map<std::tuple<Signature, QueryClass, std::string>, std::size_t> added_;
   std::size_t count_ = 0;
 
   mutable std::mutex mutex_;

@@ -18,6 +18,7 @@
 #include "fuzz/trial/shrink.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/small_queries.hpp"
+#include "fuzz/trial/versions.hpp"
 
 namespace nearmiss {
 
@@ -101,6 +102,9 @@ class SameFailure {
   /// If given, only queries of this class fail.
   void only(QueryClass of) { only_ = of; }
 
+  /// If given, only queries fail that this version of the CCD answers rightly. It must outlive this object.
+  void only_since(const Subject& before) { before_.emplace(before); }
+
   /// The first query that fails. All are asked at once, or a few if each may end a process.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
@@ -128,7 +132,8 @@ class SameFailure {
 
   [[nodiscard]] bool fails(const Query& query, const Verdict& verdict) const {
     return can_be(failure_.what, verdict) && judge_.failure(query, verdict) == failure_ &&
-           (!only_ || classify(subject_.rounded(query)) == *only_);
+           (!only_ || classify(subject_.rounded(query)) == *only_) &&
+           (!before_ || (*before_)(subject_.rounded(query)));
   }
 
   Failure failure_;
@@ -136,6 +141,7 @@ class SameFailure {
   Judge judge_;
   std::function<void()> check_;
   std::optional<QueryClass> only_;
+  std::optional<AnswersRightly> before_;
 };
 
 }  // namespace
@@ -147,12 +153,13 @@ class FindingShrinker::OfSubject {
 
   [[nodiscard]] const std::string& name() const { return subject_.name(); }
 
-  void shrink(Finding& finding, const std::function<void()>& check) const {
-    const Query simplest = shrunk_of(finding, std::nullopt, check);
+  /// `before` is the version of the CCD that does not fail; null if there is none.
+  void shrink(Finding& finding, const OfSubject* before, const std::function<void()>& check) const {
+    const Query simplest = shrunk_of(finding, std::nullopt, before, check);
     const QueryClass of_simplest = classify(simplest);
     const bool has_lost_class =
         finding.query_class != QueryClass::unclassified && of_simplest != finding.query_class;
-    finding.shrunk = has_lost_class ? shrunk_of(finding, finding.query_class, check) : simplest;
+    finding.shrunk = has_lost_class ? shrunk_of(finding, finding.query_class, before, check) : simplest;
     const bool is_simpler = complexity(finding.shrunk) < complexity(simplest);
     finding.simplest = is_simpler ? finding.shrunk : simplest;
     finding.simplest_class = is_simpler ? finding.query_class : of_simplest;
@@ -161,17 +168,21 @@ class FindingShrinker::OfSubject {
 
  private:
   /// The simplest query that fails in the same way; of this class, if it is given.
-  [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of,
+  [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of, const OfSubject* before,
                                 const std::function<void()>& check) const {
     const Limited limited(subject_, limits_.work / 2, limits_.time / 2);
+    const Limited limited_before(before == nullptr ? subject_ : before->subject_, limits_.work / 2,
+                                 limits_.time / 2);
     SameFailure same({finding.what, finding.signature}, limited, check);
     if (of) same.only(*of);
+    if (before != nullptr) same.only_since(limited_before);
     const bool every_query_is_slow = is_of_time_limit(finding.signature);
     const auto small =
         every_query_is_slow
             ? std::nullopt
             : small_failures(finding.query, check).simplest({finding.what, finding.signature}, of);
-    const bool begins_small = small && small->complexity < complexity(finding.query);
+    const bool begins_small = small && small->complexity < complexity(finding.query) &&
+                              (before == nullptr || same(std::span(&small->query, 1)));
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
   }
 
@@ -208,9 +219,10 @@ FindingShrinker::FindingShrinker(std::span<const Subject* const> subjects, const
 
 FindingShrinker::~FindingShrinker() = default;
 
-const FindingShrinker::OfSubject& FindingShrinker::of(const Finding& finding) const {
-  return **std::find_if(of_.begin(), of_.end(),
-                        [&](const auto& each) { return each->name() == finding.subject; });
+const FindingShrinker::OfSubject* FindingShrinker::of(const std::string& name) const {
+  const auto found =
+      std::find_if(of_.begin(), of_.end(), [&](const auto& each) { return each->name() == name; });
+  return found == of_.end() ? nullptr : found->get();
 }
 
 void FindingShrinker::shrink(Finding& finding, const Rest& rest) const {
@@ -234,7 +246,7 @@ void FindingShrinker::shrink(Finding& finding, const Rest& rest) const {
       break;
     }
     default:
-      of(finding).shrink(finding, check);
+      of(finding.subject)->shrink(finding, of(finding.broken_since), check);
   }
   finding.is_shrunk = true;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ccd/query.hpp"
@@ -43,7 +44,8 @@ class FindingShrinker {
   FindingShrinker& operator=(const FindingShrinker&) = delete;
   ~FindingShrinker();
 
-  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. The result depends
+  /// Sets the simplest query that fails in the same way, and the simplest one of the finding's own class. If a version of the
+  /// CCD breaks it, both are queries that the version before answers rightly. The result depends
   /// on the finding and the subject only, and on the machine only if the time ends a search. A query that the
   /// subject refuses does not fail. A contradiction to a recorded truth is not shrunk, because the truth is known for one
   /// query only. Throws Stopped if the stop is due, with its grace; then the finding stays as it is.
@@ -51,7 +53,8 @@ class FindingShrinker {
 
  private:
   class OfSubject;
-  [[nodiscard]] const OfSubject& of(const Finding& finding) const;
+  /// The subject of this name; null if there is none.
+  [[nodiscard]] const OfSubject* of(const std::string& name) const;
 
   const Stop& stop_;
   ShrinkLimits limits_;

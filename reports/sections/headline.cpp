@@ -103,60 +103,6 @@ std::vector<std::string> alarms_of(const std::vector<SubjectVerdict>& verdicts, 
   return alarms;
 }
 
-/// "a and b failed ordinary queries": subjects that failed in the same class.
-std::string group_text(const std::vector<const SubjectVerdict*>& group) {
-  std::vector<std::string> names;
-  for (const SubjectVerdict* each : group) names.push_back(each->subject);
-  const SubjectVerdict& first = *group.front();
-  const bool has_class = first.least_exotic != QueryClass::unclassified;
-  return fmt::format("{} failed{}", subjects(names),
-                     has_class ? fmt::format(" {} queries", name(first.least_exotic)) : "");
-}
-
-bool is_not_asked(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::not_asked); }
-
-/// Who failed: how, if it is one subject; otherwise in which class of queries, the least exotic one first. Who was asked nothing. Who
-/// did not fail.
-std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
-  std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
-  std::vector<std::string> not_asked;
-  std::vector<std::string> clean;
-  std::vector<std::string> parts;
-  for (const SubjectVerdict& each : verdicts) {
-    if (is_not_asked(each))
-      not_asked.push_back(each.subject);
-    else if (each.clean)
-      clean.push_back(each.subject);
-    else
-      failed[each.least_exotic].push_back(&each);
-  }
-  if (failed.size() == 1 && failed.begin()->second.size() == 1) {
-    const SubjectVerdict& only = *failed.begin()->second.front();
-    parts.push_back(fmt::format("{} failed: it {}", only.subject, only.first));
-  } else {
-    for (const auto& [in, group] : failed) parts.push_back(group_text(group));
-  }
-  if (!not_asked.empty())
-    parts.push_back(
-        fmt::format("{} {} asked nothing", subjects(not_asked), not_asked.size() == 1 ? "was" : "were"));
-  if (!clean.empty()) parts.push_back(fmt::format("{} did not fail", subjects(clean)));
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-/// Headline::alarms.
-std::vector<std::string> alarms_of(const std::vector<SubjectVerdict>& verdicts, const std::string& complaint,
-                                   const std::optional<Changes>& since, const Failures& failing) {
-  std::vector<std::string> alarms;
-  if (!complaint.empty()) alarms.push_back("the oracle: " + complaint);
-  for (const SubjectVerdict& each : verdicts)
-    for (const auto& [failure, text] : each.said)
-      if (breaks_promise(failure) || !since || !since->failed_before.contains({each.subject, failure}))
-        alarms.push_back(fmt::format("{} {}", each.subject, text));
-  if (since)
-    for (std::string& line : lines_for_the_worse(*since, failing)) alarms.push_back(std::move(line));
-  return alarms;
-}
-
 }  // namespace
 
 Headline headline(const Statistics& statistics, const std::optional<Changes>& since,

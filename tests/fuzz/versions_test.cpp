@@ -11,6 +11,7 @@
 #include "ccd/error.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
+#include "fuzz/trial/shrunk_finding.hpp"
 #include "tests/fuzz/copied_plugin.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -166,6 +167,18 @@ TEST(AVersion, AnswersRightlyIfItAnswersAndDoesNotFail) {
   EXPECT_FALSE(holds("v1", -1));
   EXPECT_FALSE(holds("error", 0.125));
   EXPECT_FALSE(holds("never_asked", 0.125));
+}
+
+TEST(Versions, ThatBreakAQueryBreakTheShrunkOneToo) {
+  const Subjects subjects = made_of({plugin("v1"), plugin("v2")});
+  Finding finding = hold_trial(subjects, batch_at({0.125})).findings.front();
+  ASSERT_EQ(finding.broken_since, "v1");
+  FindingShrinker(pointers_to(subjects), Stop::never(), limits_in_campaign).shrink(finding);
+  EXPECT_NE(finding.shrunk, finding.query);
+  for (const Query& query : {finding.shrunk, finding.simplest}) {
+    EXPECT_TRUE(AnswersRightly(*subjects[0])(query));
+    EXPECT_FALSE(AnswersRightly(*subjects[1])(query));
+  }
 }
 
 TEST(FirstFindings, OfAVersionAreKeptApartIfItBreaksThem) {
