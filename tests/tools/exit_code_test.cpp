@@ -65,7 +65,7 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
 
 TEST_P(ExitCodes, AreThoseOfWhatIsShown) {
   expect_codes("replay q.vt");
-  if (!GetParam().only_replayed) expect_codes("fuzz --cases 300 --family uniform");
+  if (!GetParam().only_replayed) expect_codes("fuzz --cases 80 --family uniform");
 }
 
 INSTANTIATE_TEST_SUITE_P(
