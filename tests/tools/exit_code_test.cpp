@@ -43,7 +43,7 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
                                     : NEARMISS_PLUGINS "/" + std::string(shown.subject);
     const std::string environment =
         std::string(shown.environment) + " NEARMISS_MARK=" + file("mark").string();
-    const std::string trial = command + " -q --subject '" + subject + "' " + shown.options;
+    const std::string trial = command + " -q --shrink 0 --subject '" + subject + "' " + shown.options;
     const Output output = run(trial + " --db a.db", environment);
     EXPECT_EQ(output.code, shown.code) << trial << output.out << output.error;
     EXPECT_EQ(output.out.find("FAIL") == std::string::npos, shown.code == 0) << output.out;
@@ -65,7 +65,7 @@ class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown
 
 TEST_P(ExitCodes, AreThoseOfWhatIsShown) {
   expect_codes("replay q.vt");
-  if (!GetParam().only_replayed) expect_codes("fuzz --cases 300 --family uniform");
+  if (!GetParam().only_replayed) expect_codes("fuzz --cases 80 --family uniform");
 }
 
 INSTANTIATE_TEST_SUITE_P(
