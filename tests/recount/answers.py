@@ -1,6 +1,7 @@
 """All queries of a campaign with the oracle's and the subjects' answers to each."""
 
 import functools
+import typing
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from asking import KINDS
 from enclosed import Enclosed
 from impact import Impact, compare, sort_of
+from query_class import query_class
 
 
 @dataclass
@@ -45,6 +47,8 @@ class Answers:
     asked: dict  # (subject, kind) -> Asked
     times: dict  # kind -> Known enclosures of t*
 
+    query_class: typing.Callable  # (kind, line) -> the class of a query
+
     def __post_init__(self):
         self.tallies = {}  # (subject, kinds, family) -> Tally
         self._place = {
@@ -70,7 +74,8 @@ class Answers:
 def ask(nearmiss, seed, counts, subjects):
     """Collects answers to the queries 0 to counts[family] - 1 of each family. Subjects are names, or
     paths of shared objects with one subject."""
-    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {})
+    class_of = functools.cache(functools.partial(query_class, nearmiss))
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, class_of)
     for kind in KINDS:
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
         distances = Known(functools.partial(nearmiss.distances, kind))

@@ -3,6 +3,7 @@
 from asking import KINDS
 from check_counts import check_rates
 from check_sections import check_places
+from query_class import complexity, exoticness
 from tally import ON_REQUEST, Tally, classes_of, failures_of
 
 
@@ -35,13 +36,14 @@ def check_scorecard(comparison, where, report, answers):
 
 
 def _check_simplest(comparison, where, index, subject, findings):
-    """Misses go before late times, these before other failures; among equals, no query has fewer
-    numbers other than 0."""
+    """The least exotic queries come first; then misses, late times and other failures; among equals,
+    the simplest."""
     ranks = {
         i: (
+            exoticness(each['class'], each['shrunk']),
             each['what'] != 'false-negative',
             each['what'] != 'late',
-            sum(number != 0 for number in each['shrunk']),
+            complexity(each['shrunk']),
         )
         for i, each in enumerate(findings)
         if each['subject'] == subject

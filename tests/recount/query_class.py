@@ -1,0 +1,193 @@
+"""The class of a single query, by the rules of fuzz/families/README.md, in fractions. Decisions and
+earliest times come from the oracle."""
+
+import math
+import sys
+from fractions import Fraction
+
+EDGES = {'vt': [(1, 2), (2, 3), (3, 1)], 'ee': [(0, 1), (2, 3)]}
+GAPS = {'vt': [(0, 1), (0, 2), (0, 3)], 'ee': [(0, 2), (0, 3), (1, 2), (1, 3)]}
+NEARLY = 1e-6  # of the step, of the longest edge, or of h
+VERY_NEARLY = Fraction(1, 10**12)  # its square
+FAR = 10**8
+
+
+def _minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def _dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def _determinant(a, b, c):
+    (bx, by, bz), (cx, cy, cz) = b, c
+    return _dot(a, [by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx])
+
+
+def _size(vector):
+    return max(abs(x) for x in vector)
+
+
+class _Moving:
+    """A query: its vertices in fractions, and its volume F."""
+
+    def __init__(self, kind, numbers):
+        self.kind = kind
+        self.numbers = numbers[:24]
+        self.h = numbers[24] if len(numbers) == 25 else 0.0
+        self.start, self.end = (
+            [[Fraction(x) for x in self.numbers[at + 3 * i : at + 3 * i + 3]] for i in range(4)]
+            for at in (0, 12)
+        )
+        self.speed = [_minus(end, start) for start, end in zip(self.start, self.end)]
+        edges = [_size(_minus(x[a], x[b])) for x in (self.start, self.end) for a, b in EDGES[kind]]
+        self.longest = max(edges)
+        self.shortest = min((each for each in edges if each), default=0)
+
+    def at(self, t):
+        return [[p + t * v for p, v in zip(*pair)] for pair in zip(self.start, self.speed)]
+
+    def volume(self, x):
+        return _determinant(*(_minus(x[i], x[0]) for i in (1, 2, 3)))
+
+    def squares(self, x):
+        """The squares of the lengths whose product bounds F: of both primitives, and between them."""
+
+        def sum_of(pairs):
+            return [_dot(_minus(x[a], x[b]), _minus(x[a], x[b])) for a, b in pairs]
+
+        gaps, edges = sum_of(GAPS[self.kind]), sum_of(EDGES[self.kind])
+        mean = sum(edges) / len(edges)
+        first, second = edges if self.kind == 'ee' else (mean, mean)
+        return first, second, sum(gaps) / len(gaps)
+
+
+def _is_extreme(query):
+    largest = max(abs(x) for x in query.numbers)
+    if largest != 0 and not 1e-30 <= largest <= 1e30:
+        return True
+    longest = query.longest
+    if longest == 0:
+        return False
+    fastest = max(_size(v) for v in query.speed)
+    return (
+        longest > FAR * query.shortest
+        or fastest > FAR * longest
+        or Fraction(largest) > FAR * longest
+    )
+
+
+def _is_flat_at_an_end(query):
+    if query.longest == 0 or query.start == query.end:
+        return True
+    for x in query.start, query.end:
+        first, second, gap = query.squares(x)
+        if query.volume(x) ** 2 <= VERY_NEARLY * first * second * gap:
+            return True
+    return False
+
+
+def _is_near_segment(p, a, b, squared):
+    along = _minus(b, a)
+    length = _dot(along, along)
+    weight = min(max(_dot(_minus(p, a), along) / length, 0), 1) if length else 0
+    off = [x - y - weight * z for x, y, z in zip(p, a, along)]
+    return _dot(off, off) <= squared
+
+
+def _root(query, lo, hi):
+    """A time near the root of F in an enclosure of the earliest time."""
+    lo, hi = Fraction(lo), Fraction(hi)
+    left = query.volume(query.at(lo))
+    if left == 0 or lo == hi:
+        return lo
+    if left * query.volume(query.at(hi)) > 0:
+        return (lo + hi) / 2
+    for _ in range(150):
+        middle = (lo + hi) / 2
+        if query.volume(query.at(middle)) * left > 0:
+            lo = middle
+        else:
+            hi = middle
+    return (lo + hi) / 2
+
+
+def _is_special_contact(query, lo, hi):
+    """Whether contact is at an end of the step, on a border, or at a multiple root."""
+    if hi <= NEARLY or lo >= 1 - NEARLY:
+        return True
+    if query.h > 0:
+        return False
+    x = query.at(_root(query, lo, hi))
+    squared = Fraction(NEARLY * float(query.longest)) ** 2
+    if query.kind == 'vt':
+        borders = [(0, a, b) for a, b in EDGES['vt']]
+    else:
+        borders = [(0, 2, 3), (1, 2, 3), (2, 0, 1), (3, 0, 1)]
+    if any(_is_near_segment(x[p], x[a], x[b], squared) for p, a, b in borders):
+        return True
+    spans, rates = ([_minus(of[i], of[0]) for i in (1, 2, 3)] for of in (x, query.speed))
+    slope = sum(
+        _determinant(*(rates[j] if j == i else spans[j] for j in range(3))) for i in range(3)
+    )
+    first, second, gap = query.squares(x)
+    rate_first, rate_second, rate_gap = query.squares(query.speed)
+    bound = rate_first * second * gap + first * rate_second * gap + first * second * rate_gap
+    return slope**2 <= VERY_NEARLY * bound
+
+
+def query_class(nearmiss, kind, line):
+    """The class of a query, as a line."""
+    numbers = [float.fromhex(x) if 'x' in x else float(x) for x in line.split()]
+    query = _Moving(kind, numbers)
+    if _is_extreme(query):
+        return 'extreme'
+    if _is_flat_at_an_end(query):
+        return 'degenerate'
+    h = query.h
+    change = NEARLY * (h or float(query.longest))
+    own, nearer, farther = (
+        ' '.join([*line.split()[:24], each.hex()])
+        for each in (h, max(h - change, 0.0), min(h + change, sys.float_info.max))
+    )
+    is_nearer, is_farther = nearmiss.collisions(kind, [nearer, farther])
+    if not is_nearer:
+        return 'degenerate' if is_farther else 'ordinary'
+    (lo,), (hi,) = nearmiss.times(kind, [own])
+    return 'degenerate' if _is_special_contact(query, lo, hi) else 'ordinary'
+
+
+def exoticness(of, numbers):
+    """The rank by which failures are shown."""
+    if of != 'degenerate':
+        return {'ordinary': 0, 'extreme': 4, 'unclassified': 5}[of]
+    points = [tuple(numbers[i : i + 3]) for i in range(0, 24, 3)]
+    if len(set(points)) == 1:
+        return 3
+    return 2 if len(set(points[:4])) < 4 or len(set(points[4:])) < 4 else 1
+
+
+def complexity(numbers):
+    """How simple a query is: two of them compare as these tuples do."""
+    start, end, h = numbers[:12], numbers[12:24], (numbers[24:] or [0])[0]
+    magnitudes = {abs(x) for x in numbers if x}
+
+    def awkward(m):
+        if m < 10 and m == int(m):
+            return 0
+        return 1 if m < 100 and 4 * m == int(4 * m) else 2
+
+    def bits(m):
+        odd = Fraction(m).numerator
+        return (odd // (odd & -odd)).bit_length()
+
+    return (
+        sum(map(awkward, magnitudes)),
+        sum((a != 0) + (b not in (0, a)) for a, b in zip(start, end)) + (h != 0),
+        sum(a != b for a, b in zip(start, end)),
+        len(magnitudes),
+        sum(map(bits, magnitudes)),
+        sum(abs(math.frexp(m)[1] - 1) for m in magnitudes),
+        sum(math.copysign(1, x) < 0 for x in numbers[:24]),
+    )
