@@ -22,8 +22,8 @@
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/scorecard.hpp"
 #include "reports/sections/shown.hpp"
-#include "reports/sections/verdicts.hpp"
 #include "reports/sections/trade_off.hpp"
+#include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
 

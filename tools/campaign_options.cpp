@@ -146,10 +146,13 @@ int record_campaign(const CampaignOptions& options) {
   CampaignProgress reached;
   {
     Progress progress(options.record.quiet);
+    bool was_asking = true;
     reached = run_campaign(
         plan, subjects,
         [&](TrialResult&& result, const CampaignProgress& now) {
           record.add(std::move(result));
+          if (was_asking && !now.is_asking) record.save_now();
+          was_asking = now.is_asking;
           if (progress.due()) progress.show(show(now, time, record.statistics()), part_done(now, time));
           return true;
         },

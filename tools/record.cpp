@@ -42,8 +42,8 @@ std::string cpu_model() {
 
 /// Prints what failed, the simplest query that fails in the same way, and what explains it.
 void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
-  fmt::print(text, "  {} {} {} ({}; {}, {})\n", name(finding.what), finding.subject, finding.provenance,
-             finding.signature, name(finding.query_class), seen_text(seen));
+  fmt::print(text, "  {} {} {} ({} query; {}, {} in all)\n", name(finding.what), finding.subject,
+             finding.provenance, name(finding.query_class), finding.signature, seen_text(seen));
   std::istringstream lines(to_readable(finding.shrunk));
   for (std::string line; std::getline(lines, line);) fmt::print(text, "    {}\n", line);
   fmt::print(text, "    {}\n", to_text(explain(finding.shrunk)));
@@ -93,7 +93,7 @@ Record::Record(RecordOptions options, RunInfo info, const Shard& shard)
 Record::~Record() {
   if (!store_) return;
   try {
-    if (unsaved_) save_shrunk();
+    if (unsaved_) save_now();
   } catch (const std::exception&) {  // such as a full disk, which has ended the command, too
   }
   if (saved_) return;
@@ -145,7 +145,7 @@ void Record::add(TrialResult&& result) {
   for (auto& [number, finding] : result.shrunk) findings_.at(number) = std::move(finding);
   unsaved_shrunk_ = unsaved_shrunk_ || !result.shrunk.empty();
   if (Clock::now() - last_save_ >= save_interval) save();
-  if (unsaved_shrunk_ && Clock::now() - last_save_of_shrunk_ >= save_shrunk_interval) save_shrunk();
+  if (unsaved_shrunk_ && Clock::now() - last_save_of_shrunk_ >= save_shrunk_interval) save_now();
 }
 
 void Record::add(const ScenePicture& picture) {
@@ -162,7 +162,7 @@ void Record::save() {
   last_save_ = Clock::now();
 }
 
-void Record::save_shrunk() {
+void Record::save_now() {
   save();
   if (store_ && unsaved_shrunk_) store_->replace(findings_);
   unsaved_shrunk_ = false;
@@ -180,7 +180,7 @@ void Record::add_unasked(const Subjects& subjects) {
 
 int Record::finish(bool interrupted, bool complete) {
   shard_.complete = complete;
-  save_shrunk();
+  save_now();
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",

@@ -54,6 +54,8 @@ class Record {
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store.
   void add(const ScenePicture& picture);
+  /// Saves what was added.
+  void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
   /// Counts that these subjects were on trial, also those that could be asked nothing.
@@ -68,7 +70,6 @@ class Record {
   void begin();
   void go_on();
   void save();
-  void save_shrunk();
 
   RecordOptions options_;
   RunInfo info_;

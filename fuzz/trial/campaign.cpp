@@ -100,6 +100,7 @@ class CampaignRun {
 
   void finish_shrinking() {
     progress_.is_asking = false;
+    pass_on();  // says so before shrinking takes its time
     shrinking_.finish([&] { pass_on_now_and_then(); });
     pass_on();
   }

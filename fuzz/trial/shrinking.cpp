@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "fuzz/parallel.hpp"
 #include "fuzz/trial/signatures.hpp"
 
 namespace nearmiss {
@@ -55,7 +54,7 @@ std::size_t Shrinking::left() const {
 
 std::optional<Shrinking::Task> Shrinking::next() {
   const std::lock_guard lock(mutex_);
-  if (waiting_.empty() || stop_.is_due(Stop::grace)) return std::nullopt;
+  if (waiting_.empty() || ends_ || stop_.is_due(Stop::grace)) return std::nullopt;
   Task task = std::move(waiting_.begin()->second);
   waiting_.erase(waiting_.begin());
   ++under_way_;
@@ -82,19 +81,30 @@ void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
 }
 
 void Shrinking::work() {
-  const auto waits = [&] { return waiting_.empty() && !ends_ && !is_hurried_; };
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      has_changed_.wait(lock, [&] { return !waits(); });
-      if (ends_ || is_hurried_) return;
+      has_changed_.wait(lock, [&] { return !waiting_.empty() || ends_ || is_hurried_; });
+      if (ends_) return;
+      if (is_hurried_) break;
       busy_since_ = Clock::now();
     }
-    auto task = next();
-    if (!task) return;  // the time is over
-    shrink(*task, [&] { rest(); });
-    busy_ += Clock::now() - busy_since_;
+    if (auto task = next()) {
+      shrink(*task, [&] { rest(); });
+      busy_ += Clock::now() - busy_since_;
+    } else {  // the time is over
+      std::unique_lock lock(mutex_);
+      has_changed_.wait(lock, [&] { return ends_ || is_hurried_; });
+    }
   }
+  work_hurriedly();
+}
+
+void Shrinking::work_hurriedly() {
+  while (auto task = next()) shrink(*task);
+  const std::lock_guard lock(mutex_);
+  --hurrying_;
+  has_changed_.notify_all();
 }
 
 void Shrinking::rest() {
@@ -115,14 +125,32 @@ void Shrinking::rest() {
 }
 
 void Shrinking::finish(const std::function<void()>& report) {
-  {
-    const std::lock_guard lock(mutex_);
-    is_hurried_ = true;
-  }
+  std::vector<std::thread> others;
+  const auto end = [&] {
+    for (std::thread& each : others) each.join();
+    if (thread_.joinable()) thread_.join();
+  };
+  std::unique_lock lock(mutex_);
+  is_hurried_ = true;
+  hurrying_ = jobs_;
   has_changed_.notify_all();
-  in_order<Task>(
-      jobs_, [&] { return next(); }, [&](Task& task) { shrink(task); }, [&](Task& /*task*/) { report(); });
-  if (thread_.joinable()) thread_.join();
+  for (int i = thread_.joinable() ? 1 : 0; i < jobs_; ++i) others.emplace_back([this] { work_hurriedly(); });
+  try {
+    while (hurrying_ != 0) {
+      has_changed_.wait_for(lock, std::chrono::milliseconds(100));
+      lock.unlock();
+      report();
+      lock.lock();
+    }
+  } catch (...) {
+    if (!lock.owns_lock()) lock.lock();
+    ends_ = true;
+    lock.unlock();
+    end();
+    throw;
+  }
+  lock.unlock();
+  end();
   report();
 }
 

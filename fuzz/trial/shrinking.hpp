@@ -40,7 +40,7 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` now and then.
+  /// Shrinks the rest on all cores, until `stop` is due, with its grace. Calls `report` several times a second meanwhile.
   void finish(const std::function<void()>& report);
 
  private:
@@ -53,6 +53,7 @@ class Shrinking {
   };
 
   void work();
+  void work_hurriedly();
   /// The next task; nothing if there is none.
   std::optional<Task> next();
   void shrink(Task& task, const FindingShrinker::Rest& rest = {});
@@ -73,6 +74,7 @@ class Shrinking {
   std::map<std::size_t, Finding> shrunk_;
   std::exception_ptr failure_;
   bool is_hurried_ = false;  // there is nothing to ask any more
+  int hurrying_ = 0;         // threads that shrink the rest
   bool ends_ = false;
 
   const Clock::time_point start_ = Clock::now();

@@ -1,6 +1,7 @@
 #include "fuzz/trial/shrunk_finding.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -41,12 +42,13 @@ bool ends_process(const Verdict& verdict) {
   }
 }
 
-/// A subject that refuses further queries when a limit is reached.
+/// A subject that refuses further queries when a limit is reached, and after one that exceeds the subject's time limit. A
+/// subject that has done this once is asked one query at a time, so that the others of a batch are not asked again and again.
 class Limited final : public ForwardingSubject {
   /// The subject's answer, which costs the work of this number of queries. Throws Error if a limit is reached.
   template <class Ask>
   auto asked(std::size_t queries, const Ask& ask) const {
-    if (work_ <= 0) throw Error("the subject has answered as many queries as it may");
+    if (work_ <= 0 || is_slow_) throw Error("the subject has answered as many queries as it may");
     if (time_ <= Clock::duration::zero()) throw Error("the subject has answered as long as it may");
     work_ -= ShrinkLimits::of_call + static_cast<std::int64_t>(queries);
     const auto before = Clock::now();
@@ -56,16 +58,16 @@ class Limited final : public ForwardingSubject {
   }
 
  public:
-  Limited(const Subject& to, std::int64_t work, Clock::duration time)
-      : ForwardingSubject(to.name(), to), work_(work), time_(time) {}
+  /// `has_been_slow` outlives it, and is shared by all that ask the subject.
+  Limited(const Subject& to, std::int64_t work, Clock::duration time, std::atomic<bool>& has_been_slow)
+      : ForwardingSubject(to.name(), to), work_(work), time_(time), has_been_slow_(has_been_slow) {}
 
   using ForwardingSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    asked(queries.size(), [&] {
-      to().decide(queries, verdicts);
-      return true;
-    });
-    work_ -= ShrinkLimits::of_process * std::count_if(verdicts.begin(), verdicts.end(), ends_process);
+    std::fill(verdicts.begin(), verdicts.end(), Verdict{.fault = Fault::not_asked});
+    const std::size_t at_once = has_been_slow_ ? 1 : std::max<std::size_t>(queries.size(), 1);
+    for (std::size_t first = 0; first < queries.size() && !is_slow_; first += at_once)
+      decide_some(queries.subspan(first, at_once), verdicts.subspan(first, at_once));
   }
   [[nodiscard]] double distance_bound(const Query& query) const override {
     return asked(1, [&] { return to().distance_bound(query); });
@@ -75,8 +77,21 @@ class Limited final : public ForwardingSubject {
   }
 
  private:
+  void decide_some(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+    asked(queries.size(), [&] {
+      to().decide(queries, verdicts);
+      return true;
+    });
+    work_ -= ShrinkLimits::of_process * std::count_if(verdicts.begin(), verdicts.end(), ends_process);
+    const auto is_slow = [](const Verdict& each) { return each.fault == Fault::time; };
+    if (std::none_of(verdicts.begin(), verdicts.end(), is_slow)) return;
+    is_slow_ = has_been_slow_ = true;
+  }
+
   mutable std::int64_t work_;
   mutable Clock::duration time_;
+  mutable bool is_slow_ = false;
+  std::atomic<bool>& has_been_slow_;
 };
 
 /// Whether an answer can be a failure of this kind. A bound that is no distance is a fault of a false positive.
@@ -170,9 +185,8 @@ class FindingShrinker::OfSubject {
   /// The simplest query that fails in the same way; of this class, if it is given.
   [[nodiscard]] Query shrunk_of(const Finding& finding, std::optional<QueryClass> of, const OfSubject* before,
                                 const std::function<void()>& check) const {
-    const Limited limited(subject_, limits_.work / 2, limits_.time / 2);
-    const Limited limited_before(before == nullptr ? subject_ : before->subject_, limits_.work / 2,
-                                 limits_.time / 2);
+    const Limited limited = limited_subject();
+    const Limited limited_before = before == nullptr ? limited_subject() : before->limited_subject();
     SameFailure same({finding.what, finding.signature}, limited, check);
     if (of) same.only(*of);
     if (before != nullptr) same.only_since(limited_before);
@@ -186,13 +200,18 @@ class FindingShrinker::OfSubject {
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
   }
 
+  /// The subject for one search.
+  [[nodiscard]] Limited limited_subject() const {
+    return {subject_, limits_.work / 2, limits_.time / 2, has_been_slow_};
+  }
+
   /// The small queries on which the subject fails, of the finding's kind.
   const SmallFailures& small_failures(const Query& query, const std::function<void()>& check) const {
     const bool apart = query.separation != 0;
     const std::lock_guard lock(mutex_);
     auto& known = small_[{query.kind, apart}];
     if (!known) {
-      const Limited limited(subject_, limits_.work / 2, limits_.time / 2);
+      const Limited limited = limited_subject();
       known.emplace(limited, query.kind, apart, check);
     }
     return *known;
@@ -207,6 +226,7 @@ class FindingShrinker::OfSubject {
 
   const Subject& subject_;
   const ShrinkLimits& limits_;
+  mutable std::atomic<bool> has_been_slow_ = false;
   mutable std::mutex mutex_;
   mutable std::map<std::pair<Kind, bool>, std::optional<SmallFailures>> small_;
 };

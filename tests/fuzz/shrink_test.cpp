@@ -12,6 +12,8 @@
 #include <optional>
 #include <span>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
@@ -262,6 +264,43 @@ TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
   EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));  // the limit ended the search
   EXPECT_LE(fast.asked.size(), few.work);
   EXPECT_GE(fast.asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
+}
+
+/// Exceeds its time limit where a coordinate is 0, and notes the sizes of its calls, and which of them took too long.
+class Hanging final : public ForwardingSubject {
+ public:
+  explicit Hanging(const Subject& basic) : ForwardingSubject("basic", basic) {}
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    ForwardingSubject::decide(queries, verdicts);
+    bool is_slow = false;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      if (std::count(queries[i].x.begin(), queries[i].x.end(), 0.0) > 0) {
+        verdicts[i] = {.fault = Fault::time};
+        is_slow = true;
+      }
+    calls.emplace_back(queries.size(), is_slow);
+  }
+
+  mutable std::vector<std::pair<std::size_t, bool>> calls;
+};
+
+TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
+  const auto basic = make_subject("basic");
+  const Hanging hanging(*basic);
+  const Subject* const pointer = &hanging;
+  const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), limits_in_campaign);
+  std::size_t searches = 0;
+  for (Finding finding : missed_by_basic()) {
+    shrinker.shrink(finding);
+    EXPECT_TRUE(finding.is_shrunk);
+    searches += 2 + kinds.size();  // of any class, of its own, and once for each kind among small queries
+  }
+  const auto is_slow = [](const auto& call) { return call.second; };
+  const auto first = std::find_if(hanging.calls.begin(), hanging.calls.end(), is_slow);
+  ASSERT_NE(first, hanging.calls.end());
+  EXPECT_TRUE(std::all_of(first + 1, hanging.calls.end(), [](const auto& call) { return call.first == 1; }));
+  EXPECT_LE(std::count_if(hanging.calls.begin(), hanging.calls.end(), is_slow), searches);
 }
 
 TEST(Shrink, LeavesAloneWhatDoesNotFail) {

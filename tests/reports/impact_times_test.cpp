@@ -112,7 +112,8 @@ TEST(ImpactTimes, ALateTimeInADirectedSearchKeepsASubjectOffTheFront) {
 TEST(ImpactTimes, ALateTimeFailsItsSubjectAndIsAFinding) {
   const Statistics late = statistics_of("mine", {in_time, too_late});
   EXPECT_TRUE(has_failed(late));
-  EXPECT_THAT(summary_table(late), HasSubstr("FAIL mine: no miss in 2 collisions; LATE ordinary vt 1 of 2; no false"));
+  EXPECT_THAT(summary_table(late),
+              HasSubstr("FAIL mine: no miss in 2 collisions; LATE ordinary vt 1 of 2; no false"));
   EXPECT_EQ(headline(late, std::nullopt).text, "mine failed: it was late in 1 of 2 ordinary vt times.");
   EXPECT_FALSE(headline(late, std::nullopt).clean);
   const Statistics estimates = statistics_of("mine", {estimated_after});

@@ -274,8 +274,8 @@ TEST_F(StoreTest, RefusesAnotherVersion) {
     sqlite3_open(file("other.db").c_str(), &db);
     sqlite3_exec(db, ("PRAGMA user_version = " + version).c_str(), nullptr, nullptr, nullptr);
     sqlite3_close(db);
-    const auto refused =
-        ThrowsMessage<Error>(::testing::EndsWith("other.db: found store version " + version + ", expected 18"));
+    const auto refused = ThrowsMessage<Error>(
+        ::testing::EndsWith("other.db: found store version " + version + ", expected 18"));
     EXPECT_THAT([&] { load_campaign(file("other.db")); }, refused);
     EXPECT_THAT([&] { Store(file("other.db")); }, refused);
   }

@@ -52,8 +52,8 @@ began=$(grep -o '"started": "[^"]*"' "$folder/second/report.json" | sort | head 
 night 0 --subject wang
 # The failures are red while they are there, and the baseline has them although the night before does not.
 night 1 --subject=wang,basic
-expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z, last seen 20.*Z$'
-seen=$(sed -nE 's/^lasting: .*, first seen (.*), last seen .*/\1/p' "$folder/said" | sort -u)
+expect_said '^lasting: false-negative of basic, .*, first seen 20.*Z .version .*., last seen 20.*Z .version .*.$'
+seen=$(sed -nE 's/^lasting: .*, first seen ([^ ]*) .*, last seen .*/\1/p' "$folder/said" | sort -u)
 expect "expected that all were first seen in the second night, at $began, found $seen" test "$seen" = "$began"
 # A baseline of one night is the night before.
 night 0 --subject wang

@@ -158,8 +158,8 @@ class IsolatedPlugin final : public BatchSubject {
   }
 
   /// The same for one batch. A worker that cannot be used any more is replaced, and goes on behind the query at which it failed. A call
-  /// that takes too long as a whole is repeated with fewer queries, at last with one. `late` counts the queries over the
-  /// time limit.
+  /// that takes too long as a whole is repeated query by query, since nobody knows which one takes so long. `late` counts the
+  /// queries over the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
@@ -167,6 +167,7 @@ class IsolatedPlugin final : public BatchSubject {
     const bool is_asked = can_decide(batch.front());
     if (worker) worker->give(batch);
     const auto size = static_cast<std::uint32_t>(batch.size());
+    bool is_split = false;
     for (std::uint32_t first = 0; first < size;) {
       if (!is_asked || (limits_.most_late != 0 && late >= limits_.most_late)) {
         take_part(first, first, not_asked);
@@ -179,10 +180,11 @@ class IsolatedPlugin final : public BatchSubject {
         ++first;
         continue;
       }
-      const std::uint32_t last = first + std::min(size - first, in_a_call_.load());
+      const std::uint32_t last = first + (is_split ? 1 : std::min(size - first, in_a_call_.load()));
       const std::optional<WorkerFailure> failure = worker->perform(request, first, last);
       code_->expect_unchanged();  // a running process, too, may see what is written to its file
-      adapt(last - first, *worker, failure);
+      if (!is_split) adapt(last - first, *worker, failure);
+      is_split = is_split || (failure && failure->of_call);
       if (!failure || !failure->of_call) {
         const std::uint32_t end = failure ? failure->query : last;
         take_part(first, end, failure);
