@@ -46,7 +46,7 @@ SUBJECTS = [
     'exact',
 ]
 PLUGINS = ['sampling', 'promises']
-VERSIONS = {'v1': 'v1', 'new': 'v2'}  # names of subjects and plug-ins
+VERSIONS = {'v1': 'v1', 'second': 'v2'}  # names of subjects and plug-ins
 CASES, SEED = 2200, 7
 
 # Values that cannot be recomputed: times; facts about the machine of a run; the oracle's counters
