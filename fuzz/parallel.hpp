@@ -1,4 +1,4 @@
-// Parallel loops, the only place that uses threads.
+// Parallel loops. Only shrinking (trial/shrinking.hpp), which goes on beside them, has threads of its own.
 #pragma once
 
 #include <cstddef>

@@ -41,10 +41,7 @@ class CampaignRun {
     progress_.of = cases_of_shard(plan);
     patience_.know(plan.before);
     least_kept_.take(plan.before.counts);
-    for (const Finding& finding : plan.findings_before) {
-      first_.take(finding);
-      shrinking_.add(finding);
-    }
+    for (const Finding& finding : plan.findings_before) shrinking_.add(finding);
   }
 
   CampaignProgress run() {
@@ -123,9 +120,7 @@ class CampaignRun {
 
   /// Passes the results on that have come since the last time, with the first findings of each signature and class.
   void pass_on() {
-    std::erase_if(sum_.findings, [&](const Finding& f) { return !first_.take(f); });
-    for (const Finding& finding : sum_.findings) shrinking_.add(finding);
-    sum_.shrunk = shrinking_.take();
+    shrinking_.sift(sum_);
     progress_.to_shrink = shrinking_.left();
     progress_.elapsed = Clock::now() - start_;
     passed_on_ = progress_.cases;
@@ -140,7 +135,6 @@ class CampaignRun {
   Pace pace_;
   Patience patience_;
   LeastKept least_kept_;
-  FirstFindings first_;
   Shrinking shrinking_;
   CasesOfShard cases_;
   std::uint64_t number_ = 0;  // of the next slice

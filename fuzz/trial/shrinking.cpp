@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fuzz/trial/signatures.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -29,9 +29,17 @@ Shrinking::~Shrinking() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Shrinking::add(const Finding& finding) {
+void Shrinking::sift(TrialResult& result) {
+  std::erase_if(result.findings, [&](const Finding& finding) {
+    const std::size_t nth = first_.count(finding);
+    if (nth <= findings_kept) add(finding, nth);
+    return nth > findings_kept;
+  });
+  result.shrunk = take();
+}
+
+void Shrinking::add(const Finding& finding, std::size_t nth) {
   const std::size_t number = count_++;
-  const std::size_t nth = ++added_[{signature_of(finding), finding.query_class, finding.broken_since}];
   if (finding.is_shrunk || nth > of_each_) return;
   {
     const std::lock_guard lock(mutex_);
@@ -63,7 +71,7 @@ std::optional<Shrinking::Task> Shrinking::next() {
 
 void Shrinking::shrink(Task& task, const FindingShrinker::Rest& rest) {
   // Every step would take as long as the time limit. `nearmiss shrink` does it.
-  const bool is_slow = task.finding.what == Finding::What::fault && is_of_time_limit(task.finding.signature);
+  const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
   try {
     if (is_slow)
       task.finding.is_shrunk = true;

@@ -25,14 +25,18 @@ namespace nearmiss {
 /// are shrunk to. Its functions are called by one thread at a time.
 class Shrinking {
  public:
-  /// Shrinks the first `of_each` findings of each signature and class (as FirstFindings). The subjects and `stop` must outlive it.
+  /// Shrinks the first `of_each` findings of each signature and class. The subjects and `stop` must outlive it.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, std::size_t of_each);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
   ~Shrinking();
 
   /// Takes on a finding, which gets the next number, from 0 on.
-  void add(const Finding& finding);
+  void add(const Finding& finding) { add(finding, first_.count(finding)); }
+
+  /// Leaves the first findings of each signature and class (FirstFindings) in a result, takes them on, and adds those that have
+  /// been shrunk since the last call. Throws what shrinking threw.
+  void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.
   [[nodiscard]] std::map<std::size_t, Finding> take();
@@ -45,7 +49,9 @@ class Shrinking {
 
  private:
   using Clock = Stop::Clock;
-  /// What is shrunk first: the class, which finding of its signature, and the number.
+  /// `nth` is the number among the findings of its signature and class.
+  void add(const Finding& finding, std::size_t nth);
+  /// The order of shrinking: by class, then by the number among the findings of the signature, then by the number among all.
   using Priority = std::tuple<QueryClass, std::size_t, std::size_t>;
   struct Task {
     std::size_t number;
@@ -64,7 +70,7 @@ class Shrinking {
   int jobs_;
   const Stop& stop_;
   std::size_t of_each_;
-  std::map<std::tuple<Signature, QueryClass, std::string>, std::size_t> added_;
+  FirstFindings first_;
   std::size_t count_ = 0;
 
   mutable std::mutex mutex_;

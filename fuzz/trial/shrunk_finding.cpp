@@ -17,9 +17,9 @@
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrink.hpp"
-#include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/small_queries.hpp"
 #include "fuzz/trial/versions.hpp"
+#include "reports/statistics/failure.hpp"
 
 namespace nearmiss {
 
@@ -190,7 +190,7 @@ class FindingShrinker::OfSubject {
     SameFailure same({finding.what, finding.signature}, limited, check);
     if (of) same.only(*of);
     if (before != nullptr) same.only_since(limited_before);
-    const bool every_query_is_slow = is_of_time_limit(finding.signature);
+    const bool every_query_is_slow = failure_of(signature_of(finding)) == FailureKind::slow;
     const auto small =
         every_query_is_slow
             ? std::nullopt

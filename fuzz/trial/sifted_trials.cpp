@@ -64,16 +64,14 @@ TrialResult SiftedTrials::hold(std::size_t count, const std::function<TrialResul
   });
   TrialResult sum;
   for (TrialResult& result : results) sum.merge(std::move(result));
-  std::erase_if(sum.findings, [&](const Finding& f) { return !first_.take(f); });
-  for (const Finding& finding : sum.findings) shrinking_.add(finding);
-  sum.shrunk = shrinking_.take();
+  shrinking_.sift(sum);
   return sum;
 }
 
 void SiftedTrials::finish(const std::function<void(TrialResult&&, std::size_t)>& sink) {
   const auto pass_on = [&] {
     TrialResult result;
-    result.shrunk = shrinking_.take();
+    shrinking_.sift(result);
     sink(std::move(result), shrinking_.left());
   };
   shrinking_.finish(pass_on);

@@ -47,7 +47,6 @@ class SiftedTrials {
   const Stop& stop_;
   Pace pace_;
   Patience patience_;
-  FirstFindings first_;
   Shrinking shrinking_;
 };
 

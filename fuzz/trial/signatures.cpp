@@ -68,8 +68,6 @@ std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view 
   }
 }
 
-bool is_of_time_limit(std::string_view signature) { return is_of(Fault::time, signature); }
-
 bool is_of_invalid_answer(std::string_view signature) { return is_of(Fault::invalid, signature); }
 
 std::string disagreement_signature(Kind kind, std::string_view text) {

@@ -23,9 +23,6 @@ std::string report_signature(Kind kind, Stage stage);
 /// differ by numbers alone have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
 
-/// Whether the signature is that of a query over its time limit.
-bool is_of_time_limit(std::string_view signature);
-
 /// Whether the signature is that of an answer that is none, or of a collision without the time that was promised.
 bool is_of_invalid_answer(std::string_view signature);
 

@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// What versions of a CCD have in common: the name that they export, and on which side of the contract they are asked.
+/// The same text for all versions of a CCD: the name that they export, and on which side of the contract they are asked.
 std::string ccd_of(const Subject& subject) {
   return innermost(subject).name() +
          std::string(subject.name().ends_with(beyond_contract) ? beyond_contract : "");

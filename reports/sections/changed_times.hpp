@@ -43,9 +43,9 @@ struct ComparedTimes {
 /// whole is compared with the other subjects: its median ratio is divided by the median of all subjects' and of 1. This is also
 /// done for the families of a subject that has only a few.
 ///
-/// What is left is compared with its spread by Welch's test. The variance of a logarithm is the sum of that which the batches
-/// show, and of that by which the families of the subject differ in addition: most of them have not changed. It is at least
-/// that between the earlier campaigns, if there are several.
+/// Welch's test compares the remaining change with its spread. The variance of a logarithm has two parts: one that the batches
+/// show, and the additional spread among the subject's families, most of which have not changed. It is at least the variance
+/// between the earlier campaigns, if there are several.
 ///
 /// @param risk the probability that a time is found to have changed although none has; each comparison has an equal part of
 ///             it (Bonferroni)

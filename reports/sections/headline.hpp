@@ -13,8 +13,8 @@ namespace nearmiss {
 struct Headline {
   bool clean;  ///< nothing failed, and nothing is worse than in the baseline
   std::string text;
-  /// What a night should wake somebody for: every failure that breaks a promise, every other failure that the baseline does not
-  /// have, and what is worse since the baseline; each in a line.
+  /// The reasons for a night to wake somebody, a line each: every failure that breaks a promise, every other failure that the
+  /// baseline does not have, and each way to fail and each rate that is worse since the baseline.
   std::vector<std::string> alarms;
 };
 

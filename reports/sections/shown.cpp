@@ -102,7 +102,7 @@ const Run* run_of(const Campaign& campaign, const Finding& finding) {
   return nullptr;
 }
 
-/// What names a subject's plug-in on the command line of the machine that asked it; nothing for a built-in subject.
+/// The text for a subject's plug-in on the command line of the machine that asked it; nothing for a built-in subject.
 std::optional<std::string> plugin_text(const Run& run, const std::string& subject) {
   for (const Shard& shard : run.shards)
     if (const auto text = shard.environment.find(std::string(about_plugin) + subject);
@@ -111,7 +111,7 @@ std::optional<std::string> plugin_text(const Run& run, const std::string& subjec
   return std::nullopt;
 }
 
-/// What names a subject of a run on the command line, with the scene's bound if it has that.
+/// The text for a subject of a run on the command line, with the scene's bound if it has that.
 std::string text_of(const Run& run, const std::string& subject) {
   const auto renamed = run.info.find(std::string(about_subject) + subject);
   std::string text = renamed == run.info.end() ? subject : renamed->second;

@@ -25,7 +25,7 @@ struct ShownFinding {
   Exported shrunk, original;
 };
 
-/// The first findings of each signature (FirstFindings). The files are numbered separately for each kind of failure and
+/// The first findings of each signature and class (FirstFindings). The files are numbered separately for each kind of failure and
 /// each subject; subjects whose file names differ in case alone, or not at all, share the numbers. All findings are in
 /// findings.csv.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);

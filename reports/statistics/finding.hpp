@@ -76,13 +76,15 @@ inline constexpr std::size_t findings_kept = 3;
 /// earlier version of the CCD answers rightly.
 class FirstFindings {
  public:
-  /// Counts the finding. Whether it is among the first ones of its signature and class.
-  bool take(const Finding& finding) {
-    return ++taken_[{signature_of(finding), finding.query_class, finding.broken_since}] <= findings_kept;
+  /// Counts the finding. Returns its number among those of its signature and class, from 1 on.
+  std::size_t count(const Finding& finding) {
+    return ++counted_[{signature_of(finding), finding.query_class, finding.broken_since}];
   }
+  /// Counts the finding. Whether it is among the first ones of its signature and class.
+  bool take(const Finding& finding) { return count(finding) <= findings_kept; }
 
  private:
-  std::map<std::tuple<Signature, QueryClass, std::string>, std::size_t> taken_;
+  std::map<std::tuple<Signature, QueryClass, std::string>, std::size_t> counted_;
 };
 
 }  // namespace nearmiss

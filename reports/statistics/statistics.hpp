@@ -69,7 +69,6 @@ struct Statistics {
   [[nodiscard]] std::uint64_t queries_of(const std::string& subject) const;
   [[nodiscard]] std::uint64_t false_negatives() const;
   [[nodiscard]] std::uint64_t refuted_bounds() const;
-  [[nodiscard]] std::uint64_t late() const;
   [[nodiscard]] std::uint64_t faults() const;
 
   bool operator==(const Statistics&) const = default;

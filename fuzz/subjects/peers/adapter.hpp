@@ -1,4 +1,4 @@
-// What the adapters of published CCDs share, for any CCD in C++: it decides one query at a time, and may have options that are
+// The part that all adapters of CCDs in C++ share. Such a CCD decides one query at a time, and may have options that are
 // numbers. An adapter has a function that decides, one that describes the detector, and nearmiss_get_subject().
 #pragma once
 
@@ -58,7 +58,7 @@ nearmiss_subject detector(const char* name, const char* version, const char* abo
   return subject;
 }
 
-/// What nearmiss_get_subject(index) returns for the detectors that these functions describe.
+/// The detector for nearmiss_get_subject(index), among those that these functions describe.
 template <nearmiss_subject (*... describe)()>
 const nearmiss_subject* numbered(std::size_t index) {
   static const std::array subjects{describe()...};
