@@ -13,7 +13,7 @@ namespace nearmiss::detail {
 template <class Real>
 struct Quotient {
   Real value;
-  typename Real::mask_type is_inside;
+  typename Real::Mask is_inside;
 };
 template <class Real>
 Quotient<Real> quotient(Real numerator, Real denominator) {
@@ -41,17 +41,17 @@ std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, cons
 /// place of those that are missing.
 template <class Real>
 struct CriticalTimes {
-  typename Real::mask_type any, two;
+  typename Real::Mask any, two;
   Real first, second;
 };
 template <class Real>
 CriticalTimes<Real> critical_times(const Cubic<Real>& F) {
-  using Mask = typename Real::mask_type;
+  using Mask = typename Real::Mask;
   const Real s1 = F.c + F.b;
   const Real s2 = 3 * F.a + 2 * F.b + F.c;
   const Mask has_signs = (min(F.c, min(s1, s2)) < Real(0)) & (max(F.c, max(s1, s2)) > Real(0));
-  CriticalTimes<Real> critical{Mask(false), Mask(false), Real(1), Real(1)};
-  if (none_of(has_signs)) return critical;
+  CriticalTimes<Real> critical{Mask(), Mask(), Real(1), Real(1)};
+  if (!any_of(has_signs)) return critical;
   const auto [one, other] = quadratic_roots(Real(3 * F.a), Real(2 * F.b), F.c);
   critical.any = has_signs & (one.is_inside | other.is_inside);
   critical.two = has_signs & one.is_inside & other.is_inside;
@@ -74,7 +74,7 @@ enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between 
 
 /// The contribution of an interval, as a number; nothing where it does not exist.
 template <class Real>
-Real contribution(const Bracket<Real>& interval, const typename Real::mask_type& exists, const Real& mu) {
+Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exists, const Real& mu) {
   const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };
   const auto changes = (interval.f_lo < Real(0)) != (interval.f_hi < Real(0));
   Real found = select(changes, is(root_between), is(nothing));
@@ -85,8 +85,8 @@ Real contribution(const Bracket<Real>& interval, const typename Real::mask_type&
 
 /// As refine_root, for the active lanes; 0 in the others.
 template <class Real>
-Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::mask_type active) {
-  using Mask = typename Real::mask_type;
+Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::Mask active) {
+  using Mask = typename Real::Mask;
   auto& [lo, hi, f_lo, f_hi] = bracket;
   Real root(0);
   const auto end_with = [&](const Mask& ends, const Real& time) {
@@ -102,7 +102,7 @@ Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typena
     end_with(!((t > lo) & (t < hi)), select(abs(f_lo) <= abs(f_hi), lo, hi));
     const Real value = F(t);
     end_with(abs(value) <= mu, t);
-    if (none_of(active)) return root;
+    if (!any_of(active)) return root;
     const Mask is_before = (value < Real(0)) == (f_lo < Real(0));
     lo = select(is_before, t, lo);
     f_lo = select(is_before, value, f_lo);

@@ -5,94 +5,130 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
-#include <experimental/simd>
 #include <utility>
 
 #include "ccd/scalar.hpp"
 
-#if defined __clang__ && defined __AVX512F__
-#include <immintrin.h>
-#endif
-
 namespace nearmiss {
 
-/// n doubles; every operation acts on each of them as on a double. For n = 2, 4 and 8 they fill a register if the code that
-/// uses them is compiled for these instructions.
+/// n doubles; every operation acts on each lane as on a double. They are the compiler's vector types: for n = 2, 4 and 8 these are
+/// SSE2, AVX and AVX-512 registers if the code that uses them is compiled for these instructions.
 template <int n>
-using Lanes = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, n>>;
+struct Lanes {
+  using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
+  using Integers [[gnu::vector_size(n * sizeof(double))]] = std::int64_t;
 
-template <class Abi>
-struct ScalarIn<std::experimental::simd<double, Abi>> {
+  /// True or false in each lane.
+  struct Mask {
+    Integers bits{};
+
+    Mask() = default;
+    explicit Mask(const Integers& of_lanes) : bits(of_lanes) {}
+    explicit Mask(bool same) : bits(Integers{} - (same ? 1 : 0)) {}
+
+    friend Mask operator&(const Mask& a, const Mask& b) { return Mask(a.bits & b.bits); }
+    friend Mask operator|(const Mask& a, const Mask& b) { return Mask(a.bits | b.bits); }
+    friend Mask operator==(const Mask& a, const Mask& b) { return Mask(~(a.bits ^ b.bits)); }
+    friend Mask operator!=(const Mask& a, const Mask& b) { return Mask(a.bits ^ b.bits); }
+    friend Mask operator!(const Mask& a) { return Mask(~a.bits); }
+    bool operator[](std::size_t lane) const { return std::bit_cast<EachInteger>(bits)[lane] != 0; }
+    /// The number in lanes in which the mask is true, else 0.
+    [[nodiscard]] Integers as(std::int64_t number) const { return bits & number; }
+
+    friend bool any_of(const Mask& a) {
+      std::int64_t any = 0;
+      for (const std::int64_t of_lane : std::bit_cast<EachInteger>(a.bits)) any |= of_lane;
+      return any != 0;
+    }
+
+   private:
+    using EachInteger = std::array<std::int64_t, n>;
+  };
+
+  Vector v;
+
+  Lanes() = default;
+  Lanes(double x) : v(x - Vector{}) {}
+  explicit Lanes(const Vector& of_lanes) : v(of_lanes) {}
+
+  static Lanes load(const double* from) {
+    Lanes lanes;
+    std::memcpy(&lanes.v, from, sizeof(lanes.v));
+    return lanes;
+  }
+  void store(double* to) const { std::memcpy(to, &v, sizeof(v)); }
+  /// number(0), number(1), ...
+  template <class Number>
+  static Lanes gather(const Number& number) {
+    std::array<double, n> numbers;
+    for (std::size_t lane = 0; lane < n; ++lane) numbers[lane] = number(lane);
+    return load(numbers.data());
+  }
+  double operator[](std::size_t lane) const { return std::bit_cast<std::array<double, n>>(v)[lane]; }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.v + b.v); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.v - b.v); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.v * b.v); }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
+  Lanes operator-() const { return Lanes(-v); }
+  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
+  Lanes& operator*=(const Lanes& b) { return *this = *this * b; }
+  Lanes& operator/=(const Lanes& b) { return *this = *this / b; }
+
+  friend Mask operator<(const Lanes& a, const Lanes& b) { return Mask(a.v < b.v); }
+  friend Mask operator>(const Lanes& a, const Lanes& b) { return Mask(a.v > b.v); }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) { return Mask(a.v <= b.v); }
+  friend Mask operator>=(const Lanes& a, const Lanes& b) { return Mask(a.v >= b.v); }
+  friend Mask operator==(const Lanes& a, const Lanes& b) { return Mask(a.v == b.v); }
+  friend Mask operator!=(const Lanes& a, const Lanes& b) { return Mask(a.v != b.v); }
+
+  /// a in lanes in which the mask is true, else b.
+  friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {
+    return Lanes(mask.bits ? a.v : b.v);
+  }
+  friend Lanes max(const Lanes& a, const Lanes& b) { return Lanes(a.v < b.v ? b.v : a.v); }
+  friend Lanes min(const Lanes& a, const Lanes& b) { return Lanes(b.v < a.v ? b.v : a.v); }
+  friend Lanes abs(const Lanes& a) { return max(a, -a); }
+  friend Lanes sqrt(const Lanes& a) {
+    return gather([&](std::size_t lane) { return std::sqrt(a[lane]); });
+  }
+
+  /// Turns n rows of n numbers into columns.
+  static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
+
+ private:
+  /// Exchanges the off-diagonal blocks of s × s numbers, then recursively the smaller ones within all blocks.
+  template <int s>
+  static void transpose(Lanes* rows) {
+    for (int i = 0; i < n; ++i)
+      if ((i & s) == 0) exchange<s>(rows[i], rows[i + s], std::make_integer_sequence<int, n>());
+    if constexpr (s > 1) transpose<s / 2>(rows);
+  }
+  template <int s, int... j>
+  static void exchange(Lanes& upper, Lanes& lower, std::integer_sequence<int, j...>) {
+    const Vector u = upper.v;
+    const Vector l = lower.v;
+    upper.v = __builtin_shufflevector(u, l, ((j & s) == 0 ? j : n + j - s)...);
+    lower.v = __builtin_shufflevector(u, l, ((j & s) == 0 ? j + s : n + j)...);
+  }
+};
+
+template <int n>
+struct ScalarIn<Lanes<n>> {
   using Type = double;
 };
-
-/// a in lanes in which the mask is true, else b.
-template <class Real>
-[[gnu::always_inline]] inline Real select(const typename Real::mask_type& mask, const Real& a,
-                                          const Real& b) {
-#if defined __clang__ && defined __AVX512F__ && defined __AVX512VL__
-  // Compiled by clang, where() of libstdc++ 12 assigns to the wrong lanes if masks are those of AVX-512.
-  constexpr std::size_t n = Real::size();
-  const auto bits = static_cast<__mmask8>(mask.__to_bitset().to_ulong());
-  if constexpr (n == 2)
-    return std::bit_cast<Real>(_mm_mask_blend_pd(bits, std::bit_cast<__m128d>(b), std::bit_cast<__m128d>(a)));
-  if constexpr (n == 4)
-    return std::bit_cast<Real>(
-        _mm256_mask_blend_pd(bits, std::bit_cast<__m256d>(b), std::bit_cast<__m256d>(a)));
-  if constexpr (n == 8)
-    return std::bit_cast<Real>(
-        _mm512_mask_blend_pd(bits, std::bit_cast<__m512d>(b), std::bit_cast<__m512d>(a)));
-#endif
-  Real selected = b;
-  where(mask, selected) = a;
-  return selected;
-}
-
-/// number(0), number(1), ...
-template <class Real, class Number>
-[[gnu::always_inline]] inline Real gather(const Number& number) {
-  return Real([&](auto lane) { return number(static_cast<std::size_t>(lane)); });
-}
-
-/// The compiler's vector of n doubles.
-template <int n>
-struct Register {
-  using Doubles [[gnu::vector_size(n * sizeof(double))]] = double;
-  Doubles v;
-};
-
-/// The numbers of a row in the first lane, those of the next row in the second lane, ...: n numbers of each of n rows.
-template <int n, class Row>
-[[gnu::always_inline]] inline void load_transposed(const Row& row, Lanes<n>* columns) {
-  std::array<Register<n>, n> rows;
-  for (std::size_t i = 0; i < n; ++i) std::memcpy(&rows[i], row(i), sizeof(rows[i]));
-  const auto swap_blocks = [&]<std::size_t size, std::size_t... j>(std::index_sequence<size>,
-                                                                   std::index_sequence<j...>) {
-    // In each block of 2 × 2 blocks of this size, the upper right one and the lower left one change places.
-    for (std::size_t i = 0; i < n; ++i) {
-      if ((i & size) != 0) continue;
-      const auto [upper] = rows[i];
-      const auto [lower] = rows[i + size];
-      rows[i].v = __builtin_shufflevector(upper, lower, ((j & size) == 0 ? j : n + j - size)...);
-      rows[i + size].v = __builtin_shufflevector(upper, lower, ((j & size) == 0 ? j + size : n + j)...);
-    }
-  };
-  constexpr auto columns_of_row = std::make_index_sequence<n>();
-  if constexpr (n >= 8) swap_blocks(std::index_sequence<4>(), columns_of_row);
-  if constexpr (n >= 4) swap_blocks(std::index_sequence<2>(), columns_of_row);
-  swap_blocks(std::index_sequence<1>(), columns_of_row);
-  for (std::size_t i = 0; i < n; ++i) columns[i] = std::bit_cast<Lanes<n>>(rows[i]);
-}
 
 }  // namespace nearmiss
 
 /// Eigen's vectors of lanes.
-template <class Abi>
-struct Eigen::NumTraits<std::experimental::simd<double, Abi>>
-    : Eigen::GenericNumTraits<std::experimental::simd<double, Abi>> {
-  using Real = std::experimental::simd<double, Abi>;
+template <int n>
+struct Eigen::NumTraits<nearmiss::Lanes<n>> : Eigen::GenericNumTraits<nearmiss::Lanes<n>> {
+  using Real = nearmiss::Lanes<n>;
   using NonInteger = Real;
   using Literal = Real;
   using Nested = Real;

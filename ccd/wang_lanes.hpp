@@ -42,7 +42,7 @@ class WangLanes {
 
  private:
   using Real = Lanes<n>;
-  using Mask = typename Real::mask_type;
+  using Mask = typename Real::Mask;
 
   /// Numbers of a list, with room for a whole pack behind the last one.
   template <class Number, std::size_t most>
@@ -74,8 +74,10 @@ class WangLanes {
   template <class RowOfLane>
   Points points(const RowOfLane& row) const {
     Points points;
-    for (std::size_t i = 0; i < 24; i += n)
-      load_transposed<n>([&](std::size_t lane) { return queries_.x(row(lane)) + i; }, &points.x[i]);
+    for (std::size_t i = 0; i < 24; i += n) {
+      for (std::size_t lane = 0; lane < n; ++lane) points.x[i + lane] = Real::load(queries_.x(row(lane)) + i);
+      Real::transpose(&points.x[i]);
+    }
     return points;
   }
 
@@ -89,12 +91,12 @@ class WangLanes {
   /// Numbers or truth values, to be read one by one.
   static std::array<double, n> each(const Real& lanes) {
     std::array<double, n> numbers;
-    lanes.copy_to(numbers.data(), std::experimental::element_aligned);
+    lanes.store(numbers.data());
     return numbers;
   }
   static std::array<bool, n> each(const Mask& mask) {
     std::array<bool, n> truths;
-    mask.copy_to(truths.data(), std::experimental::element_aligned);
+    for (std::size_t lane = 0; lane < n; ++lane) truths[lane] = mask[lane];
     return truths;
   }
 
@@ -102,12 +104,6 @@ class WangLanes {
   template <class Numbers>
   static void pad(Numbers& numbers, std::size_t size) {
     std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
-  }
-
-  static Real load(const double* numbers) {
-    Real lanes;
-    lanes.copy_from(numbers, std::experimental::element_aligned);
-    return lanes;
   }
 
   /// Leaves the queries that no plane separates. A coordinate that is not finite leaves its query undecided.
@@ -166,7 +162,7 @@ class WangLanes {
   template <class PlaceOfLane>
   Polynomial polynomial_at(const PlaceOfLane& place) const {
     return polynomial([&](const auto& column) {
-      return gather<Real>([&](std::size_t lane) { return column[place(lane)]; });
+      return Real::gather([&](std::size_t lane) { return column[place(lane)]; });
     });
   }
 
@@ -175,7 +171,7 @@ class WangLanes {
   void find_roots() {
     for (auto& column : columns_) pad(column, left_.size());
     for (std::size_t i = 0; i < left_.size(); i += n) {
-      const auto [F, W, B] = polynomial([i](const auto& column) { return load(&column[i]); });
+      const auto [F, W, B] = polynomial([i](const auto& column) { return Real::load(&column[i]); });
       const Real mu = AllSteps::tolerances(B).mu;
       const auto critical = detail::critical_times(F);
       const std::array<Real, 4> time{Real(0), critical.first, critical.second, Real(1)};
@@ -223,10 +219,10 @@ class WangLanes {
     pad(bracket_place_, bracket_count_);
     for (std::size_t i = 0; i < bracket_count_; i += n) {
       const Polynomial known = polynomial_at([&](std::size_t lane) { return bracket_place_[i + lane]; });
-      const detail::Bracket<Real> bracket{load(&brackets_[0][i]), load(&brackets_[1][i]),
-                                          load(&brackets_[2][i]), load(&brackets_[3][i])};
+      const detail::Bracket<Real> bracket{Real::load(&brackets_[0][i]), Real::load(&brackets_[1][i]),
+                                          Real::load(&brackets_[2][i]), Real::load(&brackets_[3][i])};
       const auto roots = each(detail::refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
-                                              gather<Real>([](std::size_t lane) {
+                                              Real::gather([](std::size_t lane) {
                                                 return static_cast<double>(lane);
                                               }) < Real(static_cast<double>(bracket_count_ - i))));
       for_lanes(i, bracket_count_,
@@ -245,7 +241,7 @@ class WangLanes {
       const Polynomial known = polynomial_at(place);
       pair.W = known.W;
       pair.B = known.B;
-      const Real t = load(&candidate_time_[i]);
+      const Real t = Real::load(&candidate_time_[i]);
       const auto tol = AllSteps::tolerances(known.B);
       const Configuration<kind, Real> configuration(pair, t);
       const Mask well_shaped = configuration.well_shaped(tol);

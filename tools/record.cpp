@@ -117,9 +117,10 @@ void Record::go_on() {
   Campaign before = load_campaign(options_.db);
   Run& run = before.runs.at(0);
   const auto expect = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    const auto quoted = [](const std::string& fact) { return fact.empty() ? "none" : "'" + fact + "'"; };
     if (found != expected)
-      throw Error(fmt::format("{}: found a run with {} '{}', expected '{}' to continue", options_.db.string(),
-                              what, found, expected));
+      throw Error(fmt::format("{}: found a run with {} {}, expected {} to continue", options_.db.string(),
+                              what, quoted(found), quoted(expected)));
   };
   if (const auto fact = different_fact(run.info, info_)) expect(fact->name, fact->one, fact->other);
   const auto name = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };

@@ -66,6 +66,9 @@ Subjects TrialOptions::keep_contracts(Subjects made) const {
     for (auto& each : keep_contract(std::move(subject), beyond_contract)) all.push_back(std::move(each));
   tell_apart(all);
   for (const std::string& name : comparison.versions) expect_subject(name, all);
+  if (!comparison.versions.empty() && comparison.versions.front() == comparison.versions.back())
+    throw Error(fmt::format("--versions: found '{}' twice, expected two subjects",
+                            excerpt(comparison.versions.front())));
   return all;
 }
 

@@ -78,7 +78,7 @@ std::span<const Pair> gaps(Kind kind) {
   return kind == Kind::vertex_triangle ? std::span<const Pair>(of_vertex) : of_edges;
 }
 
-// --- extreme queries ------------------------------------------------------------------------------------
+// --- sizes ----------------------------------------------------------------------------------------------
 
 template <class Real>
 Real largest_component(const Vec<Real>& v) {
@@ -114,22 +114,26 @@ Lengths<Real> lengths(const Query& query) {
   return found;
 }
 
-/// Whether lengths differ by a factor above 10^8.
+/// Whether edges differ by more than a factor, or the longest one and the motion or another size.
 template <class Real>
-bool has_extreme_proportions(const Query& query, double largest_coordinate) {
+bool sizes_differ(double factor, const Query& query, double other) {
   const auto [longest, shortest, fastest] = lengths<Real>(query);
   if (!(Real(0) < longest)) return false;  // points have no size
-  const auto is_far_above = [](const Real& a, const Real& b) -> bool { return a > Real(1e8) * b; };
+  const auto is_far_above = [&](const Real& a, const Real& b) -> bool { return a > Real(factor) * b; };
   return is_far_above(longest, shortest) || is_far_above(fastest, longest) ||
-         is_far_above(Real(largest_coordinate), longest);
+         is_far_above(Real(other), longest);
+}
+
+bool sizes_differ(double factor, const Query& query, double other) {
+  return filtered([&] { return sizes_differ<Interval>(factor, query, other); },
+                  [&] { return sizes_differ<Number>(factor, query, other); });
 }
 
 bool is_extreme(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   if (!is_finite(query) || largest > 1e30 || (largest != 0 && largest < 1e-30)) return true;
-  return filtered([&] { return has_extreme_proportions<Interval>(query, largest); },
-                  [&] { return has_extreme_proportions<Number>(query, largest); });
+  return sizes_differ(1e8, query, largest);
 }
 
 // --- degenerate queries ---------------------------------------------------------------------------------
@@ -293,7 +297,7 @@ bool comes_within(const Query& query, double h) {
 
 bool is_degenerate(const Query& query) {
   const auto [longest, shortest, fastest] = lengths<double>(query);
-  if (longest == 0 || fastest == 0) return true;
+  if (longest == 0 || fastest == 0 || sizes_differ(1e4, query, 0)) return true;
   const double length = nearly * longest;
   for (const int time : {0, 1}) {
     const auto root = [&] { return Root(Number(time)); };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "ccd/error.hpp"
-#include "fuzz/families/classify.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/versions.hpp"
@@ -148,7 +147,7 @@ class Judging {
     if (asks_all_methods(i)) compare_methods(i, truth, counts);
     if (!batch_.truths.empty() && batch_.truths[i].value_or(truth.collision()) != truth.collision()) {
       ++result_.statistics.mismatches_with_recorded_truth;
-      keep(i, "", {Finding::What::truth_mismatch, truth.contact()}, truth.query());
+      keep(i, "", {Finding::What::truth_mismatch, truth.contact()}, truth);
     }
   }
 
@@ -160,7 +159,7 @@ class Judging {
     return batch_.compare_all || is_near_bounds(i) || is_sampled(batch_.number(i), one_in);
   }
 
-  void compare_methods(std::size_t i, const Truth& truth, OracleCounts& counts) {
+  void compare_methods(std::size_t i, Truth& truth, OracleCounts& counts) {
     const Answers answers = truth.ask_methods();
     ++counts.compared;
     counts.compared_collisions += answers.collision() ? 1 : 0;
@@ -169,25 +168,27 @@ class Judging {
     std::string signature = truth.disagreement(answers);
     if (signature.empty()) return;
     ++result_.statistics.oracle_disagreements;
-    keep(i, "", {Finding::What::oracle_disagreement, std::move(signature)}, truth.query());
+    keep(i, "", {Finding::What::oracle_disagreement, std::move(signature)}, truth);
   }
 
   /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
     const double least_kept = std::max(least_kept_[s], Counts::least_kept(counts_[s]->farthest));
-    const Outcome outcome = judges_[s].judge(answers_[s][i], truth, least_kept);
+    Outcome outcome = judges_[s].judge(answers_[s][i], truth, least_kept);
+    auto failure = failure_of(outcome, truth);
+    if (failure) outcome.query_class = truth.query_class();
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
     if (batch_.factors && outcome.collision && outcome.verdict.fault == Fault::none)
       count_collision(result_.statistics.factors, {subjects_[s]->name(), batch_.kind, batch_.family, ""},
                       batch_.factors(i), !outcome.verdict.hit);
     if (batch_.observe) batch_.observe(i, s, outcome);
-    auto failure = failure_of(outcome, truth);
     versions_.note(s, outcome, failure ? std::optional(result_.findings.size()) : std::nullopt);
-    if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth.query(), outcome);
+    if (failure) keep(i, subjects_[s]->name(), std::move(*failure), truth, outcome);
   }
 
-  void keep(std::size_t i, const std::string& subject, Failure failure, const Query& query,
+  void keep(std::size_t i, const std::string& subject, Failure failure, Truth& truth,
             const Outcome& outcome = {}) {
+    const Query& query = truth.query();
     const bool is_late = failure.what == Finding::What::late;
     const double ratio = failure.what == Finding::What::refuted_bound ? outcome.ratio
                          : is_late                                    ? outcome.time->after
@@ -197,7 +198,7 @@ class Judging {
     result_.findings.back().time = is_late ? outcome.verdict.time : 0;
     result_.findings.back().place = i;
     result_.findings.back().simplest = query;
-    result_.findings.back().query_class = result_.findings.back().simplest_class = classify(query);
+    result_.findings.back().query_class = result_.findings.back().simplest_class = truth.query_class();
     ++result_.statistics.seen[signature_of(result_.findings.back())];
   }
 

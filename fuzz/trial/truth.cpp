@@ -7,6 +7,7 @@
 
 #include "ccd/pair_bound.hpp"
 #include "ccd/subject.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
 #include "reports/statistics/statistics.hpp"
@@ -29,6 +30,11 @@ std::string Truth::disagreement(const Answers& answers) const {
 const std::string& Truth::contact() {
   if (contact_.empty()) contact_ = contact_signature(query_);
   return contact_;
+}
+
+QueryClass Truth::query_class() {
+  if (!query_class_) query_class_ = classify(query_);
+  return *query_class_;
 }
 
 EarliestTime& Truth::time() {

@@ -9,6 +9,7 @@
 #include "ccd/query.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
+#include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {
 
@@ -38,6 +39,8 @@ class Truth {
   /// The signature of the first contact.
   const std::string& contact();
 
+  QueryClass query_class();
+
   /// The earliest time at which the distance is at most h, for a collision or a tie.
   EarliestTime& time();
   /// The largest relative speed of a vertex of one primitive and one of the other, in the pair's bound B for each step;
@@ -63,6 +66,7 @@ class Truth {
   Decision decision_;
   std::string contact_;
   std::optional<EarliestTime> time_;
+  std::optional<QueryClass> query_class_;
   std::vector<std::pair<double, Distance>> distances_;  // computed distances by unit
 };
 

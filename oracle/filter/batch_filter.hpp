@@ -75,7 +75,7 @@ class BatchFilter {
 
   /// Calls `visit(lane, number)` for each of the first `count` lanes.
   template <class Visit>
-  static void for_lanes(const typename Real::IntegerLanes& bits, std::size_t count, const Visit& visit) {
+  static void for_lanes(const typename Real::Integers& bits, std::size_t count, const Visit& visit) {
     std::array<std::int64_t, n> numbers;
     std::memcpy(numbers.data(), &bits, sizeof(bits));
     for (std::size_t l = 0; l < std::min<std::size_t>(n, count); ++l) visit(l, numbers[l]);

@@ -55,7 +55,7 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
 template <int n>
 struct Look {
   enum : std::int64_t { collision = 1, unknown = 2, before = 4, middle = 8, behind = 16 };
-  typename Lanes<n>::IntegerLanes outcome;
+  typename Lanes<n>::Integers outcome;
   Lanes<n> left, right;
 };
 

@@ -20,7 +20,7 @@ const fold = (title, query, file) => made("details", [made("summary", title), ..
 const findingCard = (finding, index) => pictureCard(drawPicture(finding.kind, finding.shrunk, finding.time, finding.toi), [
   ...(finding.new ? [made("div", "NEW since the baseline", { class: "bad" })] : []),
   made("h3", failureTitle(finding)),
-  made("div", `${finding.class} query; ${finding.signature}; ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times`}`),
+  made("div", `${finding.class} query; ${finding.signature}, ${finding.seen === 1 ? "seen once" : `seen ${integer(finding.seen)} times in all classes`}`),
   made("div", finding.explanation),
   small(`${kindTitles[finding.kind]}, from ${finding.provenance}`),
   command(finding.again),

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,8 +20,10 @@ namespace {
 /// "a", "a and b", "a, b and c"
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
   return text;
 }
 
@@ -31,17 +36,19 @@ std::string subjects(const std::vector<std::string>& names) {
 std::string since_text(const Changes& since, std::size_t asked) {
   if (asked != 0 && since.absent_subjects.size() == asked) return "no subject is in the baseline";
   std::vector<std::string> news;
-  if (const std::size_t ways = since.new_signatures.size(); ways != 0)
-    news.push_back(counted(ways, "new way to fail", "new ways to fail"));
-  std::size_t worse = 0;
-  for (const ChangedRate& rate : since.rates) worse += rate.worse() ? 1 : 0;
-  if (worse != 0) news.push_back(counted(worse, "worse rate", "worse rates"));
-  std::size_t subjects = 0;
-  std::size_t families = 0;
-  for (const ChangedTime& time : since.times.changed)
-    if (time.slower()) ++(time.is_of_subject() ? subjects : families);
-  if (subjects != 0) news.push_back(counted(subjects, "subject slower", "subjects slower"));
-  if (families != 0) news.push_back(counted(families, "family slower", "families slower"));
+  const auto add = [&](auto count, std::string_view one, std::string_view many) {
+    if (count != 0) news.push_back(counted(static_cast<std::uint64_t>(count), one, many));
+  };
+  add(since.new_signatures.size(), "new way to fail", "new ways to fail");
+  add(std::count_if(since.rates.begin(), since.rates.end(), std::mem_fn(&ChangedRate::worse)), "worse rate",
+      "worse rates");
+  const auto slower = [&](bool of_subject) {
+    return std::count_if(
+        since.times.changed.begin(), since.times.changed.end(),
+        [&](const ChangedTime& time) { return time.slower() && time.is_of_subject() == of_subject; });
+  };
+  add(slower(true), "subject slower", "subjects slower");
+  add(slower(false), "family slower", "families slower");
   const std::size_t lasting = since.lasting_signatures.size();
   const std::size_t gone = since.gone_signatures.size();
   return (lasting == 0 ? "" : counted(lasting, "way to fail", "ways to fail") + " as before, ") +

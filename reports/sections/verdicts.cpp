@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "reports/statistics/family_class.hpp"
@@ -73,23 +75,62 @@ std::string said_of(const FailureInfo& failure, QueryClass in, const std::map<Ki
                      is_one ? failure.one : failure.many);
 }
 
-/// Puts the failures that count into words, each in the least exotic class in which it was seen.
-void say_failures(const Parts& parts, const Failures& failing, SubjectVerdict& verdict) {
+/// The least exotic class of families in which a subject failed so.
+Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& failure) {
+  const auto has_failed = [&](const auto& of_kind) { return failure.count(of_kind.second) > 0; };
+  return std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
+    return std::any_of(part.second.begin(), part.second.end(), has_failed);
+  });
+}
+
+/// The least exotic class of the queries that a subject missed, if no family of this class or a less exotic one has a miss.
+std::optional<QueryClass> class_of_missed(const OfSubject& subject) {
+  const auto& missed = subject.all.missed_by_class;
+  const auto in = least_exotic_part(subject.parts, failure_info(FailureKind::miss));
+  for (std::size_t i = 0; i < missed.size(); ++i)
+    if (missed[i] > 0 && static_cast<QueryClass>(i) < in->first) return static_cast<QueryClass>(i);
+  return std::nullopt;
+}
+
+/// "missed 12 ordinary vt collisions in degenerate families": what a subject missed of a class of queries.
+std::string said_of_queries(const Parts& parts, QueryClass of) {
+  std::map<Kind, std::uint64_t> by_kind;
+  std::set<QueryClass> families;
+  for (const auto& [in, kinds] : parts)
+    for (const auto& [kind, counts] : kinds)
+      if (const auto count = counts.missed_by_class[static_cast<std::size_t>(of)]; count > 0) {
+        by_kind[kind] += count;
+        families.insert(in);
+      }
+  families.erase(QueryClass::unclassified);
+  std::vector<std::string> kinds_text;
+  for (const auto& [kind, count] : by_kind)
+    kinds_text.push_back(fmt::format("{} {} {}", with_separators(count), name(of), short_name(kind)));
+  std::vector<std::string_view> names;
+  for (const QueryClass each : families) names.push_back(name(each));
+  const bool is_one = by_kind.size() == 1 && by_kind.begin()->second == 1;
+  return fmt::format("missed {} {}{}", fmt::join(kinds_text, " and "), is_one ? "collision" : "collisions",
+                     names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
+}
+
+/// Puts the failures that count into words, each in the least exotic class in which it was seen: that of the families, or of the
+/// missed queries if it is less exotic.
+void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
     if (kind == FailureKind::not_asked) {
       verdict.said[kind] = verdict.first = failure_info(kind).verb;
       continue;
     }
-    const auto has_failed = [&](const auto& each) { return failure_info(kind).count(each.second) > 0; };
-    const auto in = std::find_if(parts.begin(), parts.end(), [&](const auto& part) {
-      return std::any_of(part.second.begin(), part.second.end(), has_failed);
-    });
-    if (in == parts.end()) continue;
-    verdict.said[kind] = said_of(failure_info(kind), in->first, in->second);
-    if (!verdict.first.empty() && in->first >= verdict.least_exotic) continue;
+    const auto in = least_exotic_part(subject.parts, failure_info(kind));
+    if (in == subject.parts.end()) continue;
+    const auto missed = kind == FailureKind::miss ? class_of_missed(subject) : std::nullopt;
+    verdict.said[kind] =
+        missed ? said_of_queries(subject.parts, *missed) : said_of(failure_info(kind), in->first, in->second);
+    const QueryClass least_exotic = missed.value_or(in->first);
+    if (!verdict.first.empty() && least_exotic >= verdict.least_exotic) continue;
     verdict.first = verdict.said[kind];
-    verdict.least_exotic = in->first;
+    verdict.least_exotic = least_exotic;
   }
 }
 
@@ -148,6 +189,11 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
       failures.contains(FailureKind::miss)
           ? by_classes("MISSED", FailureKind::miss)
           : fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions"))};
+  if (const auto missed = class_of_missed(subject)) {
+    const auto count = counts.missed_by_class[static_cast<std::size_t>(*missed)];
+    parts.push_back(fmt::format("{} of the missed queries {} {}", with_separators(count),
+                                count == 1 ? "is" : "are", name(*missed)));
+  }
   if (failures.contains(FailureKind::late)) parts.push_back(by_classes("LATE", FailureKind::late));
   if (failures.contains(FailureKind::beyond_bound))
     parts.push_back(fmt::format("{} BEYOND ITS BOUND", with_separators(counts.refuted_bounds)));
@@ -172,7 +218,7 @@ std::string answered_text(const Failures& failures, const OfSubject& subject) {
 
 SubjectVerdict verdict_on(const std::string& name, const OfSubject& subject, const Failures& failing) {
   SubjectVerdict verdict{.subject = name, .failures = failures_of(name, subject.all), .text = {}, .said = {}};
-  say_failures(subject.parts, failing, verdict);
+  say_failures(subject, failing, verdict);
   verdict.text = verdict.failures.contains(FailureKind::not_asked) ? not_asked_text(subject.all)
                                                                    : answered_text(verdict.failures, subject);
   return verdict;

@@ -35,10 +35,12 @@ void Counts::add(const Outcome& outcome, const Query& query, const std::function
   positives += hit ? 1 : 0;
   rejected_by[static_cast<std::size_t>(outcome.verdict.rejection)] += hit ? 0 : 1;
   if (outcome.collision) {
-    if (hit)
+    if (hit) {
       ++true_by_stage[stage];
-    else
+    } else {
       ++false_negatives;
+      ++missed_by_class[static_cast<std::size_t>(outcome.query_class)];
+    }
     if (outcome.time) add_time(*outcome.time, query, provenance);
   } else if (hit) {
     ++false_positives;

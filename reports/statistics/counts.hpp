@@ -16,6 +16,7 @@
 #include "reports/statistics/counter.hpp"
 #include "reports/statistics/distance_unit.hpp"
 #include "reports/statistics/histogram.hpp"
+#include "reports/statistics/query_class.hpp"
 #include "reports/statistics/times.hpp"
 
 namespace nearmiss {
@@ -58,8 +59,9 @@ struct Outcome {
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   /// Whether the subject claims no bound, so that wang's bound for the same pair divides the distance.
   bool measured_by_wang = false;
-  std::string fault_text = {};         ///< what an exception said
-  std::optional<TimeError> time = {};  ///< of a true positive with a time
+  std::string fault_text = {};                        ///< what an exception said
+  std::optional<TimeError> time = {};                 ///< of a true positive with a time
+  QueryClass query_class = QueryClass::unclassified;  ///< of a query that failed
 };
 
 /// Counters of one subject, kind and family.
@@ -68,6 +70,8 @@ struct Counts {
   std::uint64_t collisions = 0;  ///< collisions, by the oracle, among the queries that the subject answered
   std::uint64_t positives = 0;   ///< queries that the subject reported as collisions
   std::uint64_t false_negatives = 0;
+  std::array<std::uint64_t, class_names.size()>
+      missed_by_class{};  ///< false negatives by the class of the query
   std::uint64_t false_positives = 0;
   std::uint64_t refuted_bounds = 0;    ///< false positives that are farther away than claimed
   std::uint64_t measured_by_wang = 0;  ///< false positives for which the subject claims no bound
@@ -105,6 +109,8 @@ struct Counts {
         Counter{"stuck", &Counts::stuck, Shown::with_rates},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},
+        NamedCounts<Counts, class_names.size()>{"missed_by_class", &Counts::missed_by_class, class_names,
+                                                "false_negatives_by_class", "missed"},
         NamedCounts<Counts, stage_count>{"true_by_stage", &Counts::true_by_stage, stage_names,
                                          "true_positives_by_stage", "true_by"},
         NamedCounts<Counts, stage_count>{"false_by_stage", &Counts::false_by_stage, stage_names,

@@ -29,7 +29,7 @@ bool is_empty(const SQLite::Database& db);
 void write_version(SQLite::Database& db);
 
 /// The version of the tables and of their contents; every change raises it. Only stores of this version are read.
-inline constexpr int store_version = 18;
+inline constexpr int store_version = 19;
 
 /// Throws Error if the database is not a store of this version.
 void expect_version(SQLite::Database& db);

@@ -73,7 +73,9 @@ std::string times_the_bound(double ratio, DistanceUnit unit) {
   const bool is_claim = unit == DistanceUnit::claimed_bound;
   std::string text = ratio == infinite ? fmt::format("beyond {} bound of 0", is_claim ? "a" : "wang's")
                                        : fmt::format("at {} {} bound", fraction_of_bound(ratio),
-                                                     is_claim ? "of the" : "times wang's");
+                                                     !is_claim    ? "times wang's"
+                                                     : ratio <= 1 ? "of the"
+                                                                  : "times the");
   if (unit == DistanceUnit::wangs_bound) text += " (it claims none)";
   if (unit == DistanceUnit::both) text += " or a claim";
   return text;

@@ -32,7 +32,7 @@ std::string whole_ns(const std::optional<double>& ns);
 /// largest double, which stands for any distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
-/// "at 0.987 of the bound", or "beyond a bound of 0". The text says so if the bound is not a claim: "at 12.3 times
+/// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". The text says so if the bound is not a claim: "at 12.3 times
 /// wang's bound (it claims none)".
 std::string times_the_bound(double ratio, DistanceUnit unit = DistanceUnit::claimed_bound);
 

@@ -1,10 +1,11 @@
-// Counts how often a report with a baseline raises an alarm. For pairs of equal campaigns, every alarm is
-// false. Other pairs have a planted defect: one query of 3,000 is answered wrongly, by a subject without failures or by a
-// subject that fails anyway; or one family takes 1.5 times as long. Campaigns have a number of cases, or a time such as 20s.
+// Counts how often a report with a baseline raises an alarm. Each campaign is compared with the next one, which is equal, so
+// that every alarm is false, and with one that has a planted defect: one query of 3,000 is answered wrongly, by a subject
+// without failures or by a subject that fails anyway; or one family takes 1.5 times as long. Campaigns have a number of cases,
+// or a time such as 20s. The counts up to then are printed after every ten pairs.
 //
 //     node tests/alarms/run.mjs [--jobs N] NEARMISS PLUGINS [PAIRS [CASES [equal|wang|basic|slower]]]
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, renameSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { readOptions } from "../../tools/options.mjs";
@@ -20,6 +21,7 @@ const planted = (subject) => resolve(plugins, `planted_in_${subject}.so`);
 const length = [/^\d+$/.test(cases) ? "--cases" : "--time", cases, ...(options.jobs ? ["--jobs", options.jobs] : [])];
 
 function night(name, seed, subjects, defect) {
+  rmSync(join(folder, `${name}.db`), { force: true });
   const { status, stderr } = spawnSync(resolve(nearmiss),
     ["fuzz", ...length, "--seed", `${seed}`, "--subject", subjects, "--db", `${name}.db`],
     { cwd: folder, env: { ...process.env, ...defect }, encoding: "utf8" });
@@ -34,37 +36,57 @@ function alarms() {
     ...baseline.gone_signatures.map((each) => `no ${each.what} of ${each.subject}, ${each.signature}`),
     ...baseline.changed_rates.filter((rate) => rate.worse).map((rate) => `${rate.what} of ${rate.subject} in ${rate.family}`),
     ...baseline.changed_times.map((time) => `${time.slower ? "slower" : "faster"}: ${time.subject} in ${time.family}, ${time.kind}, ${time.ratio.toFixed(2)} times`)];
-  for (const name of ["before.db", "now.db", "report"]) rmSync(join(folder, name), { recursive: true });
+  rmSync(join(folder, "report"), { recursive: true });
   return found;
 }
 
-/** Counts the pairs with an alarm that is `right`, and prints the other alarms. */
-function count(what, subjects, defect, seed, right = () => true) {
-  let noticed = 0;
-  let wrong = 0;
-  for (let pair = 0; pair < Number(pairs); ++pair) {
-    night("before", seed + 2 * pair, subjects, {});
-    night("now", seed + 2 * pair + 1, subjects, defect);
-    const found = alarms();
-    const others = found.filter((each) => !right(each));
-    noticed += found.length > others.length ? 1 : 0;
-    wrong += others.length > 0 ? 1 : 0;
-    if (others.length > 0) console.log(`  seeds ${seed + 2 * pair} and ${seed + 2 * pair + 1}: ${others.join("; ")}`);
+/** Compares the campaign "now" with that of `before`. An alarm may be `right`; prints the others. */
+class Count {
+  constructor(what, right) {
+    Object.assign(this, { what, right, pairs: 0, noticed: 0, wrong: 0 });
   }
-  console.log(`${what}: ${noticed} right and ${wrong} false alarms in ${pairs} pairs of ${cases}${length[0] === "--cases" ? " cases" : ""}`);
+
+  compare(seeds) {
+    const found = alarms();
+    const others = found.filter((each) => !this.right(each));
+    this.pairs += 1;
+    this.noticed += found.length > others.length ? 1 : 0;
+    this.wrong += others.length > 0 ? 1 : 0;
+    if (others.length > 0) console.log(`  seeds ${seeds}: ${others.join("; ")}`);
+  }
+
+  print() {
+    console.log(`${this.what}: ${this.noticed} right and ${this.wrong} false alarms in ${this.pairs} pairs of ${cases}${length[0] === "--cases" ? " cases" : ""}`);
+  }
+}
+
+/** Compares each campaign with the next one, which is equal, and with one that has a defect, if there is one. */
+function count(what, subjects, seed, defect, right) {
+  const equal = new Count(`equal campaigns of ${subjects.replaceAll(/\S*\/(planted\S*)\.so/g, "$1")}`, () => false);
+  const changed = new Count(what, right);
+  night("before", seed, subjects, {});
+  for (let pair = 1; pair <= Number(pairs); ++pair) {
+    if (defect) {
+      night("now", seed + 2 * pair + 1, subjects, defect);
+      changed.compare(`${seed + 2 * pair - 2} and ${seed + 2 * pair + 1}`);
+    }
+    night("now", seed + 2 * pair, subjects, {});
+    equal.compare(`${seed + 2 * pair - 2} and ${seed + 2 * pair}`);
+    renameSync(join(folder, "now.db"), join(folder, "before.db"));
+    if (pair % 10 === 0 || pair === Number(pairs)) for (const each of defect ? [equal, changed] : [equal]) each.print();
+  }
 }
 
 try {
   execFileSync(resolve(nearmiss), ["--version"]);
-  if (!only || only === "equal") count("equal campaigns of wang, basic, basic-plain", "wang,basic,basic-plain", {}, 1, () => false);
+  if (!only || only === "equal") count("", "wang,basic,basic-plain", 1);
   for (const [i, subject] of ["wang", "basic"].entries())
     if (!only || only === subject)
-      count(`a defect of one in 3,000 planted in ${subject}`, planted(subject), { NEARMISS_PLANTED: "3000" }, 1001 * (i + 1), (each) => !/^(slower|faster)/.test(each));
-  if (!only || only === "slower") {
-    const subjects = `wang,basic,${planted("wang")}`;
-    count("equal campaigns of wang, basic and a plug-in", subjects, {}, 5001, () => false);
-    count("the family kilometres of a plug-in 1.5 times slower", subjects, { NEARMISS_SLOWED: "1.5" }, 7001, (each) => /^slower: planted-in-wang in kilometres/.test(each));
-  }
+      count(`a defect of one in 3,000 planted in ${subject}`, planted(subject), 1001 * (i + 1), { NEARMISS_PLANTED: "3000" },
+        (each) => !/^(slower|faster)/.test(each));
+  if (!only || only === "slower")
+    count("the family kilometres of a plug-in 1.5 times slower", `wang,basic,${planted("wang")}`, 5001, { NEARMISS_SLOWED: "1.5" },
+      (each) => /^slower: planted-in-wang in kilometres/.test(each));
 } finally {
   rmSync(folder, { recursive: true });
 }

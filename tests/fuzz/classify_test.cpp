@@ -86,6 +86,17 @@ TEST(Classify, PrimitivesAtRestAreDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(2, 2, 1, above(1))));
 }
 
+TEST(Classify, EdgesAndMotionsThatDifferByMoreThan1e4AreDegenerate) {
+  EXPECT_TRUE(is_ordinary(falling_vertex(0.25, 0.25, 5e3, -5e3)));
+  EXPECT_TRUE(is_degenerate(falling_vertex(0.25, 0.25, above(5e3), -5e3)));
+  const auto edges_above = [](double length) {
+    return make_query(Kind::edge_edge, {{0, -1, 1}, {0, 1, 1}, {-1, 0, 0}, {length - 1, 0, 0}},
+                      {{0, -1, -1}, {0, 1, -1}, {-1, 0, 0}, {length - 1, 0, 0}});
+  };
+  EXPECT_TRUE(is_ordinary(edges_above(2e4)));
+  EXPECT_TRUE(is_degenerate(edges_above(2e4 + 1)));
+}
+
 TEST(Classify, VerticesNearlyInOnePlaneAtAnEndAreDegenerate) {
   // F = z, A = 4 / 3, g² = 6 + z²
   const double border = 0x1.b65a6f833cc0fp-19;

@@ -15,7 +15,7 @@ of() {
   echo "$1: ${#read[@]} headers"
 }
 of CGAL 100
-others=$(grep -LE '^// SPDX-License-Identifier: (LGPL-3.0-or-later OR LicenseRef-Commercial|BSL-1.0)$' "${read[@]}") || true
+others=$(grep -LE '^(//| \*) SPDX-License-Identifier: (LGPL-3.0-or-later( OR LicenseRef-Commercial)?|BSL-1.0)$' "${read[@]}") || true
 [[ ! $others ]] || fail "$others"
 for library in eigen3 boost; do
   of $library 100

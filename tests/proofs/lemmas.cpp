@@ -62,28 +62,35 @@ class MotionScript {
   /// The script for exact x = D and v = V.
   [[nodiscard]] std::string exact() const {
     return fmt::format(
-        "X = D + t * V;\nE = D + V;\n{}{{ {} ->\nX in ? /\\ x - X in ? }}\n{}"
+        "X = D + t * V;\nE = D + V;\n{}{{ {}{} ->\nX in ? /\\ x - X in ? }}\n{}"
         "x - X -> (x - (D + w)) + (w - t * V);\n",
-        moved("D", "V"), ranges_, convex_hints("X", "D", "E", reach_));
+        moved("D", "V"), ranges_, roundings("D", "V"), convex_hints("X", "D", "E", reach_));
   }
 
   /// The script for rounded ends d and e, and their difference v.
   [[nodiscard]] std::string rounded() const {
     const double u = std::ldexp(1, -arithmetic_.bits);
     return fmt::format(
-               "V = E - D;\nX = D + t * V;\nv = sub_rel<{}>(e, d);\n{}k = (d + t * (e - d)) - X;\n"
-               "{{ {} /\\ d -/ D in {} /\\ e -/ E in {} ->\nX in ? /\\ v - V in ? /\\ x - X in ? }}\n",
-               arithmetic_.bits, moved("d", "v"), ranges_, interval(-u, u), interval(-u, u)) +
+               "V = E - D;\nX = D + t * V;\n{0}k = (d + t * (e - d)) - X;\n"
+               "{{ {1} /\\ d -/ D in {2} /\\ e -/ E in {2} /\\ v -/ (e - d) in {2}{3} ->\n"
+               "X in ? /\\ v - V in ? /\\ x - X in ? }}\n",
+               moved("d", "v"), ranges_, interval(-u, u), roundings("d", "v")) +
            convex_hints("X", "D", "E", reach_) + convex_hints("k", "(d - D)", "(e - E)", u * reach_) +
            "x - X -> (x - (d + w)) + ((w - t * v) + t * (v - (e - d)) + k);\n"
            "d + w -> X + ((w - t * v) + t * (v - (e - d)) + k);\n";
   }
 
  private:
+  /// x = d + t v without rounding.
   [[nodiscard]] std::string moved(const char* d, const char* v) const {
-    if (arithmetic_.vectors_alone) return fmt::format("w = t * {};\nx = {} + w;\n", v, d);
-    return fmt::format("{0} = mul_rel<{1}>(t, {2});\nx = add_rel<{1}>({3}, w);\n",
-                       arithmetic_.underflow ? "m" : "w", arithmetic_.bits, v, d);
+    return arithmetic_.vectors_alone ? fmt::format("w = t * {};\nx = {} + w;\n", v, d) : "";
+  }
+  /// Hypotheses about the roundings of x = d + t v.
+  [[nodiscard]] std::string roundings(const char* d, const char* v) const {
+    if (arithmetic_.vectors_alone) return "";
+    const double u = std::ldexp(1, -arithmetic_.bits);
+    return fmt::format(" /\\ {0} -/ (t * {1}) in {2} /\\ x -/ ({3} + w) in {2}",
+                       arithmetic_.underflow ? "m" : "w", v, interval(-u, u), d);
   }
 
   Arithmetic arithmetic_;

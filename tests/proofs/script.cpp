@@ -79,19 +79,19 @@ void Script::write_constant(int index, double value) {
           std::ldexp(1, -arithmetic_.bits));
 }
 
-// Writes the result of an operation with its rounding error, and with its error by underflow.
-void Script::rounded(int index, const std::string& operation, const std::string& result) {
+// Writes the result of an operation with its rounding error, and with its error by underflow. The result is a new number.
+void Script::rounded(int index, const std::string& result) {
   inexact_.insert(index);
-  const bool may_underflow = operation != "add" && operation != "sub" && arithmetic_.underflow;
-  if (may_underflow) {
-    const std::string normal = fmt::format("m{}", index);
-    if (result != normal) define(normal, result);
-    const double most = std::ldexp(1, *arithmetic_.underflow);
-    suppose(fmt::format("{} - {}", computed(index), normal), -most, most);
-    hints_.push_back(fmt::format("{} ~ {};", computed(index), exact(index)));
-  } else if (result != computed(index)) {
-    define(computed(index), result);
-  }
+  const Operation operation = program_[index].operation;
+  const bool may_underflow =
+      operation != Operation::add && operation != Operation::subtract && arithmetic_.underflow;
+  const std::string normal = may_underflow ? fmt::format("m{}", index) : computed(index);
+  const double u = std::ldexp(1, -arithmetic_.bits);
+  suppose(fmt::format("{} -/ ({})", normal, result), -u, u);
+  hints_.push_back(fmt::format("{} ~ {};", computed(index), exact(index)));
+  if (!may_underflow) return;
+  const double most = std::ldexp(1, *arithmetic_.underflow);
+  suppose(fmt::format("{} - {}", computed(index), normal), -most, most);
 }
 
 // Writes the result of an exact operation.
@@ -109,6 +109,21 @@ bool is_power_of_two(const Instruction& one) {
   return one.operation == Operation::constant && std::abs(std::frexp(one.constant, &exponent)) == 0.5;
 }
 
+char sign_of(Operation operation) {
+  switch (operation) {
+    case Operation::add:
+      return '+';
+    case Operation::subtract:
+      return '-';
+    case Operation::multiply:
+      return '*';
+    case Operation::divide:
+      return '/';
+    default:
+      throw std::runtime_error("this expression needs a lemma");
+  }
+}
+
 }  // namespace
 
 void Script::write_operation(int index) {
@@ -122,35 +137,14 @@ void Script::write_operation(int index) {
   if (one.right < 0) throw std::runtime_error("this expression needs a lemma");
   const std::string e2 = exact(one.right);
   const std::string c2 = computed(one.right);
-  const auto two = [&](const char* name, char sign) {
-    define(exact(index), fmt::format("{} {} {}", e, sign, e2));
-    if (arithmetic_.vectors_alone) return unrounded(index, fmt::format("{} {} {}", c, sign, c2));
-    rounded(index, name, fmt::format("{}_rel<{}>({}, {})", name, arithmetic_.bits, c, c2));
-  };
-  switch (one.operation) {
-    case Operation::add:
-      return two("add", '+');
-    case Operation::subtract:
-      return two("sub", '-');
-    case Operation::multiply:
-      if (!is_power_of_two(program_[one.left]) && !is_power_of_two(program_[one.right]))
-        return two("mul", '*');
-      define(exact(index), fmt::format("{} * {}", e, e2));
-      return unrounded(index, fmt::format("{} * {}", c, c2));
-    case Operation::divide:
-      break;
-    default:
-      throw std::runtime_error("this expression needs a lemma");
-  }
-  // Gappa has no quotient with a relative error, so a new number stands for the quotient.
-  define(exact(index), fmt::format("{} / {}", e, e2));
-  const std::string quotient = fmt::format("{} / {}", c, c2);
-  if (arithmetic_.vectors_alone) return unrounded(index, quotient);
-  const double u = std::ldexp(1, -arithmetic_.bits);
-  const std::string name = fmt::format("{}{}", arithmetic_.underflow ? "m" : "c", index);
-  suppose(fmt::format("{} -/ ({})", name, quotient), -u, u);
-  rounded(index, "div", name);
-  if (!inexact_.contains(one.right)) return;
+  const char sign = sign_of(one.operation);
+  define(exact(index), fmt::format("{} {} {}", e, sign, e2));
+  const std::string result = fmt::format("{} {} {}", c, sign, c2);
+  const bool is_exact = one.operation == Operation::multiply &&
+                        (is_power_of_two(program_[one.left]) || is_power_of_two(program_[one.right]));
+  if (arithmetic_.vectors_alone || is_exact) return unrounded(index, result);
+  rounded(index, result);
+  if (one.operation != Operation::divide || !inexact_.contains(one.right)) return;
   hints_.push_back(fmt::format(
       "{0} / {1} - {2} / {3} -> (({0} - {2}) - ({1} - {3}) * ({2} / {3})) / {1} {{ {1} <> 0, {3} <> 0 }};", c,
       c2, e, e2));

@@ -47,7 +47,7 @@ class Script {
   void write_leaf(int index, const Leaf& leaf);
   void write_constant(int index, double value);
   void write_operation(int index);
-  void rounded(int index, const std::string& operation, const std::string& result);
+  void rounded(int index, const std::string& result);
   void unrounded(int index, const std::string& result);
   void suppose(const std::string& expression, double lowest, double highest);
   void define(const std::string& name, const std::string& expression);

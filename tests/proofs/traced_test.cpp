@@ -121,11 +121,11 @@ TEST(ProofsGappa, KnowsQuotientsAndExtremes) {
   EXPECT_NEAR(prover.error(problem, {53}) * 0x1p53, 3, 1e-6);
 }
 
-TEST(ProofsGappa, ScriptsNameTheRealOperations) {
+TEST(ProofsGappa, ScriptsBoundTheErrorOfEachOperation) {
   Prover prover;
   const std::string script = prover.script(product_and_sum(), {24}, 1);
-  EXPECT_THAT(script, HasSubstr("mul_rel<24>(e0, e1)"));
-  EXPECT_THAT(script, HasSubstr("add_rel<24>(c2, e0)"));
+  EXPECT_THAT(script, HasSubstr("c2 -/ (e0 * e1) in [-1b-24, 1b-24]"));
+  EXPECT_THAT(script, HasSubstr("c3 -/ (c2 + e0) in [-1b-24, 1b-24]"));
   EXPECT_THAT(script, HasSubstr("d in [-1, 1]"));
 }
 

@@ -9,7 +9,7 @@ import numpy as np
 from asking import KINDS
 from enclosed import Enclosed
 from impact import Impact, compare, sort_of
-from query_class import query_class
+from query_class import query_classes
 
 
 @dataclass
@@ -47,10 +47,11 @@ class Answers:
     asked: dict  # (subject, kind) -> Asked
     times: dict  # kind -> Known enclosures of t*
 
-    query_class: typing.Callable  # (kind, line) -> the class of a query
+    classify: typing.Callable  # (kind, lines) -> the classes of queries
 
     def __post_init__(self):
         self.tallies = {}  # (subject, kinds, family) -> Tally
+        self._classes = {kind: {} for kind in KINDS}  # kind -> line -> class
         self._place = {
             kind: {place: i for i, place in enumerate(zip(self.family[kind], self.number[kind]))}
             for kind in KINDS
@@ -63,6 +64,13 @@ class Answers:
     def families(self, kind):
         return sorted(set(self.family[kind]))
 
+    def classes(self, kind, lines):
+        """The classes of queries, which are lines."""
+        known = self._classes[kind]
+        if unknown := [line for line in dict.fromkeys(lines) if line not in known]:
+            known.update(zip(unknown, self.classify(kind, unknown)))
+        return [known[line] for line in lines]
+
     def place(self, kind, provenance):
         """The index of the query "family:seed:number"; None if there is no such query."""
         family, seed, number = provenance.rsplit(':', 2)
@@ -74,8 +82,8 @@ class Answers:
 def ask(nearmiss, seed, counts, subjects):
     """Collects answers to the queries 0 to counts[family] - 1 of each family. Subjects are names, or
     paths of shared objects with one subject."""
-    class_of = functools.cache(functools.partial(query_class, nearmiss))
-    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, class_of)
+    classify = functools.partial(query_classes, nearmiss)
+    answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, classify)
     for kind in KINDS:
         answers.collision[kind] = nearmiss.collisions(kind, answers.queries[kind])
         distances = Known(functools.partial(nearmiss.distances, kind))

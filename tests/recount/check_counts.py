@@ -47,6 +47,12 @@ def check_counts(comparison, where, found, tally):
     check_rates(comparison, where, found, tally)
     comparison.same('counters', f'{where} positives', found['positives'], tally.positives)
     comparison.same('counters', f'{where} faults', found['faults'], {})
+    comparison.same(
+        'counters',
+        f'{where} missed by class',
+        found['false_negatives_by_class'],
+        tally.missed_by_class,
+    )
     for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
         own = stages(tally.subject, found[f'{name}_positives_by_stage'])
         comparison.same('stages', f'{where} {name}', own, stages(tally.subject, expected))

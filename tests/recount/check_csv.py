@@ -120,6 +120,10 @@ def _check_statistics(comparison, where, row, tally):
         found = {key.removeprefix(f'{name}_by_'): n for key, n in found.items()}
         own, wanted = (stages(tally.subject, each) for each in (found, expected))
         comparison.same('CSV', f'{where} {name} by stage', own, wanted)
+    missed = {
+        key.removeprefix('missed_'): n for key, n in row.items() if key.startswith('missed_') and n
+    }
+    comparison.same('CSV', f'{where} missed by class', missed, tally.missed_by_class)
     rejected = sum(count for key, count in row.items() if key.startswith('rejected_by_'))
     comparison.same('CSV', f'{where} rejected', rejected, tally.queries - tally.positives)
     comparison.same(

@@ -285,5 +285,5 @@ def check_finding(comparison, where, answers, found):
     comparison.same(
         'provenances', f'{where} family', found['family'], found['provenance'].rsplit(':', 2)[0]
     )
-    of = answers.query_class(found['kind'], asked.judged[place_of])
+    (of,) = answers.classes(found['kind'], [asked.judged[place_of]])
     comparison.same('names', f'{where} class', found['class'], of)

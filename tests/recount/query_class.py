@@ -9,7 +9,8 @@ EDGES = {'vt': [(1, 2), (2, 3), (3, 1)], 'ee': [(0, 1), (2, 3)]}
 GAPS = {'vt': [(0, 1), (0, 2), (0, 3)], 'ee': [(0, 2), (0, 3), (1, 2), (1, 3)]}
 NEARLY = 1e-6  # of the step, of the longest edge, or of h
 VERY_NEARLY = Fraction(1, 10**12)  # its square
-FAR = 10**8
+EXTREME = 10**8  # by which sizes differ
+FAR = 10**4
 
 
 def _minus(a, b):
@@ -67,15 +68,16 @@ def _is_extreme(query):
     largest = max(abs(x) for x in query.numbers)
     if largest != 0 and not 1e-30 <= largest <= 1e30:
         return True
+    return _sizes_differ(query, EXTREME, Fraction(largest))
+
+
+def _sizes_differ(query, factor, other=0):
+    """Whether edges differ by more than a factor, or the longest one and the motion or another size."""
     longest = query.longest
     if longest == 0:
         return False
     fastest = max(_size(v) for v in query.speed)
-    return (
-        longest > FAR * query.shortest
-        or fastest > FAR * longest
-        or Fraction(largest) > FAR * longest
-    )
+    return longest > factor * query.shortest or max(fastest, other) > factor * longest
 
 
 def _is_flat_at_an_end(query):
@@ -99,14 +101,20 @@ def _is_near_segment(p, a, b, squared):
 def _root(query, lo, hi):
     """A time near the root of F in an enclosure of the earliest time."""
     lo, hi = Fraction(lo), Fraction(hi)
-    left = query.volume(query.at(lo))
+    at_0, at_1, at_2, at_3 = (query.volume(query.at(t)) for t in range(4))
+    first, second, third = at_1 - at_0, at_2 - 2 * at_1 + at_0, at_3 - 3 * at_2 + 3 * at_1 - at_0
+
+    def volume(t):
+        return at_0 + t * (first + (t - 1) / 2 * (second + (t - 2) / 3 * third))
+
+    left = volume(lo)
     if left == 0 or lo == hi:
         return lo
-    if left * query.volume(query.at(hi)) > 0:
+    if left * volume(hi) > 0:
         return (lo + hi) / 2
-    for _ in range(150):
+    for _ in range(100):
         middle = (lo + hi) / 2
-        if query.volume(query.at(middle)) * left > 0:
+        if volume(middle) * left > 0:
             lo = middle
         else:
             hi = middle
@@ -137,25 +145,40 @@ def _is_special_contact(query, lo, hi):
     return slope**2 <= VERY_NEARLY * bound
 
 
-def query_class(nearmiss, kind, line):
-    """The class of a query, as a line."""
-    numbers = [float.fromhex(x) if 'x' in x else float(x) for x in line.split()]
-    query = _Moving(kind, numbers)
-    if _is_extreme(query):
-        return 'extreme'
-    if _is_flat_at_an_end(query):
-        return 'degenerate'
-    h = query.h
-    change = NEARLY * (h or float(query.longest))
-    own, nearer, farther = (
-        ' '.join([*line.split()[:24], each.hex()])
-        for each in (h, max(h - change, 0.0), min(h + change, sys.float_info.max))
-    )
-    is_nearer, is_farther = nearmiss.collisions(kind, [nearer, farther])
-    if not is_nearer:
-        return 'degenerate' if is_farther else 'ordinary'
-    (lo,), (hi,) = nearmiss.times(kind, [own])
-    return 'degenerate' if _is_special_contact(query, lo, hi) else 'ordinary'
+def _numbers(line):
+    return [float.fromhex(x) if 'x' in x else float(x) for x in line.split()]
+
+
+def query_classes(nearmiss, kind, lines):
+    """The classes of queries, which are lines."""
+    queries = {line: _Moving(kind, _numbers(line)) for line in lines}
+    classes = {line: 'extreme' for line, query in queries.items() if _is_extreme(query)}
+    for line, query in queries.items():
+        if line not in classes and (_is_flat_at_an_end(query) or _sizes_differ(query, FAR)):
+            classes[line] = 'degenerate'
+    left = [line for line in queries if line not in classes]
+    nearer, farther = [], []
+    for line in left:
+        query = queries[line]
+        change = NEARLY * (query.h or float(query.longest))
+        nearer.append(_with_separation(line, max(query.h - change, 0.0)))
+        farther.append(_with_separation(line, min(query.h + change, sys.float_info.max)))
+    is_nearer = dict(zip(left, nearmiss.collisions(kind, nearer)))
+    is_farther = dict(zip(left, nearmiss.collisions(kind, farther)))
+    met = [line for line in left if is_nearer[line]]
+    times = dict(zip(met, zip(*nearmiss.times(kind, met)))) if met else {}
+    for line in left:
+        is_special = (
+            _is_special_contact(queries[line], *times[line])
+            if is_nearer[line]
+            else is_farther[line]
+        )
+        classes[line] = 'degenerate' if is_special else 'ordinary'
+    return [classes[line] for line in lines]
+
+
+def _with_separation(line, h):
+    return ' '.join([*line.split()[:24], h.hex()])
 
 
 def exoticness(of, numbers):

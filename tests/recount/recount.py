@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Recomputes a report from single queries, and prints the differences.
 
 It runs a campaign and writes its report. Then it asks the same executable about the same queries

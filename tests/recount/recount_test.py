@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -B
 """Tests that a report agrees with its queries, and that recount notices a change of any value."""
 
 import argparse

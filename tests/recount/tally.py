@@ -1,6 +1,7 @@
 """Recomputes counters, histograms and intervals from single answers."""
 
 import functools
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +24,7 @@ class Tally:
     collisions: int
     positives: int
     false_negatives: int
+    missed_by_class: dict  # the false negatives by the class of the query
     false_positives: int
     claims: bool
     true_by_stage: dict
@@ -47,12 +49,18 @@ class Tally:
             for name in ('hit', 'collision', 'stage')
         )
         false = hit & ~collision
+        missed = [
+            each
+            for kind, (asked, own) in zip(kinds, parts)
+            for each in _classes_of_missed(answers, kind, asked, own)
+        ]
         return cls(
             subject,
             len(hit),
             int(collision.sum()),
             int(hit.sum()),
             int((collision & ~hit).sum()),
+            dict(Counter(missed)),
             int(false.sum()),
             answers.asked[subject, kinds[0]].claims,
             _by_name(stage[hit & collision]),
@@ -80,6 +88,13 @@ def _part(answers, subject, kind, family):
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return answers.asked[subject, kind], own
+
+
+def _classes_of_missed(answers, kind, asked, own):
+    """The classes of the queries among `own` that a subject missed."""
+    missed = np.zeros(len(asked.hit), dtype=bool)
+    missed[own] = asked.false_negative[own]
+    return answers.classes(kind, [asked.judged[i] for i in np.flatnonzero(missed)])
 
 
 def classes_of(class_of):

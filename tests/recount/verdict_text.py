@@ -78,6 +78,9 @@ def verdict(subject, report):
         parts = [f'MISSED {class_by_class(kinds, "false_negatives", "collisions")}']
     else:
         parts = [f'no miss in {counted(found["collisions"], "collision")}']
+    if nearer := class_of_missed(kinds):
+        count = sum(missed_by_class(of, nearer) for of in kinds.values())
+        parts.append(f'{count:,} of the missed queries {"is" if count == 1 else "are"} {nearer}')
     if late:
         parts.append(f'LATE {class_by_class(kinds, "late", "times_promised")}')
     if refuted:
@@ -104,7 +107,8 @@ def false_positives(found, unknown):
     if largest == LARGEST:
         far = f'beyond {"a" if claims else WANGS} bound of 0'
     else:
-        far = f'at {fraction(largest)} {"of the" if claims else f"times {WANGS}"} bound'
+        of = f'times {WANGS}' if not claims else 'of the' if largest <= 1 else 'times the'
+        far = f'at {fraction(largest)} {of} bound'
     return f'{text}, the farthest {far}' + ('' if claims else ' (it claims none)')
 
 
@@ -136,10 +140,49 @@ def class_by_class(kinds, counter, total):
     return '; '.join(parts)
 
 
+def missed_by_class(counts, name):
+    """How many queries of a class a subject missed."""
+    return counts['false_negatives_by_class'].get(name, 0)
+
+
+def class_of_missed(kinds):
+    """The least exotic class of the queries that a subject missed, if no family of this class or a
+    less exotic one has a miss."""
+    for name in CLASSES:
+        own = [of['classes'][name] for of in kinds.values() if name in of['classes']]
+        if any(of['false_negatives'] for of in own):
+            return None
+        if any(missed_by_class(of, name) for of in kinds.values()):
+            return name
+    return None
+
+
+def queries_said(kinds, name):
+    """ "missed 12 ordinary vt collisions in degenerate families" """
+    missed = {kind: missed_by_class(of, name) for kind, of in kinds.items()}
+    families = [
+        each
+        for each in CLASSES[:3]
+        if any(
+            missed_by_class(of['classes'][each], name)
+            for of in kinds.values()
+            if each in of['classes']
+        )
+    ]
+    some = ' and '.join(f'{n:,} {name} {kind}' for kind, n in missed.items() if n)
+    noun = 'collision' if sum(missed.values()) == 1 else 'collisions'
+    return f'missed {some} {noun} in {" and ".join(families)} families'
+
+
 def failures_said(kinds):
     """The class and the words for each failure of a subject, the gravest first: in the least exotic
     class in which it was seen."""
-    for _, counter, total, verb, noun in FAILURES:
+    nearer = class_of_missed(kinds)
+    if nearer:
+        yield nearer, queries_said(kinds, nearer)
+    for failure, counter, total, verb, noun in FAILURES:
+        if nearer and failure == 'miss':
+            continue
         for name, of_kinds in by_class(kinds, counter, total).items():
             failed = {kind: each for kind, each in of_kinds.items() if each[0]}
             if failed:

@@ -132,7 +132,7 @@ TEST(Summary, ADistanceInUnitsOfWangsBoundIsNotAPartOfAClaim) {
       by_wang,
       HasSubstr("\n** in units of wang's bound for the same pair, because the subject claims no bound\n"));
   const std::string claimed = summary_table(one_far_report(false));
-  EXPECT_THAT(claimed, HasSubstr("the farthest at 2.5 of the bound\n"));
+  EXPECT_THAT(claimed, HasSubstr("the farthest at 2.5 times the bound\n"));
   EXPECT_THAT(claimed, Not(HasSubstr("wang")));
   EXPECT_THAT(claimed, Not(HasSubstr("**")));
 }

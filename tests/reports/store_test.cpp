@@ -269,13 +269,13 @@ TEST_F(StoreTest, RefusesWhatIsNoStore) {
 
 TEST_F(StoreTest, RefusesAnotherVersion) {
   write_campaign({}, file("other.db"));
-  for (const std::string version : {"7", "17", "19"}) {
+  for (const std::string version : {"7", "18", "20"}) {
     sqlite3* db = nullptr;
     sqlite3_open(file("other.db").c_str(), &db);
     sqlite3_exec(db, ("PRAGMA user_version = " + version).c_str(), nullptr, nullptr, nullptr);
     sqlite3_close(db);
     const auto refused = ThrowsMessage<Error>(
-        ::testing::EndsWith("other.db: found store version " + version + ", expected 18"));
+        ::testing::EndsWith("other.db: found store version " + version + ", expected 19"));
     EXPECT_THAT([&] { load_campaign(file("other.db")); }, refused);
     EXPECT_THAT([&] { Store(file("other.db")); }, refused);
   }

@@ -24,6 +24,7 @@ TEST(Text, WhatIsBelowTheBoundIsNotRoundedToIt) {
   EXPECT_EQ(fraction_of_bound(1.0001), "1");
   EXPECT_EQ(fraction_of_bound(std::numeric_limits<double>::max()), "inf");
   EXPECT_EQ(times_the_bound(0.1234), "at 0.123 of the bound");
+  EXPECT_EQ(times_the_bound(8e11), "at 8e+11 times the bound");
   EXPECT_EQ(times_the_bound(std::numeric_limits<double>::max()), "beyond a bound of 0");
   EXPECT_EQ(fraction_of_bound(std::nextafter(1.0, 0.0)), "0.9999999999999999");
 }

@@ -42,6 +42,37 @@ TEST(Verdicts, TellOrdinaryMissesFirstAndByKind) {
             "of 25,000; no false positive\n");
 }
 
+Counts missing(Counts counts, QueryClass of, std::uint64_t number) {
+  counts.missed_by_class[static_cast<std::size_t>(of)] = number;
+  return counts;
+}
+
+TEST(Verdicts, TellMissedQueriesThatAreLessExoticThanTheirFamilies) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}] = counts(2000, 504, 0, 0);
+  statistics.counts[{"mine", Kind::vertex_triangle, "scale"}] =
+      missing(missing(counts(9000, 5000, 40, 0), QueryClass::ordinary, 3), QueryClass::extreme, 37);
+  statistics.counts[{"mine", Kind::edge_edge, "planar"}] =
+      missing(counts(9000, 5000, 2, 0), QueryClass::degenerate, 2);
+  EXPECT_EQ(verdict_lines(statistics, usual_failures()),
+            "FAIL mine: MISSED ordinary vt 0 of 504; degenerate 2 of 5,000; extreme 40 of 5,000; 3 of the "
+            "missed queries are ordinary; no false positive\n");
+  EXPECT_EQ(subject_verdicts(statistics).front().first,
+            "missed 3 ordinary vt collisions in extreme families");
+  EXPECT_EQ(subject_verdicts(statistics).front().least_exotic, QueryClass::ordinary);
+
+  Counts& ordinary = statistics.counts[{"mine", Kind::vertex_triangle, "uniform"}];
+  ordinary = missing(counts(2000, 504, 1, 0), QueryClass::degenerate, 1);
+  EXPECT_EQ(subject_verdicts(statistics).front().first, "missed 1 of 504 ordinary vt collisions");
+}
+
+TEST(Verdicts, GiveTheClassOfMissedQueriesOfFamiliesWithoutOne) {
+  Statistics statistics;
+  statistics.counts[{"mine", Kind::edge_edge, "cases/"}] =
+      missing(counts(9, 5, 1, 0), QueryClass::degenerate, 1);
+  EXPECT_EQ(subject_verdicts(statistics).front().first, "missed 1 degenerate ee collision");
+}
+
 TEST(Verdicts, NameEachFailure) {
   EXPECT_EQ(line_of(counts(9, 5, 0, 0)), " ok  mine: no miss in 5 collisions, no false positive\n");
   EXPECT_EQ(line_of(counts(9, 5, 2, 0)), "FAIL mine: MISSED ee 2 of 5; no false positive\n");

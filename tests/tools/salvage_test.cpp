@@ -43,7 +43,7 @@ TEST_F(SalvageCommand, SavesWhatIsIntact) {
   EXPECT_EQ(run("report saved.db -o report").code, 1);
   EXPECT_EQ(read_json("report/report.json")["runs"][0]["salvaged"], "lost " + lost);
   expect_refused("fuzz --cases 20000 --subject basic --db saved.db --resume",
-                 {"saved.db: found a run with salvaged 'lost " + lost + "', expected ''"});
+                 {"saved.db: found a run with salvaged 'lost " + lost + "', expected none"});
 }
 
 TEST_F(SalvageCommand, TakesAllOfAnIntactStore) {

@@ -83,6 +83,7 @@ TEST_F(VersionsOfACcd, CanBeChosen) {
   const std::string fuzz = "fuzz --subject basic,other=wang --family uniform --cases 100 --versions ";
   EXPECT_THAT(run(fuzz + "basic,other").out, HasSubstr("other against basic: "));
   expect_refused(fuzz + "basic,wang", {"--versions: found 'wang'"});
+  expect_refused(fuzz + "basic,basic", {"--versions: found 'basic' twice, expected two subjects"});
 }
 
 TEST_F(VersionsOfACcd, NeedDifferentNames) {

@@ -16,14 +16,19 @@ template <int n>
 class Operations {
   using Real = Lanes<n>;
   using Numbers = std::array<double, n>;
+  /// A truth value for all lanes.
+  struct Truths {
+    bool same;
+    bool operator[](std::size_t /*lane*/) const { return same; }
+  };
 
  public:
   void run() {
     for (int i = 0; i < 1000; ++i) {
       const Numbers x = numbers();
       const Numbers y = numbers();
-      const Real a = gather<Real>([&](std::size_t lane) { return x[lane]; });
-      const Real b = gather<Real>([&](std::size_t lane) { return y[lane]; });
+      const Real a = Real::gather([&](std::size_t lane) { return x[lane]; });
+      const Real b = Real::gather([&](std::size_t lane) { return y[lane]; });
       const auto compare = [&](const char* what, const auto& lanes, const auto& of_double) {
         for (std::size_t lane = 0; lane < n; ++lane)
           if (static_cast<double>(lanes[lane]) != static_cast<double>(of_double(x[lane], y[lane])))
@@ -42,6 +47,11 @@ class Operations {
       compare("&", (a < b) & (a > 0), [](double p, double q) { return p < q && p > 0; });
       compare("|", (a < b) | (a > 0), [](double p, double q) { return p < q || p > 0; });
       compare("!", !(a < b), [](double p, double q) { return !(p < q); });
+      compare("any_of", Truths{any_of(a < b)}, [&](double, double) {
+        bool any = false;
+        for (std::size_t lane = 0; lane < n; ++lane) any = any || x[lane] < y[lane];
+        return any;
+      });
       compare("select", select(a < b, a, b), [](double p, double q) { return p < q ? p : q; });
       compare("a / b", a / select(b == 0, Real(1), b),
               [](double p, double q) { return p / (q == 0 ? 1 : q); });
@@ -49,10 +59,11 @@ class Operations {
     std::array<Numbers, n> rows;
     for (Numbers& row : rows) row = numbers();
     std::array<Real, n> columns;
-    load_transposed<n>([&](std::size_t row) { return rows[row].data(); }, columns.data());
+    for (std::size_t row = 0; row < n; ++row) columns[row] = Real::load(rows[row].data());
+    Real::transpose(columns.data());
     for (std::size_t row = 0; row < n; ++row)
       for (std::size_t column = 0; column < n; ++column)
-        if (columns[column][row] != rows[row][column]) report("load_transposed");
+        if (columns[column][row] != rows[row][column]) report("transpose");
   }
 
  private:

@@ -192,7 +192,7 @@ def _alike(start: Coordinates, end: Coordinates) -> tuple[Coordinates, Coordinat
     if start.dtype != end.dtype:
         start, end = start.astype(np.float64), end.astype(np.float64)
     if start.strides != end.strides:
-        start, end = np.ascontiguousarray(start), np.ascontiguousarray(end)
+        start, end = start.copy(order='C'), end.copy(order='C')
     return start, end
 
 

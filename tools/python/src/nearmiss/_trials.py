@@ -60,7 +60,7 @@ class Subject:
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """The function's answers and times, or an exception that says how they differ from what it should return."""
         answer = self.function(kind, x, separation)
-        times = np.full(len(x), np.nan)
+        times: NDArray[Any] = np.full(len(x), np.nan)
         if self.time != 'none':
             if not isinstance(answer, tuple) or len(answer) != 2:
                 raise TypeError(
