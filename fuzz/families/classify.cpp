@@ -114,26 +114,26 @@ Lengths<Real> lengths(const Query& query) {
   return found;
 }
 
-/// Whether edges differ by more than a factor, or the longest one and the motion or another size.
+/// Whether edges differ by more than a factor.
 template <class Real>
-bool sizes_differ(double factor, const Query& query, double other) {
-  const auto [longest, shortest, fastest] = lengths<Real>(query);
-  if (!(Real(0) < longest)) return false;  // points have no size
-  const auto is_far_above = [&](const Real& a, const Real& b) -> bool { return a > Real(factor) * b; };
-  return is_far_above(longest, shortest) || is_far_above(fastest, longest) ||
-         is_far_above(Real(other), longest);
+bool edges_differ(double factor, const Lengths<Real>& sizes) {
+  return Real(0) < sizes.longest && sizes.longest > Real(factor) * sizes.shortest;
 }
 
-bool sizes_differ(double factor, const Query& query, double other) {
-  return filtered([&] { return sizes_differ<Interval>(factor, query, other); },
-                  [&] { return sizes_differ<Number>(factor, query, other); });
+template <class Real>
+bool has_extreme_sizes(const Query& query, double largest_coordinate) {
+  const auto sizes = lengths<Real>(query);
+  if (!(Real(0) < sizes.longest)) return false;  // points have no size
+  return edges_differ(1e8, sizes) || sizes.fastest > Real(1e3) * sizes.longest ||
+         Real(largest_coordinate) > Real(1e8) * sizes.longest;
 }
 
 bool is_extreme(const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
   if (!is_finite(query) || largest > 1e30 || (largest != 0 && largest < 1e-30)) return true;
-  return sizes_differ(1e8, query, largest);
+  return filtered([&] { return has_extreme_sizes<Interval>(query, largest); },
+                  [&] { return has_extreme_sizes<Number>(query, largest); });
 }
 
 // --- degenerate queries ---------------------------------------------------------------------------------
@@ -297,7 +297,10 @@ bool comes_within(const Query& query, double h) {
 
 bool is_degenerate(const Query& query) {
   const auto [longest, shortest, fastest] = lengths<double>(query);
-  if (longest == 0 || fastest == 0 || sizes_differ(1e4, query, 0)) return true;
+  if (longest == 0 || fastest == 0) return true;
+  if (filtered([&] { return edges_differ(1e3, lengths<Interval>(query)); },
+               [&] { return edges_differ(1e3, lengths<Number>(query)); }))
+    return true;
   const double length = nearly * longest;
   for (const int time : {0, 1}) {
     const auto root = [&] { return Root(Number(time)); };

@@ -9,8 +9,8 @@ EDGES = {'vt': [(1, 2), (2, 3), (3, 1)], 'ee': [(0, 1), (2, 3)]}
 GAPS = {'vt': [(0, 1), (0, 2), (0, 3)], 'ee': [(0, 2), (0, 3), (1, 2), (1, 3)]}
 NEARLY = 1e-6  # of the step, of the longest edge, or of h
 VERY_NEARLY = Fraction(1, 10**12)  # its square
-EXTREME = 10**8  # by which sizes differ
-FAR = 10**4
+FAR = 1000  # a factor between sizes
+VERY_FAR = 10**8
 
 
 def _minus(a, b):
@@ -68,16 +68,15 @@ def _is_extreme(query):
     largest = max(abs(x) for x in query.numbers)
     if largest != 0 and not 1e-30 <= largest <= 1e30:
         return True
-    return _sizes_differ(query, EXTREME, Fraction(largest))
-
-
-def _sizes_differ(query, factor, other=0):
-    """Whether edges differ by more than a factor, or the longest one and the motion or another size."""
     longest = query.longest
     if longest == 0:
         return False
     fastest = max(_size(v) for v in query.speed)
-    return longest > factor * query.shortest or max(fastest, other) > factor * longest
+    return (
+        longest > VERY_FAR * query.shortest
+        or fastest > FAR * longest
+        or Fraction(largest) > VERY_FAR * longest
+    )
 
 
 def _is_flat_at_an_end(query):
@@ -154,7 +153,9 @@ def query_classes(nearmiss, kind, lines):
     queries = {line: _Moving(kind, _numbers(line)) for line in lines}
     classes = {line: 'extreme' for line, query in queries.items() if _is_extreme(query)}
     for line, query in queries.items():
-        if line not in classes and (_is_flat_at_an_end(query) or _sizes_differ(query, FAR)):
+        if line not in classes and (
+            _is_flat_at_an_end(query) or query.longest > FAR * query.shortest
+        ):
             classes[line] = 'degenerate'
     left = [line for line in queries if line not in classes]
     nearer, farther = [], []
