@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "reports/sections/summary.hpp"
-#include "reports/store/salvage.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
 #include "tools/fail_on.hpp"

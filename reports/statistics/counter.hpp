@@ -1,5 +1,5 @@
 // Declarations of counters. A counter is declared once: its name, its member, and where files show it. Merging
-// (merge_counters), the store's columns (store/table.hpp), report.json (sections/counts_json.hpp) and statistics.csv
+// (merge_counters), the store (store/values.hpp), report.json (sections/counts_json.hpp) and statistics.csv
 // (csv.hpp) go through the declarations.
 #pragma once
 
@@ -22,7 +22,7 @@ enum class Shown : std::uint8_t {
 /// A counter, or a list of cases that merges like one.
 template <class Owner, class Member>
 struct Counter {
-  std::string_view name;  ///< column of the store and of statistics.csv
+  std::string_view name;  ///< key in the store, and column of statistics.csv
   Member Owner::*member;
   Shown shown = Shown::in_full;
   std::string_view json_key = name;
@@ -33,7 +33,7 @@ Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
 /// An array of counts with a name for each entry.
 template <class Owner, std::size_t size>
 struct NamedCounts {
-  std::string_view name;  ///< column of the store
+  std::string_view name;  ///< key in the store
   std::array<std::uint64_t, size> Owner::*member;
   std::array<std::string_view, size> names;
   std::string_view

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <map>
+#include <string_view>
+
 #include "ccd/error.hpp"
 #include "corpus/file.hpp"
+#include "reports/store/campaign_tables.hpp"
 #include "reports/store/file_lock.hpp"
-#include "reports/store/run_tables.hpp"
-#include "reports/store/salvage.hpp"
-#include "reports/store/statistics_tables.hpp"
-#include "reports/store/version.hpp"
+#include "reports/text/shell.hpp"
 
 namespace nearmiss {
 
@@ -18,17 +20,78 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_schema(SQLite::Database& db) {
-  make_contents(db);
-  make_run_tables(db);
-  make_statistics_tables(db);
-  write_version(db);
+constexpr std::uint64_t only_run = 0;
+
+/// How long to wait for another process that reads a store, or opens or closes it. A process that is told to stop does so within
+/// two seconds.
+constexpr int patience_ms = 1500;
+
+/// Runs `act`. Any exception becomes an Error that names the file.
+template <class Act>
+auto naming(const fs::path& file, const Act& act) {
+  try {
+    return act();
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+  }
 }
 
-/// Reads a whole store of this version. Throws Damage, or an exception of SQLite, unless it is as it was written.
-Campaign read_all(SQLite::Database& db) {
-  TableReader read(db);
-  return {read_runs(read), read_statistics(read)};
+/// The log with this ending that SQLite keeps beside a store while it is written, and that a killed writer leaves there.
+fs::path log_of(const fs::path& file, std::string_view ending) {
+  fs::path log = weakly_canonical(file);  // as SQLite follows links
+  log += ending;
+  return log;
+}
+
+/// Opens a store to read it. It is changed only if its writer was killed while it changed the file itself: then
+/// SQLite takes back the half-done change, by the journal beside the store.
+SQLite::Database open_to_read(const fs::path& file) {
+  constexpr int most_bytes = 1 << 26;  // of a key or a value
+  const bool change_is_half_done = fs::exists(log_of(file, "-journal"));
+  SQLite::Database db(file.string(), change_is_half_done ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY,
+                      patience_ms);
+  sqlite3_limit(db.getHandle(), SQLITE_LIMIT_LENGTH, most_bytes);
+  return db;
+}
+
+/// A signature was seen at least as often as there are findings of it, also if its own row is lost.
+void count_findings(Campaign& campaign) {
+  std::map<Signature, std::uint64_t> stored;
+  for (const Finding& finding : campaign.findings()) ++stored[signature_of(finding)];
+  for (const auto& [signature, count] : stored) {
+    std::uint64_t& seen = campaign.statistics.seen[signature];
+    seen = std::max(seen, count);
+  }
+}
+
+/// Reads the intact part of an open store.
+Salvage read_intact(SQLite::Database& db) {
+  Reader read(db);
+  Salvage salvage{read_campaign(read), read.rows(), ""};
+  if (read.lost().empty()) return salvage;
+  for (const auto& [table, lost] : read.lost()) salvage.lost += (salvage.lost.empty() ? "" : ", ") + lost;
+  std::vector<Run>& runs = salvage.campaign.runs;
+  if (runs.empty()) runs.emplace_back();
+  for (Run& run : runs) {
+    run.info.try_emplace("command", "unknown");
+    run.info[salvaged_fact] = "lost " + salvage.lost;
+    if (read.lost().contains("run") || read.lost().contains("shard"))
+      run.info[origin_fact] = "partly unknown";
+  }
+  count_findings(salvage.campaign);
+  return salvage;
+}
+
+/// A clause that says how to salvage a damaged store, and how much of it.
+std::string advice(const fs::path& file) {
+  try {
+    const Salvage salvage = salvage_campaign(file);
+    return fmt::format("nearmiss merge NEW.db {} --salvage saves {} rows, without {}",
+                       shell_quoted(file.string()), salvage.rows,
+                       salvage.lost.empty() ? "any loss" : salvage.lost);
+  } catch (const std::exception&) {
+    return "nothing can be saved";
+  }
 }
 
 /// Throws Damage if the structure of the database is damaged. That may be so although all rows can be read, but then a
@@ -42,9 +105,7 @@ void check_structure(SQLite::Database& db) {
 bool is_damage(const std::exception& error) {
   if (dynamic_cast<const Damage*>(&error) != nullptr) return true;
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
-  if (reason == nullptr) return false;
-  // SQLITE_ERROR: a table or a column has another name.
-  return reason->getErrorCode() == SQLITE_CORRUPT || reason->getErrorCode() == SQLITE_ERROR;
+  return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
 /// The log beside a store whose writer was killed, if SQLite fails because it cannot write in its folder; otherwise "".
@@ -58,17 +119,18 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
   return "";
 }
 
-/// Opens a store of this version, and runs `act` with it. If it is damaged, the Error also says how much a salvage would
-/// save.
-template <class Act>
-auto reading(const fs::path& file, const Act& act) {
+/// Reads a store of this version. If it is damaged, the Error also says how much a salvage would save.
+Campaign read_store(const fs::path& file, bool checks_structure) {
   expect_regular_file(file);
   return naming(file, [&] {
     try {
       SQLite::Database db = open_to_read(file);
       const SQLite::Transaction one_save(db);  // another process may save meanwhile
-      expect_version(db);
-      return act(db);
+      expect_store(db);
+      if (checks_structure) check_structure(db);
+      Salvage whole = read_intact(db);
+      if (!whole.lost.empty()) throw Damage("some rows are not as they were saved");
+      return std::move(whole.campaign);
     } catch (const std::exception& error) {
       if (const std::string log = locked_log(file, error); !log.empty())
         throw Error(
@@ -85,10 +147,7 @@ auto reading(const fs::path& file, const Act& act) {
 struct Connection {
   Connection(const fs::path& file, int flags)
       : db(file.string(), SQLite::OPEN_READWRITE | flags, patience_ms) {
-    // The first page has room for the whole schema of a new file, which therefore survives if the file is cut off.
-    db.exec(
-        "PRAGMA page_size = 8192; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys "
-        "= ON;");
+    db.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -127,9 +186,9 @@ struct Store::Database {
   template <class Act>
   void change(const Act& act) {
     naming(file, [&] {
-      SQLite::Transaction transaction(connection->db);
-      act(connection->db);
-      transaction.commit();
+      Save save(connection->db);
+      act(save);
+      save.commit();
     });
   }
 
@@ -153,18 +212,11 @@ Store::Store(const fs::path& file, const RunInfo& info, const Shard& shard)
     : database_(std::make_unique<Database>(file)) {
   if (exists(file)) refuse_existing(file);
   naming(file, [&] { database_->connection = std::make_unique<Connection>(file, SQLite::OPEN_CREATE); });
-  database_->change([&](SQLite::Database& db) {
-    make_schema(db);
-    const Run run{info, {shard}, {}};
-    write_runs(db, std::span(&run, 1));
-  });
+  database_->change([&](Save& save) { write_campaign(save, {{{info, {shard}, {}}}, {}}); });
 }
 
 Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file)) {
-  const std::vector<Run> runs = reading(file, [](SQLite::Database& db) {
-    check_structure(db);
-    return read_all(db).runs;
-  });
+  const std::vector<Run> runs = read_store(file, true).runs;
   naming(file, [&] {
     if (runs.size() != 1 || runs.front().shards.size() != 1)
       throw Error("found several shards or runs, expected one to continue");
@@ -173,24 +225,29 @@ Store::Store(const fs::path& file) : database_(std::make_unique<Database>(file))
 }
 
 void Store::save(const Statistics& statistics, const Shard& shard, std::span<const Finding> new_findings) {
-  database_->change([&](SQLite::Database& db) {
-    write_statistics(db, statistics);
-    replace_shard(db, shard);
-    write_findings(db, new_findings);
+  database_->change([&](Save& save) {
+    write_statistics(save, statistics);
+    save.replace("shard", Shards{{{only_run, shard.index}, shard}});
+    save.add("finding", rows_of(only_run, new_findings, save.rows("finding")));
   });
 }
 
 void Store::replace(std::span<const Finding> findings) {
-  database_->change([&](SQLite::Database& db) { replace_findings(db, findings); });
+  database_->change([&](Save& save) {
+    save.clear("finding");
+    save.add("finding", rows_of(only_run, findings));
+  });
 }
 
 void Store::add(const ScenePicture& picture) {
-  database_->change([&](SQLite::Database& db) { write_picture(db, picture); });
+  database_->change([&](Save& save) {
+    save.add("picture", Pictures{{{only_run, picture.step}, nlohmann::json::parse(picture.json)}});
+  });
 }
 
 Campaign load_campaign(const fs::path& file) {
   if (!fs::exists(file)) throw Error(fmt::format("{}: no such file", file.string()));
-  return reading(file, read_all);
+  return read_store(file, false);
 }
 
 Campaign load_campaigns(std::span<const fs::path> files) {
@@ -203,23 +260,27 @@ Campaign load_campaigns(std::span<const fs::path> files) {
   return merge_campaigns(campaigns, names);
 }
 
-namespace {
-
-void write_all(const Campaign& campaign, const fs::path& file) {
-  Connection connection(file, SQLite::OPEN_CREATE);
-  SQLite::Transaction transaction(connection.db);
-  make_schema(connection.db);
-  write_runs(connection.db, campaign.runs);
-  write_statistics(connection.db, campaign.statistics);
-  transaction.commit();
+Salvage salvage_campaign(const fs::path& file) {
+  return naming(file, [&] {
+    SQLite::Database db = open_to_read(file);
+    db.exec("PRAGMA writable_schema = ON");  // lets SQLite read a file that was cut off, or a damaged schema
+    const SQLite::Transaction one_save(db);  // another process may save meanwhile
+    db.exec("PRAGMA schema_version");        // throws if this is no database
+    Salvage salvage = read_intact(db);
+    if (salvage.rows == 0) throw Error("found no intact row, so that nothing can be saved");
+    return salvage;
+  });
 }
-
-}  // namespace
 
 void write_campaign(const Campaign& campaign, const fs::path& file) {
   refuse_existing(file);
   PartFile part(file);
-  naming(file, [&] { write_all(campaign, part.path()); });
+  naming(file, [&] {
+    Connection connection(part.path(), SQLite::OPEN_CREATE);
+    Save save(connection.db);
+    write_campaign(save, campaign);
+    save.commit();
+  });
   part.put_in_place();
 }
 

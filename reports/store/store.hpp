@@ -1,9 +1,11 @@
 // The store of a campaign: one SQLite file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "reports/campaign/campaign.hpp"
 
@@ -43,11 +45,23 @@ class Store {
   std::unique_ptr<Database> database_;
 };
 
-/// Reads a whole campaign. Throws Error if the file is missing, is not a store, or has another version.
+/// Reads a whole campaign. Throws Error if the file is missing, is not a store, has another version, or is damaged.
 Campaign load_campaign(const std::filesystem::path& file);
 
 /// Reads several files as one campaign. Throws Error as load_campaign and merge_campaigns do.
 Campaign load_campaigns(std::span<const std::filesystem::path> files);
+
+/// The intact part of a store.
+struct Salvage {
+  Campaign campaign;       ///< each run has the fact `salvaged_fact`, if anything was lost
+  std::uint64_t rows = 0;  ///< number of intact rows
+  std::string lost;        ///< such as "3 of 20 rows of counts"; "" if nothing was lost
+};
+
+/// Reads all intact rows of a store. A row is intact if it matches its checksum. Throws Error if the file cannot be
+/// read, or has no intact row. The file's version is not looked at, because it may be damaged; a store of another version
+/// has no intact row.
+Salvage salvage_campaign(const std::filesystem::path& file);
 
 /// Writes a campaign to a new file, whole or not at all. Throws Error if the file exists or cannot be written.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& file);

@@ -1,82 +1,96 @@
-// Conversion of values to and from the columns of a store: integers, reals, and text. from_stored reads what
-// to_stored returns. It throws Error, with `where`, for anything else.
+// Values of a campaign as JSON, for the JSON library: from_json reads what to_json wrote, exactly. It throws Error, or an
+// exception of the library, for anything else.
 #pragma once
 
-#include <cstdint>
-#include <map>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "reports/statistics/statistics.hpp"
+#include "ccd/error.hpp"
+#include "corpus/query_text.hpp"
+#include "reports/campaign/campaign.hpp"
 
 namespace nearmiss {
 
-// SQLite's integers are signed; a count never comes near 2^63.
-inline std::int64_t to_stored(std::uint64_t count) { return static_cast<std::int64_t>(count); }
-inline void from_stored(std::int64_t stored, std::uint64_t& count, const std::string& /*where*/) {
-  count = static_cast<std::uint64_t>(stored);
+/// The names of the enumerators of a type, in order.
+inline constexpr std::array kind_names{short_name(kinds[0]), short_name(kinds[1])};
+constexpr const auto& names_of(Kind) { return kind_names; }
+constexpr const auto& names_of(Finding::What) { return what_names; }
+constexpr const auto& names_of(QueryClass) { return class_names; }
+constexpr const auto& names_of(Extreme::Of) { return extreme_names; }
+
+template <class Enum>
+requires requires(Enum each) { names_of(each); }
+void to_json(nlohmann::json& json, const Enum& each) {
+  json = names_of(each)[static_cast<std::size_t>(each)];
 }
 
-inline std::int64_t to_stored(bool flag) { return flag ? 1 : 0; }
-inline void from_stored(std::int64_t stored, bool& flag, const std::string& /*where*/) { flag = stored != 0; }
-
-inline double to_stored(double number) { return number; }
-inline void from_stored(double stored, double& number, const std::string& /*where*/) { number = stored; }
-
-inline std::string to_stored(const std::string& text) { return text; }
-inline void from_stored(const std::string& stored, std::string& text, const std::string& /*where*/) {
-  text = stored;
+template <class Enum>
+requires requires(Enum each) { names_of(each); }
+void from_json(const nlohmann::json& json, Enum& each) {
+  const auto& names = names_of(each);
+  const auto text = json.get<std::string>();
+  const auto name = std::find(names.begin(), names.end(), text);
+  if (name == names.end()) throw Error(fmt::format("found '{}', which this version does not know", text));
+  each = static_cast<Enum>(name - names.begin());
 }
 
-std::string to_stored(Kind kind);
-void from_stored(const std::string& stored, Kind& kind, const std::string& where);
-
-std::string to_stored(Finding::What what);
-void from_stored(const std::string& stored, Finding::What& what, const std::string& where);
-
-std::string to_stored(QueryClass of);
-void from_stored(const std::string& stored, QueryClass& of, const std::string& where);
-
-std::string to_stored(Extreme::Of of);
-void from_stored(const std::string& stored, Extreme::Of& of, const std::string& where);
-
-/// The kind, and a line of 24 numbers.
-std::string to_stored(const Query& query);
-void from_stored(const std::string& stored, Query& query, const std::string& where);
-
-std::string to_stored(const Histogram& histogram);
-void from_stored(const std::string& stored, Histogram& histogram, const std::string& where);
-
-std::string to_stored(const TimeHistogram& histogram);
-void from_stored(const std::string& stored, TimeHistogram& histogram, const std::string& where);
-
-std::string to_stored(const BatchesByFamily& batches);
-void from_stored(const std::string& stored, BatchesByFamily& batches, const std::string& where);
-
-std::string to_stored(const std::vector<FarCase>& cases);
-void from_stored(const std::string& stored, std::vector<FarCase>& cases, const std::string& where);
-
-std::string to_stored(const std::vector<SlowCase>& cases);
-void from_stored(const std::string& stored, std::vector<SlowCase>& cases, const std::string& where);
-
-template <std::size_t size>
-std::string to_stored(const std::array<std::uint64_t, size>& counts) {
-  return nlohmann::json(counts).dump();
+/// The kind, and a line of numbers.
+inline void to_json(nlohmann::json& json, const Query& query) {
+  json = fmt::format("{} {}", short_name(query.kind), to_line(query));
 }
-template <std::size_t size>
-void from_stored(const std::string& stored, std::array<std::uint64_t, size>& counts,
-                 const std::string& /*where*/) {
-  nlohmann::json::parse(stored).get_to(counts);
+inline void from_json(const nlohmann::json& json, Query& query) {
+  const auto text = json.get<std::string>();
+  const auto end_of_kind = std::min(text.find(' '), text.size());
+  query = parse_line(parse_kind(text.substr(0, end_of_kind), "query"), text.substr(end_of_kind), "query");
 }
 
-inline std::string to_stored(const std::map<std::string, std::string>& facts) {
-  return nlohmann::json(facts).dump();
+inline void to_json(nlohmann::json& json, const BatchTimes& times) { json = times.bins(); }
+inline void from_json(const nlohmann::json& json, BatchTimes& times) {
+  times = BatchTimes(json.get<BatchTimes::Bins>());
 }
-inline void from_stored(const std::string& stored, std::map<std::string, std::string>& facts,
-                        const std::string& /*where*/) {
-  facts = nlohmann::json::parse(stored).get<std::map<std::string, std::string>>();
+
+/// The value is text, because it may be infinite; all other numbers are finite.
+inline void to_json(nlohmann::json& json, const Extreme& extreme) {
+  json = {{"of", extreme.of},           {"name", extreme.name},
+          {"query", extreme.query},     {"value", fmt::format("{}", extreme.value)},
+          {"queries", extreme.queries}, {"provenance", extreme.provenance}};
 }
+inline void from_json(const nlohmann::json& json, Extreme& extreme) {
+  json.at("of").get_to(extreme.of);
+  json.at("name").get_to(extreme.name);
+  extreme.value = std::stod(json.at("value").get<std::string>());
+  json.at("query").get_to(extreme.query);
+  json.at("provenance").get_to(extreme.provenance);
+  json.at("queries").get_to(extreme.queries);
+}
+
+/// Counters, by their names.
+template <class Owner>
+requires requires { Owner::counters(); }
+void to_json(nlohmann::json& json, const Owner& owner) {
+  for_each_counter<Owner>([&](const auto& counter) { json[counter.name] = owner.*counter.member; });
+}
+template <class Owner>
+requires requires { Owner::counters(); }
+void from_json(const nlohmann::json& json, Owner& owner) {
+  for_each_counter<Owner>([&](const auto& counter) { json.at(counter.name).get_to(owner.*counter.member); });
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Histogram, bins)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimeHistogram, bins)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FarCase, ratio, query, provenance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, nanoseconds, query, provenance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CountsKey, subject, kind, family)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FactorKey, subject, kind, family, values)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VersionKey, before, after, kind, family)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Signature, what, subject, text)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Shard, index, count, cases, complete, started, seconds, environment)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, what, subject, family, query, provenance, ratio, signature,
+                                   shrunk, place, time, is_shrunk, query_class, simplest, simplest_class,
+                                   broken_since)
 
 }  // namespace nearmiss

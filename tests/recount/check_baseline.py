@@ -29,19 +29,21 @@ class Night:
         """Reads a store."""
         night = cls()
         database = sqlite3.connect(f'file:{store}?mode=ro', uri=True)
-        database.row_factory = sqlite3.Row
-        for row in database.execute('SELECT * FROM counts'):
-            key = row['subject'], row['kind'], row['family']
-            night.counts[key] = dict(row)
-            bins = [
-                each for *_, of_family in json.loads(row['times_batches']) for each in of_family
-            ]
-            if len(bins) > 1 and _is_random(row['family']):
+
+        def rows(table):
+            for row in database.execute(f'SELECT key, value FROM {table}'):
+                yield map(json.loads, row)
+
+        for key, counts in rows('counts'):
+            key = key['subject'], key['kind'], key['family']
+            night.counts[key] = counts
+            bins = [each for _, of_family in counts['times']['batches'] for each in of_family]
+            if len(bins) > 1 and _is_random(key[2]):
                 night.times[key] = _log_time(bins)
-        for row in database.execute('SELECT * FROM seen'):
-            night.seen[row['what'], row['subject'], row['signature']] = row['times']
-        for (environment,) in database.execute('SELECT environment FROM shard'):
-            night.processors.add(json.loads(environment).get('cpu'))
+        for key, times in rows('seen'):
+            night.seen[key['what'], key['subject'], key['text']] = times
+        for _, shard in rows('shard'):
+            night.processors.add(shard['environment'].get('cpu'))
         database.close()
         return night
 

@@ -1,7 +1,11 @@
-// What the tests save in stores.
+// What the tests save in stores, and how they change it.
 #pragma once
 
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
 #include <array>
+#include <filesystem>
 #include <string>
 
 #include "reports/campaign/campaign.hpp"
@@ -57,6 +61,22 @@ inline Finding some_finding(const std::string& provenance) {
           7,
           0.75};
 }
+
+/// An open database.
+class Database {
+ public:
+  explicit Database(const std::filesystem::path& file) { sqlite3_open(file.c_str(), &db_); }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+  ~Database() { sqlite3_close(db_); }
+
+  void execute(const std::string& sql) const {
+    EXPECT_EQ(sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db_);
+  }
+
+ private:
+  sqlite3* db_ = nullptr;
+};
 
 inline const RunInfo info{{"command", "fuzz"}, {"seed", "1"}};
 inline const Shard shard{.index = 2,

@@ -138,9 +138,10 @@ class Campaign:
             tables = {name for name, in database.execute('SELECT name FROM sqlite_master')}
             row = None
             if 'shard' in tables:
-                row = database.execute('SELECT cases, complete FROM shard').fetchone()
-        self.complete = bool(row and row[1])
-        return row[0] if row else 0
+                row = database.execute('SELECT value FROM shard').fetchone()
+        shard = json.loads(row[0]) if row else {'cases': 0, 'complete': False}
+        self.complete = shard['complete']
+        return shard['cases']
 
     def complete_it(self):
         """Runs the rest without disturbance."""

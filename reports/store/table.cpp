@@ -1,0 +1,184 @@
+#include "reports/store/table.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "reports/sha256.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+using nlohmann::json;
+using Take = std::function<void(const json& key, const json& value)>;
+
+constexpr int application_id = 0x6e656172;  // "near"
+constexpr const char* contents_table = "contents";
+constexpr std::array tables{"run",    "shard",  "finding", "picture", "campaign", "counts",
+                            "oracle", "funnel", "factor",  "version", "seen",     "extreme"};
+
+/// The definition of a table, as SQLite keeps it.
+std::string definition(const char* table) {
+  return fmt::format(
+      "CREATE TABLE {} (key TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL, checksum INTEGER NOT NULL) "
+      "STRICT;",
+      table);
+}
+
+std::string schema() {
+  std::string text = definition(contents_table);
+  for (const char* table : tables) text += definition(table);
+  return text;
+}
+
+/// The first 64 bits of a SHA-256 digest of the version, the table's name, the key and the value.
+std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value) {
+  Sha256 digest;
+  digest.add(fmt::format("{} {} {} {} ", store_version, table, key.size(), value.size())).add(key).add(value);
+  const auto bytes = digest.digest();
+  return static_cast<std::int64_t>(
+      std::accumulate(bytes.begin(), bytes.begin() + sizeof(std::uint64_t), std::uint64_t{0},
+                      [](std::uint64_t first, std::uint8_t byte) { return first << 8U | byte; }));
+}
+
+/// Throws Error if JSON is too deep for those who walk it recursively.
+json parsed(const std::string& text) {
+  static constexpr int most_levels = 32;
+  return json::parse(text, [](int level, json::parse_event_t, const json&) {
+    if (level > most_levels) throw Error(fmt::format("found JSON with more than {} levels", most_levels));
+    return true;
+  });
+}
+
+/// Passes the intact rows to `take`. `last` is the largest row id that is tried: single rows are never removed, so the ids
+/// of n rows are 1 to n.
+Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take) {
+  Contents found;
+  // Each row is looked up by its id, because a damaged page ends a scan of the table, and an index may be damaged, too.
+  SQLite::Statement row(
+      db, fmt::format("SELECT key, value, checksum FROM {} NOT INDEXED WHERE rowid = ?", table));
+  for (std::uint64_t id = 1; id <= last; ++id) {
+    row.tryReset();
+    row.bind(1, static_cast<std::int64_t>(id));
+    if (row.tryExecuteStep() != SQLITE_ROW) continue;
+    const std::string key = row.getColumn(0).getString();
+    const std::string value = row.getColumn(1).getString();
+    const std::int64_t sum = row.getColumn(2).getInt64();
+    if (sum != checksum(table, key, value)) continue;
+    found.add(static_cast<std::uint64_t>(sum));
+    try {
+      take(parsed(key), parsed(value));
+    } catch (const std::exception& error) {
+      throw Error(fmt::format("table {}: {}", table, error.what()));
+    }
+  }
+  return found;
+}
+
+ContentsByTable read_contents(SQLite::Database& db) {
+  ContentsByTable contents;
+  read_intact(db, contents_table, tables.size(),
+              [&](const json& key, const json& value) { contents.emplace(key, value); });
+  return contents;
+}
+
+/// The largest id of a table's rows. A damaged one can have any size.
+std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
+  constexpr std::int64_t most = 1'000'000;
+  SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));
+  if (last.tryExecuteStep() != SQLITE_ROW) return 0;
+  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(last.getColumn(0).getInt64(), 0, most));
+}
+
+}  // namespace
+
+bool is_empty(const SQLite::Database& db) {
+  return !SQLite::Statement(db, "SELECT 1 FROM sqlite_schema").executeStep();
+}
+
+void expect_store(SQLite::Database& db) {
+  if (db.execAndGet("PRAGMA application_id").getInt() != application_id)
+    throw Error(is_empty(db)
+                    ? "found an empty database, as a kill before the first save leaves it, expected a store "
+                      "of nearmiss"
+                    : "found another kind of database, expected a store of nearmiss");
+  const int version = db.execAndGet("PRAGMA user_version").getInt();
+  if (version != store_version)
+    throw Error(fmt::format("found store version {}, expected {}", version, store_version));
+  std::string found;
+  SQLite::Statement definitions(db, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY rowid");
+  while (definitions.executeStep()) found += definitions.getColumn(0).getString() + ';';
+  if (found != schema()) throw Damage("found other tables than those of a store");
+}
+
+Reader::Reader(SQLite::Database& db) : db_(db) {
+  try {
+    contents_ = read_contents(db);
+  } catch (const SQLite::Exception&) {  // its definition is lost
+  }
+}
+
+void Reader::read(const std::string& table, const Take& take) {
+  const auto contents = contents_.find(table);
+  const bool is_known = contents != contents_.end();
+  const Contents saved = is_known ? contents->second : Contents{};
+  Contents found;
+  std::uint64_t last = 0;
+  try {
+    last = last_row(db_, table);
+    found = read_intact(db_, table, std::max(last, saved.rows), take);
+  } catch (const SQLite::Exception&) {  // its definition is lost
+  }
+  rows_ += found.rows;
+  if (!is_known)
+    lost_[table] = fmt::format("an unknown number of rows of {}", table);
+  else if (found.rows < saved.rows)
+    lost_[table] = fmt::format("{} of {} rows of {}", saved.rows - found.rows, saved.rows, table);
+  else if (found != saved || last > saved.rows)
+    lost_[table] = fmt::format("the last save of {}", table);
+}
+
+Save::Save(SQLite::Database& db) : db_(db), transaction_(db, SQLite::TransactionBehavior::IMMEDIATE) {
+  if (is_empty(db_)) {
+    db_.exec(fmt::format("{} PRAGMA user_version = {}; PRAGMA application_id = {};", schema(), store_version,
+                         application_id));
+    for (const char* table : tables) contents_[table] = {};
+  } else {
+    contents_ = read_contents(db_);
+    if (contents_.size() != tables.size()) throw Damage("the numbers of rows are lost");
+  }
+}
+
+void Save::clear(const std::string& table) {
+  db_.exec(fmt::format("DELETE FROM {}", table));
+  contents_.at(table) = {};
+}
+
+void Save::commit() {
+  insert(contents_table, rows_of(contents_), {}, true);
+  transaction_.commit();
+}
+
+Contents Save::insert(const std::string& table, const Rows& rows, Contents contents, bool replaces) {
+  const char* const on_conflict =
+      "ON CONFLICT DO UPDATE SET value = excluded.value, checksum = excluded.checksum "
+      "WHERE checksum <> excluded.checksum";
+  SQLite::Statement insert(
+      db_, fmt::format("INSERT INTO {} VALUES (?, ?, ?) {}", table, replaces ? on_conflict : ""));
+  for (const auto& [key, value] : rows) {
+    const std::int64_t sum = checksum(table, key, value);
+    insert.bindNoCopy(1, key);
+    insert.bindNoCopy(2, value);
+    insert.bind(3, sum);
+    insert.exec();
+    insert.reset();
+    contents.add(static_cast<std::uint64_t>(sum));
+  }
+  return contents;
+}
+
+}  // namespace nearmiss
