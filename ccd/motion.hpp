@@ -34,12 +34,6 @@ auto norm_1(const Vector& a) {
   return (abs(a[0]) + abs(a[1])) + abs(a[2]);
 }
 
-/// x + t v; a scalar type that carries more than its value may have its own overload (audited.hpp).
-template <class X, class T, class V>
-Vector3<T> interpolated(const X& x, const T& t, const V& v) {
-  return x + t * v;
-}
-
 /// A vector that moves linearly: x + t v for t in [0, 1].
 template <class T>
 struct Moving {
@@ -47,7 +41,7 @@ struct Moving {
 
   [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
   [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
-  [[nodiscard]] Vector3<T> at(T t) const { return interpolated(x(), t, v()); }
+  [[nodiscard]] Vector3<T> at(T t) const { return x() + t * v(); }
 };
 
 /// The time in which a gap closes at a given speed, at most `most`; 0 if the gap is not positive.

@@ -18,7 +18,7 @@ namespace nearmiss {
 struct ReportContext {
   std::vector<Campaign> baseline = {};  ///< earlier campaigns, the oldest first
   std::vector<Hunt> hunts = {};         ///< hunts for known defects
-  std::string audit = {};               ///< audit of rounding constants (audit_table.hpp)
+  std::string audit = {};               ///< audit of rounding constants, the JSON that nearmiss audit writes
   std::vector<Environment> environments = {};
   Failures failing = usual_failures();  ///< the failures that count
 };

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/audit_table.hpp"
+#include <nlohmann/json.hpp>
+
 #include "reports/sections/baseline.hpp"
+#include "reports/sections/json_file.hpp"
 #include "reports/sections/summary.hpp"
 #include "reports/store/store.hpp"
 #include "tools/commands.hpp"
@@ -19,6 +21,17 @@ struct Options {
   std::filesystem::path folder, power, audit, environments;
   FailOnOption fail_on;
 };
+
+/// The JSON that nearmiss audit --json writes. Throws Error if the file is something else.
+std::string load_audit(const std::filesystem::path& file) {
+  std::string text;
+  read_json_file(file, "what nearmiss audit --json keeps", [&](const nlohmann::ordered_json& json) {
+    for (const char* table : {"constants", "tolerances"})
+      json.at(table).get_ref<const nlohmann::ordered_json::array_t&>();  // throws if it is not a list
+    text = json.dump();
+  });
+  return text;
+}
 
 /// Writes the report, and returns the exit code.
 int run(const Options& options) {

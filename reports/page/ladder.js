@@ -60,7 +60,7 @@ function drawAudit() {
   fillTable(element("audit"), [
     text("constant", "name"), text("section", "section"), text("unit", "unit"),
     { ...number("quoted", "quoted"), bad: (r) => r.too_small }, number("derived", "derived"), number("proven", "proven"),
-    number("largest seen", "seen"), number("slack", "slack"), { title: "", text: remark, bad: (r) => r.too_small },
+    number("slack", "slack"), { title: "", text: remark, bad: (r) => r.too_small },
   ], report.audit.constants);
   fillTable(element("tolerances"), [
     text("scalar", "scalars"), { title: "ε", number: (r) => r.epsilon, text: (r) => `2^${r.epsilon_exponent}` },

@@ -1,8 +1,9 @@
+#include <algorithm>
+#include <stdexcept>
+
 #include "ccd/constraints.hpp"
-#include "ccd/cubic.hpp"
-#include "ccd/motion.hpp"
 #include "ccd/proven.hpp"
-#include "ccd/ve_culling.hpp"
+#include "fuzz/studies/audit.hpp"
 #include "tests/proofs/ccd_problems.hpp"
 #include "tests/proofs/claims.hpp"
 
@@ -44,42 +45,60 @@ std::function<Problem()> vertices_of(Reach reach, VertexPart part) {
   return [=] { return exact_vertices(reach, part); };
 }
 
+/// The row of the audit with this name.
+const RoundingConstant& row_of(std::string_view name) {
+  static const auto rows = rounding_bounds();
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& each) { return each.name == name; });
+  if (row == rows.end()) throw std::invalid_argument("the audit has no such row");
+  return *row;
+}
+
+/// The claim that the quoted constant of a row of the audit is large enough.
+CcdClaim audited(std::string_view name, std::string_view constant, std::string_view how,
+                 const std::function<Problem()>& problem) {
+  const RoundingConstant& row = row_of(name);
+  return {row.name, constant, row.quoted, row.proven, row.unit, how, problem};
+}
+CcdClaim ours(std::string_view name, std::string_view how, const std::function<Problem()>& problem) {
+  return audited(name, row_of(name).section, how, problem);
+}
+
+/// The claim of a bound in place of the quoted constant, which is missing or too small.
+CcdClaim replaced(std::string_view name, std::string_view constant, double bound, std::string_view how,
+                  const std::function<Problem()>& problem) {
+  const RoundingConstant& row = row_of(name);
+  return {row.name, constant, bound, row.proven, row.unit, how, problem};
+}
+
 void append(std::vector<CcdClaim>& all, std::vector<CcdClaim> more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
 std::vector<CcdClaim> printed_claims() {
+  using enum ConfigurationPart;
   constexpr auto here = "printed_errors, ccd/constraints.hpp";
   constexpr auto paper = "the paper, 4.4";
-  return {
-      {"VT: N", here, printed.area, proven::normal, b2, gappa,
-       primitive_of(vt, near, ConfigurationPart::normal)},
-      {"EE: N", here, printed.area, proven::normal, b2, gappa,
-       primitive_of(ee, near, ConfigurationPart::normal)},
-      {"VT: height test", here, printed.height_vt, proven::height_vt, b2, gappa,
-       primitive_of(vt, near, ConfigurationPart::height)},
-      {"EE: height test", here, printed.height_ee, proven::height_ee, b2, gappa,
-       primitive_of(ee, near, ConfigurationPart::height)},
-      {"VT: weight", paper, 181, proven::weight, b4, gappa,
-       primitive_of(vt, near, ConfigurationPart::weight)},
-      {"EE: weight", paper, 181, proven::weight, b4, gappa,
-       primitive_of(ee, near, ConfigurationPart::weight)},
-      {"VT: barycentric test", here, printed.weight_vt, proven::inside_vt, b4, gappa,
-       primitive_of(vt, near, ConfigurationPart::inside)},
-      {"EE: barycentric test", here, printed.weight_ee, proven::inside_ee, b4, gappa,
-       primitive_of(ee, near, ConfigurationPart::inside)},
-      {"VE: squared length", here, printed.length2, proven::length2, b2, gappa,
-       edge_of(near, EdgePart::length2)},
-      {"VE: weight", "the paper, 4.3", 22, proven::weight_ve, b2, gappa, edge_of(near, EdgePart::weight)},
-      {"VE: barycentric test", here, printed.weight_ve, proven::inside_ve, b2, gappa,
-       edge_of(near, EdgePart::inside)},
+  std::vector<CcdClaim> all{
+      audited("VT: N", here, gappa, primitive_of(vt, near, normal)),
+      audited("EE: N", here, gappa, primitive_of(ee, near, normal)),
+      audited("VT: height test", here, gappa, primitive_of(vt, near, height)),
+      audited("EE: height test", here, gappa, primitive_of(ee, near, height)),
+      audited("VT: weight", paper, gappa, primitive_of(vt, near, weight)),
+      audited("EE: weight", paper, gappa, primitive_of(ee, near, weight)),
+      audited("VT: barycentric test", here, gappa, primitive_of(vt, near, inside)),
+      audited("EE: barycentric test", here, gappa, primitive_of(ee, near, inside)),
+      audited("VE: squared length", here, gappa, edge_of(near, EdgePart::length2)),
+      audited("VE: weight", "the paper, 4.3", gappa, edge_of(near, EdgePart::weight)),
+      audited("VE: barycentric test", here, gappa, edge_of(near, EdgePart::inside)),
       {"VV: delta", here, printed.delta, proven::delta, b2, sum, [] { return vertices(near); }},
       {"VV of EE: delta", here, printed.delta, proven::delta_far, b2, sum, [] { return vertices(far); }},
-      {"VV: x.v", "the paper, 4.2", 9, proven::dot, b2, exact, vertices_of(near, VertexPart::xv)},
-      {"VV: v.v", "the paper, 4.2", 9, proven::dot, b2, exact, vertices_of(near, VertexPart::vv)},
-      {"VV: time", "the paper, 4.2", 12, proven::time, "eps B/b", exact, vertices_of(near, VertexPart::time),
-       CcdClaim::underflow_of_time},
+      audited("VV: x.v", "the paper, 4.2", exact, vertices_of(near, VertexPart::xv)),
+      audited("VV: v.v", "the paper, 4.2", exact, vertices_of(near, VertexPart::vv)),
+      audited("VV: time", "the paper, 4.2", exact, vertices_of(near, VertexPart::time)),
   };
+  all.back().underflow = CcdClaim::underflow_of_time;
+  return all;
 }
 
 std::vector<CcdClaim> full_claims() {
@@ -93,12 +112,12 @@ std::vector<CcdClaim> full_claims() {
        primitive_of(ee, far, ConfigurationPart::height)},
       {"weight_vt", here, factor(full.weight_vt), proven::inside_vt, b4, gappa,
        primitive_of(vt, near, ConfigurationPart::inside)},
-      {"weight_ee", here, factor(full.weight_ee), proven::inside_ee_far, b4, edges,
-       primitive_of(ee, far, ConfigurationPart::inside)},
+      replaced("EE: barycentric test, far p", here, factor(full.weight_ee), edges,
+               primitive_of(ee, far, ConfigurationPart::inside)),
       {"length2", here, factor(full.length2), proven::length2, b2, edges, edge_of(far, EdgePart::length2)},
-      {"weight_ve", here, factor(full.weight_ve), proven::inside_ve_far, b2, edges,
-       edge_of(far, EdgePart::inside)},
-      {"F", here, factor(full.F), proven::F_ve_far, b2, edges, edge_of(far, EdgePart::F)},
+      replaced("VE of EE: barycentric test", here, factor(full.weight_ve), edges,
+               edge_of(far, EdgePart::inside)),
+      replaced("VE of EE: F_0ij", here, factor(full.F), edges, edge_of(far, EdgePart::F)),
       {"F without S", here, factor(full_errors(largest_eps, 0.0, 0.0).F), proven::F_ve_far_without_S, b2,
        edges, edge_of(far, EdgePart::F_without_S)},
       {"F of S", "F_ve_of_S, ccd/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps", edges,
@@ -107,18 +126,14 @@ std::vector<CcdClaim> full_claims() {
   };
 }
 
-/// Bounds that only the audit compares with constants of the paper.
-std::vector<CcdClaim> audited_claims() {
-  const auto only = [](std::string_view name, std::string_view constant, double bound, std::string_view unit,
-                       std::string_view how, const std::function<Problem()>& problem) {
-    return CcdClaim{name, constant, bound, bound, unit, how, problem};
-  };
+/// Bounds that the audit shows and the code does not use.
+std::vector<CcdClaim> shown_claims() {
   return {
-      only("EE: weight, far p", "weight_far, ccd/proven.hpp", proven::weight_far, b4, edges,
-           primitive_of(ee, far, ConfigurationPart::weight)),
-      only("VE of EE: weight", "weight_ve_far, ccd/proven.hpp", proven::weight_ve_far, b2, edges,
-           edge_of(far, EdgePart::weight)),
-      only("VE: F_0ij", "F_ve, ccd/proven.hpp", proven::F_ve, b2, gappa, edge_of(near, EdgePart::F)),
+      replaced("EE: weight, far p", "weight_far, ccd/proven.hpp", proven::weight_far, edges,
+               primitive_of(ee, far, ConfigurationPart::weight)),
+      replaced("VE of EE: weight", "weight_ve_far, ccd/proven.hpp", proven::weight_ve_far, edges,
+               edge_of(far, EdgePart::weight)),
+      replaced("VE: F_0ij", "F_ve, ccd/proven.hpp", proven::F_ve, gappa, edge_of(near, EdgePart::F)),
   };
 }
 
@@ -147,10 +162,10 @@ std::vector<CcdClaim> cubic_claims() {
   constexpr auto here = "coplanarity, ccd/cubic.hpp";
   const auto of_exact = [](CubicPart part) { return [=] { return exact_cubic(part); }; };
   return {
-      {"F: a, exact vectors", here, 6 * 5, proven::exact_coefficient_ad, b3, exact, of_exact(CubicPart::a)},
-      {"F: b, exact vectors", here, 18 * 7, proven::exact_coefficient_bc, b3, exact, of_exact(CubicPart::b)},
-      {"F: c, exact vectors", here, 18 * 7, proven::exact_coefficient_bc, b3, exact, of_exact(CubicPart::c)},
-      {"F: d, exact vectors", here, 6 * 5, proven::exact_coefficient_ad, b3, exact, of_exact(CubicPart::d)},
+      audited("F: a, exact vectors", here, exact, of_exact(CubicPart::a)),
+      audited("F: b, exact vectors", here, exact, of_exact(CubicPart::b)),
+      audited("F: c, exact vectors", here, exact, of_exact(CubicPart::c)),
+      audited("F: d, exact vectors", here, exact, of_exact(CubicPart::d)),
       {"F: a", "coefficient_a, ccd/proven.hpp", proven::coefficient_a, proven::coefficient_a, b3, edges,
        cubic_of(ee, CubicPart::a)},
       {"F: b", "coefficient_b, ccd/proven.hpp", proven::coefficient_b, proven::coefficient_b, b3, edges,
@@ -160,38 +175,25 @@ std::vector<CcdClaim> cubic_claims() {
       {"F: d", "coefficient_d, ccd/proven.hpp", proven::coefficient_d, proven::coefficient_d, b3, edges,
        cubic_of(ee, CubicPart::d)},
       {"Horner", "horner, ccd/proven.hpp", proven::horner, proven::horner, b3, of_coefficients, horner},
-      {"clearance", "clearance_error, ccd/cubic.hpp", clearance_error, proven::clearance, b3, of_coefficients,
-       clearance_of_exact},
+      ours("clearance", of_coefficients, clearance_of_exact),
   };
 }
 
 std::vector<CcdClaim> other_claims() {
-  constexpr auto motion = "bound_needs, ccd/motion.hpp";
-  constexpr auto margin = "bound_margin - bound_needs, ccd/motion.hpp";
-  constexpr auto culled = "weight_error + spread_error, ccd/ve_culling.hpp";
+  using enum ConfigurationPart;
   return {
-      {"VT: E + W", motion, bound_needs / 2.0, proven::extents_vt, beps, gappa, [] { return extents(vt); }},
-      {"EE: E + W", motion, bound_needs / 2.0, proven::extents_ee, beps, "Gappa, p within 4B",
-       [] { return extents(ee); }},
-      {"VT: B", margin, bound_margin - bound_needs, proven::bound_vt, beps, gappa, [] { return bound(vt); }},
-      {"EE: B", margin, bound_margin - bound_needs, proven::bound_ee, beps, "Gappa, p within 4B",
-       [] { return bound(ee); }},
-      {"VT: F(t)", "evaluation_error, ccd/ve_culling.hpp", evaluation_error, proven::value_vt, b3, gappa,
-       cubic_of(vt, CubicPart::value)},
-      {"EE: F(t)", "evaluation_error, ccd/ve_culling.hpp", evaluation_error, proven::value_ee, b3, edges,
-       cubic_of(ee, CubicPart::value)},
-      {"VT: weight_error", "weight_error, ccd/ve_culling.hpp", weight_error, proven::inside_vt, b4, gappa,
-       primitive_of(vt, near, ConfigurationPart::inside)},
-      {"EE: weight_error", "weight_error, ccd/ve_culling.hpp", weight_error, proven::inside_ee_far, b4, edges,
-       primitive_of(ee, far, ConfigurationPart::inside)},
-      {"VT: spread_error", "spread_error, ccd/ve_culling.hpp", spread_error, proven::spread_vt, b4, gappa,
-       [] { return spread(vt); }},
-      {"EE: spread_error", "spread_error, ccd/ve_culling.hpp", spread_error, proven::spread_ee, b4, edges,
-       [] { return spread(ee); }},
-      {"VT: weight against spread", culled, weight_error + spread_error, proven::culling_vt, b4, gappa,
-       [] { return culling(vt); }},
-      {"EE: weight against spread", culled, weight_error + spread_error, proven::culling_ee, b4, edges,
-       [] { return culling(ee); }},
+      ours("VT: E + W", gappa, [] { return extents(vt); }),
+      ours("EE: E + W", "Gappa, p within 4B", [] { return extents(ee); }),
+      ours("VT: B", gappa, [] { return bound(vt); }),
+      ours("EE: B", "Gappa, p within 4B", [] { return bound(ee); }),
+      ours("VT: F(t)", gappa, cubic_of(vt, CubicPart::value)),
+      ours("EE: F(t)", edges, cubic_of(ee, CubicPart::value)),
+      ours("VT: weight_error", gappa, primitive_of(vt, near, inside)),
+      ours("EE: weight_error", edges, primitive_of(ee, far, inside)),
+      ours("VT: spread_error", gappa, [] { return spread(vt); }),
+      ours("EE: spread_error", edges, [] { return spread(ee); }),
+      ours("VT: weight against spread", gappa, [] { return culling(vt); }),
+      ours("EE: weight against spread", edges, [] { return culling(ee); }),
   };
 }
 
@@ -200,7 +202,7 @@ std::vector<CcdClaim> other_claims() {
 std::vector<CcdClaim> ccd_claims() {
   std::vector<CcdClaim> all = printed_claims();
   append(all, full_claims());
-  append(all, audited_claims());
+  append(all, shown_claims());
   append(all, delta_claims());
   append(all, cubic_claims());
   append(all, other_claims());

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ccd/proven.hpp"
+#include "fuzz/studies/audit.hpp"
 #include "tests/proofs/ccd_problems.hpp"
 #include "tests/proofs/check.hpp"
 
@@ -94,9 +94,9 @@ TEST(ProofsClaims, FailWhereTheWitnessHasAnotherError) {
   EXPECT_THAT(faults_of(claim, witness), ElementsAre(HasSubstr("the witness has an error of")));
 }
 
-TEST(ProofsClaims, CoverWhatIsProvenForTheAudit) {
-  EXPECT_LT(proven::delta_far, 311);
-  EXPECT_LT(proven::delta, proven::delta_far);
+TEST(ProofsClaims, CoverEveryBoundOfTheAudit) {
+  for (const RoundingConstant& row : rounding_bounds())
+    EXPECT_EQ(claim_of(row.name).proven, row.proven) << row.name;
 }
 
 }  // namespace

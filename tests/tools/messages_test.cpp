@@ -114,7 +114,7 @@ TEST_F(Messages, OptionsTakeTheirValueBehindAnEqualsSignToo) {
       "ladder --cases=8 --scalar=float --family=uniform --seed=3",
       "tightness --time=1ms --tolerance=D2 --seed=3",
       "power --time=1ms --way=families --subject=defect:mu*1 --seed=1 --json=power.json --jobs=1",
-      "audit --queries=2 --steps=4 --seed=1 --json=audit.json",
+      "audit --json=audit.json",
       "bench --subject=basic --queries=5 --runs=1 --json=bench.json",
       "family uniform --kind=vt --count=2 --first=1 --seed=1",
       "oracle --kind=vt --method=all --width=0.5 --toi q.vt",

@@ -1,0 +1,56 @@
+// The rounding constants of the paper and of ccd/: as quoted, as derived by the paper's Theorem 4.1, and as proven.
+#pragma once
+
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "ccd/tight_tolerances.hpp"
+
+namespace nearmiss {
+
+/// One constant. Missing numbers are NaN.
+struct RoundingConstant {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  std::string_view name;     ///< unique
+  std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
+  std::string_view unit;
+  double quoted = none;  ///< as the paper states it; for a constant of ours, its value
+  /// What Theorem 4.1 gives for the operations in ccd/ on exact vectors, to first order, or what follows from other rows.
+  double derived = none;
+  /// What Gappa proves for rounding to nearest, with the rounding of the vectors (ccd/proven.hpp).
+  double proven = none;
+  std::string_view note = "";
+
+  /// Whether nothing shows that the constant is large enough.
+  [[nodiscard]] bool is_too_small() const {
+    return quoted > 0 && !(derived <= quoted) && !(proven <= quoted);
+  }
+  /// Whether the constant is proven although the theorem does not show it.
+  [[nodiscard]] bool needs_proof() const { return derived > quoted && proven <= quoted; }
+  [[nodiscard]] double slack() const { return quoted / derived; }
+};
+
+/// Bounds of rounding errors. tests/proofs/ checks each row: the theorem gives `derived`, and Gappa proves `proven`.
+std::vector<RoundingConstant> rounding_bounds();
+
+/// Constants that follow from other constants.
+std::vector<RoundingConstant> rounding_consequences();
+
+/// The tolerances for the machine epsilon 2^exponent. Lengths are in units of B ε^¼.
+struct ToleranceRow {
+  int exponent = 0;
+  std::string_view scalar;
+  ToleranceConstants tight{};  ///< the smallest tolerances that satisfy all constraints
+  double paper_bound = 0;      ///< the distance bound of the paper's closed forms
+  double tight_bound = 0;      ///< the distance bound of the smallest tolerances
+  std::string_view
+      paper_breaks;  ///< the first constraint that the closed forms violate; empty if there is none
+  std::string_view printed_breaks;  ///< likewise with the errors that the paper states
+};
+
+/// A row for each of 16 precisions, from 11 to 256 bits.
+std::vector<ToleranceRow> tolerance_table();
+
+}  // namespace nearmiss
