@@ -270,8 +270,8 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
 
 TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
   ASSERT_EQ(mkfifo(file("endless").c_str(), 0600), 0);
-  for (const char* command : {"verdict --kind vt <>endless", "oracle --kind vt <>endless",
-                              "bench --runs 1000000"})
+  for (const char* command :
+       {"verdict --kind vt <>endless", "oracle --kind vt <>endless", "bench --runs 1000000"})
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       Background process(file(""), command);
       ASSERT_TRUE(process.wait_until_it_handles_interrupts()) << command;
