@@ -62,7 +62,7 @@ class Count {
 
 /** Compares each campaign with the next one, which is equal, and with one that has a defect, if there is one. */
 function count(what, subjects, seed, defect, right) {
-  const equal = new Count(`equal campaigns of ${subjects.replaceAll(/\S*\/(planted\S*)\.so/g, "$1")}`, () => false);
+  const equal = new Count(`equal campaigns of ${subjects.replaceAll(/[^,]*\/(planted[^,]*)\.so/g, "$1")}`, () => false);
   const changed = new Count(what, right);
   night("before", seed, subjects, {});
   for (let pair = 1; pair <= Number(pairs); ++pair) {
