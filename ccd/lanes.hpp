@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "ccd/scalar.hpp"
@@ -93,7 +94,10 @@ struct Lanes {
   }
   friend Lanes max(const Lanes& a, const Lanes& b) { return Lanes(a.v < b.v ? b.v : a.v); }
   friend Lanes min(const Lanes& a, const Lanes& b) { return Lanes(b.v < a.v ? b.v : a.v); }
-  friend Lanes abs(const Lanes& a) { return max(a, -a); }
+  friend Lanes abs(const Lanes& a) {
+    const Integers bits = reinterpret_cast<Integers>(a.v) & std::numeric_limits<std::int64_t>::max();
+    return Lanes(reinterpret_cast<Vector>(bits));
+  }
   friend Lanes sqrt(const Lanes& a) {
     return gather([&](std::size_t lane) { return std::sqrt(a[lane]); });
   }

@@ -32,7 +32,7 @@ constexpr std::string_view inside = "weight_error, ccd/ve_culling.hpp";
 constexpr std::string_view spread = "spread_error, ccd/ve_culling.hpp";
 constexpr std::string_view culling = "weight_error + spread_error, ccd/ve_culling.hpp";
 
-// What Theorem 4.1 gives for the barycentric tests.
+// Errors of the barycentric tests by Theorem 4.1.
 constexpr double inside_vt = 564;
 constexpr double inside_ee = 360;
 constexpr double inside_ee_far = 540;  // p within 2B

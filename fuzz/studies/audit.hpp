@@ -17,9 +17,9 @@ struct RoundingConstant {
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
-  /// What Theorem 4.1 gives for the operations in ccd/ on exact vectors, to first order, or what follows from other rows.
+  /// The bound by Theorem 4.1 for the operations in ccd/ on exact vectors, to first order; or the value that follows from other rows.
   double derived = none;
-  /// What Gappa proves for rounding to nearest, with the rounding of the vectors (ccd/proven.hpp).
+  /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors (ccd/proven.hpp).
   double proven = none;
   std::string_view note = "";
 

@@ -64,7 +64,7 @@ class Reader {
 
   /// The number of rows that were read.
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
-  /// What is lost of each table, in words such as "3 of 20 rows of counts". Tables of which nothing is lost are left out.
+  /// The losses of each table that has any, in words such as "3 of 20 rows of counts".
   [[nodiscard]] const std::map<std::string, std::string>& lost() const { return lost_; }
 
  private:

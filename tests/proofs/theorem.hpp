@@ -13,7 +13,7 @@
 
 namespace nearmiss::proofs {
 
-/// What the theorem says about a computed value f̂ of f, for B = 1: |f| <= size, and |f̂ - f| <= ((1 + ε)^k - 1) size,
+/// The theorem's bounds for a computed value f̂ of f, for B = 1: |f| <= size, and |f̂ - f| <= ((1 + ε)^k - 1) size,
 /// where ε bounds the relative error of an operation. A sum has the sum of both sizes and the larger k, plus 1. A
 /// product has the product of both sizes and the sum of both k, plus 1 unless a factor is a constant power of two.
 /// There is no rule for quotients, so that their size is infinite.
@@ -55,7 +55,7 @@ struct TheoremBound {
 /// Whether the vectors of a pair count as exact, as in §4, or have the rounding errors of §5.
 enum class Vectors : std::uint8_t { exact, rounded };
 
-/// What the theorem says about both sides of a problem. Inputs other than coordinates count as exact and at most 1.
+/// The bounds of both sides of a problem. Inputs other than coordinates count as exact and at most 1.
 struct TheoremBounds {
   TheoremBound left, right;
 

@@ -1,4 +1,4 @@
-// What the paper's Theorem 4.1 gives for the operations of ccd/.
+// The paper's Theorem 4.1, applied to the operations of ccd/.
 #include "tests/proofs/theorem.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the tests save in stores, and how they change it.
+// Campaigns that tests save in stores, and changes to these stores.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -38,6 +38,7 @@ class Operations {
       compare("a + b", a + b, [](double p, double q) { return p + q; });
       compare("-a * b", -a * b, [](double p, double q) { return -p * q; });
       compare("|a|", abs(a), [](double p, double) { return std::abs(p); });
+      compare("the sign of |0|", Real(1) / abs(a * Real(0)), [](double, double) { return HUGE_VAL; });
       compare("sqrt", sqrt(abs(a)), [](double p, double) { return std::sqrt(std::abs(p)); });
       compare("min", min(a, b), [](double p, double q) { return std::min(p, q); });
       compare("max", max(a, b), [](double p, double q) { return std::max(p, q); });
