@@ -17,9 +17,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-int number_of(Kind kind) {
-  return kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
-}
+static_assert(bit_of(Kind::vertex_triangle) == NEARMISS_VERTEX_TRIANGLE);
+static_assert(bit_of(Kind::edge_edge) == NEARMISS_EDGE_EDGE);
 
 std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
 
@@ -60,7 +59,7 @@ const nearmiss_subject& empty_subject() {
                                         .name = "empty",
                                         .version = "",
                                         .about = "",
-                                        .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
+                                        .kinds = bits_of_all_kinds,
                                         .bits = 53,
                                         .time_sort = NEARMISS_NO_TIME,
                                         .takes_separation = 0,
@@ -101,8 +100,7 @@ std::string fault_of(const nearmiss_subject& subject) {
   const std::string name = text_or_empty(subject.name);
   if (std::string fault = fault_of_name(name); !fault.empty()) return fault;
   if (subject.decide == nullptr) return "'" + name + "' without the function decide";
-  const int all_kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE;
-  if (subject.kinds < 1 || subject.kinds > all_kinds) return "'" + name + "' with no known kind of queries";
+  if (subject.kinds < 1 || subject.kinds > bits_of_all_kinds) return "'" + name + "' with no known kind of queries";
   if (subject.bits != 0 && subject.bits != 24 && subject.bits != 53)
     return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
   if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
@@ -111,7 +109,7 @@ std::string fault_of(const nearmiss_subject& subject) {
   return of_contract.empty() ? "" : "'" + name + "' with " + of_contract;
 }
 
-bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & number_of(kind)) != 0; }
+bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & bit_of(kind)) != 0; }
 
 Query rounded_for(const DetectorInfo& info, const Query& query) {
   if (!info.is_narrow) return query;
@@ -216,13 +214,13 @@ void Detector::decide(Kind kind, const double* x, const double* separations, std
                       std::span<double> times) const {
   std::fill(answers.begin(), answers.end(), std::numeric_limits<int>::min());
   std::fill(times.begin(), times.end(), nan);
-  subject_.decide(state_, number_of(kind), answers.size(), x, separations, answers.data(), times.data());
+  subject_.decide(state_, bit_of(kind), answers.size(), x, separations, answers.data(), times.data());
   make_arithmetic_plain();
 }
 
 BoundAnswer Detector::bound(Kind kind, const double* x) const {
   if (!info_.claims_bound) return BoundAnswer::given(std::numeric_limits<double>::infinity());
-  const double bound = subject_.distance_bound(state_, number_of(kind), x);
+  const double bound = subject_.distance_bound(state_, bit_of(kind), x);
   make_arithmetic_plain();
   return BoundAnswer::given(bound);
 }

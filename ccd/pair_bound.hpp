@@ -23,8 +23,7 @@ double pair_bound(const Query& query) {
 }
 /// The same for the kind of the query.
 inline double pair_bound(const Query& query) {
-  return query.kind == Kind::vertex_triangle ? pair_bound<Kind::vertex_triangle>(query)
-                                             : pair_bound<Kind::edge_edge>(query);
+  return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
 /// The largest distance of a false positive of a pair with bound B, from the tolerances for B = 1, where nothing overflows. It is

@@ -316,8 +316,7 @@ class WangLanes {
 
 template <int n>
 void decide_batch(const QueryRows& queries, Verdict* verdicts) {
-  WangLanes<n, Kind::vertex_triangle>(queries, verdicts).run();
-  WangLanes<n, Kind::edge_edge>(queries, verdicts).run();
+  for_each_kind([&]<Kind kind>() { WangLanes<n, kind>(queries, verdicts).run(); });
 }
 
 }  // namespace nearmiss

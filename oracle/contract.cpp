@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "ccd/arithmetic.hpp"
@@ -59,20 +57,12 @@ Number squared_distance(const Query& query, std::size_t p, std::size_t q) {
   return sum;
 }
 
-using Edge = std::pair<std::size_t, std::size_t>;
-
-std::span<const Edge> edges(Kind kind) {
-  static constexpr std::array<Edge, 3> of_triangle{{{1, 2}, {2, 3}, {3, 1}}};
-  static constexpr std::array<Edge, 2> of_edges{{{0, 1}, {2, 3}}};
-  return kind == Kind::vertex_triangle ? std::span<const Edge>(of_triangle) : std::span<const Edge>(of_edges);
-}
-
 bool has_lengths(const Query& query, double shortest, double longest) {
   const Number least = Number(shortest) * Number(shortest);
   const Number most = Number(longest) * Number(longest);
   for (const std::size_t time : {std::size_t{0}, std::size_t{4}})
-    for (const auto& [p, q] : edges(query.kind)) {
-      const Number length = squared_distance(query, time + p, time + q);
+    for (const VertexPair edge : topology(query.kind).edges) {
+      const Number length = squared_distance(query, time + edge.from, time + edge.to);
       if (length < least || (longest != 0 && length > most)) return false;
     }
   for (std::size_t vertex = 0; vertex < 4 && longest != 0; ++vertex)

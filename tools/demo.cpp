@@ -100,7 +100,7 @@ void run(const Options& options) {
       "primitive is drawn with o, the second with #,\nvertices with their numbers, and their paths with "
       "dots.\n\n",
       to_text(explain(finding.shrunk)), vertex_lines(finding.shrunk), terminal_picture(finding.shrunk, time),
-      time, finding.shrunk.kind == Kind::vertex_triangle ? "the vertex and the triangle" : "the edges");
+      time, has_triangle(finding.shrunk.kind) ? "the vertex and the triangle" : "the edges");
   const bool wang_hits = make_subject("wang")->decide(finding.shrunk).hit;
   fmt::print("wang, the failure-proof CCD, {} it.\n\n", wang_hits ? "reports" : "misses");
   fmt::print(

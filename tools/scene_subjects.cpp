@@ -33,7 +33,7 @@ double scene_bound(const Scene& scene) {
 
 /// Whether a given bound makes a difference to a subject.
 bool uses_bound(const std::string& text) {
-  Query query{.kind = Kind::edge_edge};
+  Query query;
   query.x[0] = 1;
   return make_any_subject(text)->distance_bound(query) != make_any_subject(text, 1e3)->distance_bound(query);
 }

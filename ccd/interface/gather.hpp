@@ -19,7 +19,7 @@ namespace nearmiss::interface {
 /// Whether the fields are such that the queries can be read.
 inline bool are_readable(const nearmiss_queries* queries) {
   return queries != nullptr &&
-         (queries->kind == NEARMISS_VERTEX_TRIANGLE || queries->kind == NEARMISS_EDGE_EDGE) &&
+         kind_of_bit(queries->kind).has_value() &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
          (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
 }
@@ -144,7 +144,7 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
-  const Kind kind = queries->kind == NEARMISS_EDGE_EDGE ? Kind::edge_edge : Kind::vertex_triangle;
+  const Kind kind = *kind_of_bit(queries->kind);
   try {
     if (lie_in_rows(*queries) && ask_for_contact(*queries)) {
       const QueryRows rows(kind, static_cast<const double*>(queries->start), queries->query_stride,

@@ -16,9 +16,8 @@ using nearmiss::WangOptions;
 namespace {
 
 bool reports(const Query& query) {
-  return query.kind == Kind::vertex_triangle
-             ? nearmiss::wang<Kind::vertex_triangle, double, WangOptions{}>(query).hit
-             : nearmiss::wang<Kind::edge_edge, double, WangOptions{}>(query).hit;
+  return nearmiss::with_kind(
+      query.kind, [&]<Kind kind>() { return nearmiss::wang<kind, double, WangOptions{}>(query).hit; });
 }
 
 /// Whether the arguments are usable; wang takes no separation.

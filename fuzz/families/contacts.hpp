@@ -83,7 +83,7 @@ void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity
 Contact integer_contact(Random& random, Kind kind);
 
 /// The sign with which x0 - base = β r + sign α q at a contact.
-constexpr double alpha_sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
+constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);

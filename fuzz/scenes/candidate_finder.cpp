@@ -95,7 +95,7 @@ class CandidateFinder::Search {
     };
     // Primitives with a common vertex need no exact test: their boxes meet.
     CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
-    const bool edges = kind_ == Kind::edge_edge;
+    const bool edges = !has_triangle(kind_);
     const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
     Block block;
     try {
@@ -119,10 +119,10 @@ class CandidateFinder::Search {
     return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
   }
   [[nodiscard]] PrimitiveBoxes rows() const {
-    return kind_ == Kind::edge_edge ? PrimitiveBoxes(vertices_, mesh_->edges) : PrimitiveBoxes(vertices_);
+    return has_triangle(kind_) ? PrimitiveBoxes(vertices_) : PrimitiveBoxes(vertices_, mesh_->edges);
   }
   [[nodiscard]] PrimitiveBoxes partners() const {
-    return kind_ == Kind::edge_edge ? rows() : PrimitiveBoxes(vertices_, mesh_->triangles);
+    return has_triangle(kind_) ? PrimitiveBoxes(vertices_, mesh_->triangles) : rows();
   }
 
   const MovingMesh* mesh_;

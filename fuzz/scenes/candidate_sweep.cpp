@@ -37,7 +37,7 @@ SweptBox swept_box(const MovingMesh& mesh, std::span<const int> vertices, std::s
 /// The boxes of all primitives of a kind of pair, sorted by where they begin on the x axis.
 std::vector<SweptBox> sorted_boxes(const MovingMesh& mesh, Kind kind) {
   std::vector<SweptBox> all;
-  if (kind == Kind::edge_edge) {
+  if (!has_triangle(kind)) {
     for (std::size_t i = 0; i < mesh.edges.size(); ++i)
       all.push_back(swept_box(mesh, mesh.edges[i], i, Side::edge));
   } else {

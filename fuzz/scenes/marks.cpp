@@ -106,7 +106,7 @@ void Marks::add(const Candidate& candidate, std::size_t subject, const Outcome& 
 
 void Marks::add(const Candidate& candidate, Mark mark) {
   const auto& v = candidate.vertices;
-  if (candidate.kind == Kind::vertex_triangle) {
+  if (has_triangle(candidate.kind)) {
     points_[v[0]] |= mark;
     triangles_[{v[1], v[2], v[3]}] |= mark;
   } else {

@@ -45,14 +45,13 @@ EarliestTime& Truth::time() {
 double Truth::relative_speed() const {
   const double B = pair_bound(query_);
   double fastest = 0;
-  for (int i = 0; i < split(query_.kind); ++i)
-    for (int j = split(query_.kind); j < 4; ++j) {
-      // In units of B, nothing overflows.
-      const auto moved = [&](int vertex) -> Vector3<double> {
-        return query_.end(vertex) / B - query_.start(vertex) / B;
-      };
-      fastest = std::max(fastest, (moved(i) - moved(j)).norm());
-    }
+  for (const VertexPair gap : topology(query_.kind).gaps) {
+    // In units of B, nothing overflows.
+    const auto moved = [&](int vertex) -> Vector3<double> {
+      return query_.end(vertex) / B - query_.start(vertex) / B;
+    };
+    fastest = std::max(fastest, (moved(gap.from) - moved(gap.to)).norm());
+  }
   return std::isfinite(fastest) ? fastest : 0;
 }
 

@@ -16,17 +16,11 @@ struct HeightRange {
   Real lo, hi;
 
   explicit HeightRange(const Real& x) : lo(x), hi(x) {}
-  HeightRange(const Real& x, const Real& y) : lo(lesser(x, y)), hi(greater(x, y)) {}
-  HeightRange(const HeightRange& a, const Real& x) : lo(lesser(a.lo, x)), hi(greater(a.hi, x)) {}
-
- private:
-  static Real lesser(const Real& x, const Real& y) {
-    using std::min;
-    return min(x, y);
-  }
-  static Real greater(const Real& x, const Real& y) {
+  void add(const Real& x) {
     using std::max;
-    return max(x, y);
+    using std::min;
+    lo = min(lo, x);
+    hi = max(hi, x);
   }
 };
 
@@ -38,19 +32,15 @@ struct HeightRange {
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
-  const auto first = [&](std::size_t time) {
-    if constexpr (kind == Kind::vertex_triangle)
-      return HeightRange<Real>(height(time, 0));
-    else
-      return HeightRange<Real>(height(time, 0), height(time, 1));
+  // Of the vertices from `begin` to `end`.
+  const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
+    HeightRange<Real> range(height(time, begin));
+    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) range.add(height(time, vertex));
+    return range;
   };
-  const auto second = [&](std::size_t time) {
-    const HeightRange<Real> edge(height(time, 2), height(time, 3));
-    if constexpr (kind == Kind::vertex_triangle)
-      return HeightRange<Real>(edge, height(time, 1));
-    else
-      return edge;
-  };
+  constexpr std::size_t middle = split(kind);
+  const auto first = [&](std::size_t time) { return range(time, 0, middle); };
+  const auto second = [&](std::size_t time) { return range(time, middle, 4); };
   const auto a0 = first(0);
   const auto a1 = first(1);
   const auto b0 = second(0);

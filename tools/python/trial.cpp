@@ -41,7 +41,7 @@ std::unique_ptr<Subject> subject_of(const py::object& each) {
   info.takes_separation = each.attr("takes_separation").cast<bool>();
   for (const Kind kind : kinds)
     if (each.attr("kinds").contains(short_name(kind)))
-      info.kinds |= kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
+      info.kinds |= bit_of(kind);
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 

@@ -7,8 +7,7 @@ namespace nearmiss::environments {
 
 bool collides(const Query& query) {
   constexpr WangOptions of_wang;
-  return query.kind == Kind::vertex_triangle ? wang<Kind::vertex_triangle, double, of_wang>(query).hit
-                                             : wang<Kind::edge_edge, double, of_wang>(query).hit;
+  return with_kind(query.kind, [&]<Kind kind>() { return wang<kind, double, of_wang>(query).hit; });
 }
 
 double distance_bound(const Query& query) { return make_subject("wang")->distance_bound(query); }

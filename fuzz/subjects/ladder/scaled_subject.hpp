@@ -104,13 +104,10 @@ class Scaled final : public Subject {
     const Seen seen = as_seen(query);
     std::optional<double> given = given_;
     if (given) given = std::ldexp(*given, seen.exponent);
-    const auto of_kind = [&]<Kind kind>(std::integral_constant<Kind, kind>) {
+    return with_kind(query.kind, [&]<Kind kind>() {
       return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
                                             : wang<kind, T, options>(seen.query, given, steps);
-    };
-    return query.kind == Kind::vertex_triangle
-               ? of_kind(std::integral_constant<Kind, Kind::vertex_triangle>())
-               : of_kind(std::integral_constant<Kind, Kind::edge_edge>());
+    });
   }
 
   struct Seen {
