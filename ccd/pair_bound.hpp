@@ -21,7 +21,7 @@ double pair_bound(const Query& query) {
   // Two primitives may be so far apart that their distance overflows in the frame of their B, and their velocity is NaN.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
-/// The same for the kind of the query.
+/// The bound B of a pair whose kind is known at run time.
 inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }

@@ -87,7 +87,7 @@ std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& noth
   return less_overhead(time_of(clock, work), overhead);
 }
 
-/// The same with the best time of each.
+/// The shortest of some times of `work`, minus the shortest of `nothing`.
 template <class Work, class Nothing>
 std::uint64_t best_time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = best_time_of(clock, nothing);

@@ -233,7 +233,7 @@ inline constexpr std::string_view of_scene = "@scene";
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
-/// The same, but returns nothing for an unknown name.
+/// As make_subject, but returns nothing for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
 /// A name without its suffix "@B" or "@scene", and the bound of the suffix, or the given bound if there is no

@@ -121,7 +121,7 @@ int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, cons
   return status;
 }
 
-/// The same with copies of the queries.
+/// Calls visit(block, first) for blocks that are copies of the queries.
 template <class T, class Visit>
 int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
   constexpr std::size_t most = 128;  // which fit into the nearest cache
@@ -140,7 +140,8 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
       visit);
 }
 
-/// The same for any queries, without exceptions, for a caller that has plain arithmetic; queries are copied if they must be.
+/// Calls visit(block, first) for blocks of queries, which are copied if their layout needs it. Returns a status and throws nothing. The
+/// caller has plain arithmetic.
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
@@ -160,7 +161,7 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   }
 }
 
-/// The same query by query: answer(query, q) is called for those that have an answer, refuse(q) for the others.
+/// Calls answer(query, q) for each query that is finite, and refuse(q) for each of the others. Returns a status and throws nothing.
 template <class Answer, class Refuse>
 int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {

@@ -88,7 +88,7 @@ constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);
 
-/// The same, after moving one query of integers in four by an integer vector.
+/// As `rescaled`, after one query of integers in four is moved by an integer vector.
 Query placed(Random& random, Query query);
 
 /// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the matrix is

@@ -103,7 +103,7 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   return query;
 }
 
-/// The same, but a default query if the input is not a query.
+/// The query that is asked, or a default query if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
 /// Throws Error if there is no such subject, or if the target is not for it.

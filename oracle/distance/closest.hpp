@@ -138,7 +138,8 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
-/// The same if only the parts in `features` are considered, which takes less time; all, if the interiors have no closest points.
+/// The closest points of the parts in `features`, which takes less time; of all parts, if those are interiors without closest
+/// points.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

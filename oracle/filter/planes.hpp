@@ -69,7 +69,7 @@ template <Kind kind, class Points, class Above = IsAbove>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// The same for the diagonals x ± y, y ± z, z ± x. Their heights are sums or differences of two coordinates,
+/// Whether a plane across a diagonal x ± y, y ± z or z ± x separates the primitives likewise. Heights along it are sums or differences of two coordinates,
 /// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An
 /// overflowing sum is infinite; it is above every finite sum, as the exact sum is, and not above another
 /// infinite sum of its sign.
@@ -98,8 +98,8 @@ inline constexpr double root_of_two = 1.4142136;  ///< rounded up by a relative 
 inline constexpr double height_rounding =
     0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
 
-/// The same for heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has length
-/// √2, so heights of points at a distance of at most h differ by at most √2 h.
+/// For a separation h, and heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has
+/// length √2, so heights of points at a distance of at most h differ by at most √2 h.
 ///
 /// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact. D = fl(A - B) is
 /// at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact heights differ by at least

@@ -21,7 +21,7 @@ namespace nearmiss {
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
-/// The same, but all detectors of a shared object if the name does not say which.
+/// As make_isolated_plugin, but makes all detectors of a shared object if the name does not say which.
 std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
                                                             const isolation::PluginLimits& limits = {});
 
