@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/statistics/family_name.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -61,7 +63,7 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
 }  // namespace
 
 QueryClass class_of(std::string_view family) {
-  const std::string_view base = family.substr(0, family.find_first_of("@~"));
+  const std::string_view base = FamilyName(family).base;
   if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
   if (contains(degenerate, base)) return QueryClass::degenerate;
   return contains(extreme, base) ? QueryClass::extreme : QueryClass::unclassified;
