@@ -34,9 +34,9 @@ template <Kind kind, class Height, class IsAbove>
   using Real = decltype(height(0, 0));
   // Of the vertices from `begin` to `end`.
   const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
-    HeightRange<Real> range(height(time, begin));
-    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) range.add(height(time, vertex));
-    return range;
+    HeightRange<Real> heights(height(time, begin));
+    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) heights.add(height(time, vertex));
+    return heights;
   };
   constexpr std::size_t middle = split(kind);
   const auto first = [&](std::size_t time) { return range(time, 0, middle); };
