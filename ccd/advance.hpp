@@ -10,7 +10,6 @@
 
 #include "ccd/motion.hpp"
 #include "ccd/query.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tolerances.hpp"
 
@@ -21,14 +20,14 @@ namespace nearmiss {
 /// distance of the primitives is the distance of the origin from this polygon.
 template <Kind kind, class T>
 struct DifferencePolygon {
-  static constexpr std::size_t size = kind == Kind::vertex_triangle ? 3 : 4;
+  static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;
   std::array<Moving<T>, size> corner;  ///< in cyclic order
   Frame frame;
   T X = 0;  ///< the largest component of a corner at t = 0 and t = 1, and so at every t in [0, 1]
 
   explicit DifferencePolygon(const Query& query, const Frame& in_frame = {}) : frame(in_frame) {
     const auto difference = [&](int i, int j) { return relative_motion<T>(query, i, j, frame); };
-    if constexpr (kind == Kind::vertex_triangle)
+    if constexpr (has_triangle(kind))
       corner = {difference(0, 1), difference(0, 2), difference(0, 3)};
     else
       corner = {difference(0, 2), difference(0, 3), difference(1, 3), difference(1, 2)};
@@ -77,8 +76,8 @@ struct NearestPoint {
 /// The direction of an edge's point is made perpendicular to the edge once more: if the point is near the origin, its own
 /// direction has lost digits by cancellation. For the same reason, the direction of the point below the origin is
 /// the normal.
-template <Kind kind, class T, std::size_t size, class Steps = AllSteps>
-NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c, const Steps& steps = {}) {
+template <Kind kind, class T, std::size_t size>
+NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
   NearestPoint<T> nearest;
   for (std::size_t k = 0; k < size; ++k) {
     const Vector3<T> e = c[(k + 1) % size] - c[k];
@@ -95,8 +94,8 @@ NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c, const Steps
   const T NN = dot(N, N);
   const T alpha = dot(N, g.cross(c[0]));
   const T beta = dot(N, c[0].cross(f));
-  const T most = kind == Kind::vertex_triangle ? T(alpha + beta) : std::max(alpha, beta);
-  const bool inside = (alpha >= 0 && beta >= 0 && most <= NN) || !steps.does(Step::inside);
+  const T most = has_triangle(kind) ? T(alpha + beta) : std::max(alpha, beta);
+  const bool inside = alpha >= 0 && beta >= 0 && most <= NN;
   if (NN > 0 && inside) {
     const Vector3<T> point = c[0] + (alpha / NN) * f + (beta / NN) * g;
     nearest.consider(point, dot(c[0], N) < 0 ? Vector3<T>(-N) : N);
@@ -137,8 +136,8 @@ inline constexpr int advance_iterations = 1000;
 namespace detail {
 
 // Whether a coordinate separates the primitives by more than `distance` at t = 0 and, on the same side, at t = 1.
-template <Kind kind, class T, class Steps>
-bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance, const Steps& steps) {
+template <Kind kind, class T>
+bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   using Three = Eigen::Array<T, 3, 1>;
   Three lowest = Three::Constant(std::numeric_limits<T>::infinity());
   Three highest = -lowest;
@@ -148,25 +147,24 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance, con
   };
   for (const Moving<T>& each : polygon.corner) {
     include(each.x());
-    if (steps.does(Step::both_ends)) include(each.at(T(1)));
+    include(each.at(T(1)));
   }
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// The time, from t on, in which all corners stay beyond `distance` along a direction; 0 if one is not at t, and 2 if there
-// is no end.
-template <Kind kind, class T, class Corners, class Steps>
-T time_beyond(const DifferencePolygon<kind, T>& polygon, const Corners& at_t, T t,
-              const Vector3<T>& direction, T distance, const Steps& steps) {
+// The time until which all corners stay beyond `distance` along a direction, from t on: t if one is not at t, and t + 2 if
+// there is no end.
+template <Kind kind, class T, class Corners>
+T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t, T t,
+               const Vector3<T>& direction, T distance) {
   const T largest = max_component(direction);
-  if (!(largest > 0)) return 0;
+  if (!(largest > 0)) return t;
   const Vector3<T> scaled = direction / largest;
   const Vector3<T> n = scaled / scaled.norm();
-  const T scale = steps.does(Step::whole_step) ? T(1) : 1 - t;
   T time = 2;
-  for (std::size_t k = 0; k < (steps.does(Step::last_vertex) ? polygon.size : polygon.size - 1); ++k)
-    time = closing_time(T(dot(n, at_t[k]) - distance), T(-dot(n, polygon.corner[k].v()) * scale), time);
-  return time;
+  for (std::size_t k = 0; k < polygon.size; ++k)
+    time = closing_time(T(dot(n, at_t[k]) - distance), T(-dot(n, polygon.corner[k].v())), time);
+  return t + time;
 }
 
 }  // namespace detail
@@ -179,29 +177,26 @@ T time_beyond(const DifferencePolygon<kind, T>& polygon, const Corners& at_t, T 
 /// move linearly. So if they are beyond h at t, they are until the first of them is at h. This holds for every n. For the
 /// direction of the nearest point, n·corner is at least the distance, and the speed is at most the largest relative speed
 /// of two vertices, so a step is at least as long as (distance - h) / speed.
-template <Kind kind, class T, class Steps = AllSteps>
-Verdict advance(const Query& query, const Steps& steps = {}) {
+template <Kind kind, class T>
+Verdict advance(const Query& query) {
   using std::ldexp;
   using std::sqrt;
   const auto polygon = difference_polygon<kind, T>(query);
   const T unit = epsilon<T>() * polygon.X;
-  const T error = steps.does(Step::advance_rounding) ? advance_error * unit : 0;
-  T h = ldexp(static_cast<T>(query.separation), polygon.frame.total());
-  if (detail::boxes_stay_apart(polygon, T(h + error), steps)) return Verdict::rejected(Rejection::planes);
-  if (!steps.does(Step::separation)) h = 0;
-  if (!steps.does(Step::separation_in_full)) h = sqrt(static_cast<T>(static_cast<float>(h * h)));
+  const T error = advance_error * unit;
+  const T h = ldexp(static_cast<T>(query.separation), polygon.frame.total());
+  if (detail::boxes_stay_apart(polygon, T(h + error))) return Verdict::rejected(Rejection::planes);
   T t = 0;
   for (int i = 0; i < advance_iterations; ++i) {
     const auto corners = polygon.at(t);
-    const NearestPoint<T> nearest = nearest_point<kind, T>(corners, steps);
+    const NearestPoint<T> nearest = nearest_point<kind, T>(corners);
     if (sqrt(nearest.squared_distance) <= h + advance_reach * unit)
       return Verdict::accepted(Stage::proximity, static_cast<double>(t));
-    const T next = t + detail::time_beyond(polygon, corners, t, nearest.direction, T(h + error), steps);
+    const T next = detail::beyond_until(polygon, corners, t, nearest.direction, T(h + error));
     if (next >= 1) return Verdict::rejected(Rejection::tests);
     if (!(next > t)) break;
     t = next;
   }
-  if (!steps.does(Step::cannot_tell)) return Verdict::rejected(Rejection::tests);
   return Verdict::accepted(Stage::unknown, static_cast<double>(t));
 }
 

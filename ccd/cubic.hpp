@@ -41,8 +41,8 @@ namespace detail {
 // half as long as the step before it. If the bracket cannot shrink any more, the end with the smaller
 // residual is returned. That happens only if μ is smaller than `solve_cubic` requires; the same holds for
 // `next == t`.
-template <class T, class Steps = AllSteps>
-T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& steps = {}) {
+template <class T>
+T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;
   T t = lo + (hi - lo) * (F_lo / (F_lo - F_hi));
   T last_step = hi - lo;
@@ -53,7 +53,7 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
       last_step = hi - lo;
     }
     const T value = F(t);
-    if (steps.does(Step::residual) && at_most(abs(value), mu, steps)) return t;
+    if (abs(value) <= mu) return t;
     if ((value < 0) == (F_lo < 0)) {
       lo = t;
       F_lo = value;
@@ -65,21 +65,20 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu, const Steps& 
     const T step = slope != 0 ? value / slope : hi;
     const T next = t - step;
     if (next == t) return t;
-    if (!steps.does(Step::residual) && abs(step) <= T(0x1p-20)) return t;
     t = abs(step) * 2 <= last_step ? next : hi;  // hi is not inside the bracket, so bisect
     last_step = abs(step);
   }
 }
 
 // Adds the critical points of F in [0, 1], in ascending order.
-template <class T, class Steps = AllSteps>
-void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F, const Steps& steps = {}) {
+template <class T>
+void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have one sign, F is monotone and has no
   // node inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
-    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c, steps);
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c);
     if (critical.count == 2 && critical.values[0] > critical.values[1])
       std::swap(critical.values[0], critical.values[1]);
   }
@@ -91,10 +90,9 @@ struct Nodes {
   std::array<T, 4> time{0}, value;
   std::size_t last;  // the last interval
 
-  template <class Steps = AllSteps>
-  explicit Nodes(const Cubic<T>& F, const Steps& steps = {}) {
+  explicit Nodes(const Cubic<T>& F) {
     CandidateTimes<T, 2> critical;
-    find_critical_times(critical, F, steps);
+    find_critical_times(critical, F);
     last = static_cast<std::size_t>(critical.count);
     value[0] = F.d;
     for (std::size_t i = 0; i < last; ++i) {
@@ -106,25 +104,15 @@ struct Nodes {
   }
 };
 
-// The step that searches interval i of the count + 1 intervals. A single interval is never left out.
-constexpr Step interval_step(std::size_t i, std::size_t count) {
-  if (count == 0) return Step::solver;
-  return i == 0 ? Step::first_interval : i == count ? Step::last_interval : Step::middle_interval;
-}
-
 // The time with |F| <= μ that represents the roots in interval i, if there is one.
-template <class T, class Steps = AllSteps>
-std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu,
-                                  const Steps& steps = {}) {
+template <class T>
+std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu) {
   using std::abs;
-  if (!steps.does(interval_step(i, nodes.last))) return std::nullopt;
-  const Step left = i == 0 ? Step::solver_start : Step::double_roots;
-  const Step right = i == nodes.last ? Step::solver_end : Step::double_roots;
   const auto& [time, value, last] = nodes;
-  if (at_most(T(abs(value[i])), mu, steps) && steps.does(left)) return time[i];
-  if (at_most(T(abs(value[i + 1])), mu, steps) && steps.does(right)) return time[i + 1];
+  if (abs(value[i]) <= mu) return time[i];
+  if (abs(value[i + 1]) <= mu) return time[i + 1];
   if ((value[i] < 0) == (value[i + 1] < 0)) return std::nullopt;
-  return refine_root(F, time[i], time[i + 1], value[i], value[i + 1], mu, steps);
+  return refine_root(F, time[i], time[i + 1], value[i], value[i + 1], mu);
 }
 
 }  // namespace detail
@@ -174,13 +162,13 @@ T clearance(const Cubic<T>& F) {
 /// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
 ///
 /// If |F| is above μ on all of [0, 1], there are no such times.
-template <class T, class Steps = AllSteps>
-CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu, const Steps& steps = {}) {
+template <class T>
+CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
   CandidateTimes<T, 3> roots;
-  if (clearance(F) > (steps.does(Step::clear_of_mu) ? mu : 0)) return roots;
-  const detail::Nodes<T> nodes(F, steps);
+  if (clearance(F) > mu) return roots;
+  const detail::Nodes<T> nodes(F);
   for (std::size_t i = 0; i <= nodes.last; ++i)
-    if (const auto t = detail::root_in_interval(F, nodes, i, mu, steps)) roots.add(*t);
+    if (const auto t = detail::root_in_interval(F, nodes, i, mu)) roots.add(*t);
   return roots;
 }
 

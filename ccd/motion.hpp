@@ -8,7 +8,7 @@
 
 #include "ccd/query.hpp"
 #include "ccd/scalar.hpp"
-#include "ccd/steps.hpp"
+#include "ccd/tolerances.hpp"
 
 namespace nearmiss {
 
@@ -117,16 +117,13 @@ struct Pair {
 /// Forms p, q and r in the pair's frame and order.
 template <Kind kind, class T, class Points>
 void form_vectors(const Points& points, Pair<kind, T>& pair) {
-  const VertexOrder& o = pair.order;
-  if constexpr (kind == Kind::vertex_triangle) {
-    pair.p = relative_motion<T>(points, o[0], o[1], pair.frame);
-    pair.q = relative_motion<T>(points, o[2], o[1], pair.frame);
-    pair.r = relative_motion<T>(points, o[3], o[1], pair.frame);
-  } else {
-    pair.p = relative_motion<T>(points, o[2], o[0], pair.frame);
-    pair.q = relative_motion<T>(points, o[1], o[0], pair.frame);
-    pair.r = relative_motion<T>(points, o[3], o[2], pair.frame);
-  }
+  const auto motion = [&](VertexPair vertices) {
+    return relative_motion<T>(points, pair.order[vertices.to], pair.order[vertices.from], pair.frame);
+  };
+  const auto& [p, q, r] = topology(kind).pqr;
+  pair.p = motion(p);
+  pair.q = motion(q);
+  pair.r = motion(r);
 }
 
 /// B exceeds E + W by `bound_margin`, relatively and in units of ε; the proofs need an excess of
@@ -150,8 +147,8 @@ namespace detail {
 // - 4uB* for an edge (x32 = x31 - x21).
 // The sum E + W adds u. All together are below 40uB* = 20 ε B* (17 is proven). The factor 1 + 64 ε leaves
 // room for the rounding of its own product: B >= B*(1 + 40ε).
-template <Kind kind, class T, class Steps = AllSteps>
-void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
+template <Kind kind, class T>
+void form_bound(Pair<kind, T>& pair) {
   // Six components at once: positions, then velocities, of the points relative to the first point, which is
   // at 0.
   using Six = Eigen::Array<T, 6, 1>;
@@ -159,29 +156,27 @@ void form_bound(Pair<kind, T>& pair, const Steps& steps = {}) {
   Six p;
   Six r = pair.r.xv;
   p << Vector3<T>::Zero(), pair.p.v();
-  if constexpr (kind == Kind::edge_edge) r += p;  // v30 = v32 + v20; r's position stays x32, an edge
+  if constexpr (!has_triangle(kind)) r += p;  // v30 = v32 + v20; r's position stays x32, an edge
   const Six hi = p.max(q).max(r).max(T(0));
   const Six lo = p.min(q).min(r).min(T(0));
   const Six extent = hi - lo;
   // The edges of a triangle are the differences of {0, q, r}; the edges of EE are q and r themselves.
-  const Six edges = kind == Kind::vertex_triangle ? extent : Six(hi.max(-lo));
+  const Six edges = has_triangle(kind) ? extent : Six(hi.max(-lo));
   pair.E = max_component(edges.template head<3>());
   pair.W = max_component(extent.template tail<3>());
-  pair.B =
-      (steps.does(Step::velocity_in_bound) ? pair.E + pair.W : pair.E) * (1 + bound_margin * epsilon<T>());
+  pair.B = (pair.E + pair.W) * (1 + bound_margin * epsilon<T>());
 }
 
 }  // namespace detail
 
 /// The relative vectors of a pair and its bound B in a given frame and order of end points.
-template <Kind kind, class T, class Steps = AllSteps>
-Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const VertexOrder& order = given_order,
-                        const Steps& steps = {}) {
+template <Kind kind, class T>
+Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const VertexOrder& order = given_order) {
   Pair<kind, T> pair;
   pair.frame = frame;
   pair.order = order;
   form_vectors(query, pair);
-  detail::form_bound(pair, steps);
+  detail::form_bound(pair);
   return pair;
 }
 
@@ -198,19 +193,17 @@ auto in_range(T B) {
 
 /// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if the
 /// pair is already in range, or if B = 0.
-template <Kind kind, class T, class Steps = AllSteps>
-Frame normalising_frame(const Query& query, const Steps& steps = {}) {
+template <Kind kind, class T>
+Frame normalising_frame(const Query& query) {
   Frame frame;
-  const auto pair = make_pair<kind, T>(query, frame, given_order, steps);
+  const auto pair = make_pair<kind, T>(query, frame);
   // If a position overflows at both times, its velocity is NaN, and B may have any value.
-  const bool finite =
-      !steps.does(Step::overflow) ||
-      (pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all());
+  const bool finite = pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
   T B = pair.B;
-  if ((finite && in_range(B)) || !steps.does(Step::normalisation)) return frame;
+  if (finite && in_range(B)) return frame;
   if (!finite || !(B <= std::numeric_limits<T>::max() / 16)) {
     frame.reduced = true;
-    B = make_pair<kind, T>(query, frame, given_order, steps).B;
+    B = make_pair<kind, T>(query, frame).B;
   }
   using std::ilogb;
   if (B > 0) frame.exponent = -ilogb(B);
@@ -248,11 +241,10 @@ auto within_reach(const Pair<kind, T>& pair) {
 
 /// The same, with the end points of edges exchanged if necessary. B itself does not depend on the
 /// order.
-template <Kind kind, class T, class Steps = AllSteps>
-bool bring_within_reach(const Query& query, Pair<kind, T>& pair, const Steps& steps = {}) {
+template <Kind kind, class T>
+bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
   if (within_reach(pair)) return true;
-  if (kind == Kind::vertex_triangle || !steps.does(Step::closest_pair)) return false;
-  if (!steps.does(Step::reordering)) return true;
+  if (has_triangle(kind)) return false;
   pair.order = detail::closest_order<T>(query, pair.frame);
   form_vectors(query, pair);
   return within_reach(pair);

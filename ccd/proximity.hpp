@@ -5,7 +5,6 @@
 #include <array>
 
 #include "ccd/motion.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -20,12 +19,12 @@ template <Kind kind, class T>
 struct Configuration {
   Vector3<T> p, q, r, N;
   T NN;
-  static constexpr int weight_count = kind == Kind::vertex_triangle ? 3 : 2;
+  static constexpr int weight_count = has_triangle(kind) ? 3 : 2;
   std::array<T, weight_count> weights;
 
   Configuration(const Pair<kind, T>& pair, T t)
       : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(dot(N, N)) {
-    if constexpr (kind == Kind::vertex_triangle) {
+    if constexpr (has_triangle(kind)) {
       weights[0] = dot(N, q.cross(p));
       weights[1] = dot(N, p.cross(r));
       weights[2] = weights[0] + weights[1];
@@ -36,23 +35,20 @@ struct Configuration {
   }
 
   /// Barycentric test: every weight in [0, N·N].
-  template <class Steps = AllSteps>
-  [[nodiscard]] auto inside(const Steps& steps = {}) const {
-    const auto between = [&](const T& w) { return at_most(T(0), w, steps) & at_most(w, NN, steps); };
+  [[nodiscard]] auto inside() const {
+    const auto between = [&](const T& w) { return (T(0) <= w) & (w <= NN); };
     decltype(between(NN)) inside(true);
-    if (steps.does(Step::inside))
-      for (const T& w : weights) inside = inside & between(w);
+    for (const T& w : weights) inside = inside & between(w);
     return inside;
   }
 
   /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
-  template <class Steps = AllSteps>
-  [[nodiscard]] auto well_shaped(const Tolerances<T>& tol, const Steps& steps = {}) const {
+  [[nodiscard]] auto well_shaped(const Tolerances<T>& tol) const {
     using std::max;
     const T area = max_component(N);
     T longest = max(max_component(q), max_component(r));
-    if constexpr (kind == Kind::vertex_triangle) longest = max(longest, max_component(r - q));
-    return at_most(tol.tau, area, steps) & at_most(T(longest * tol.eta), area, steps);
+    if constexpr (has_triangle(kind)) longest = max(longest, max_component(r - q));
+    return (tol.tau <= area) & (T(longest * tol.eta) <= area);
   }
 };
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ccd/steps.hpp"
-
 namespace nearmiss {
 
 /// At most `capacity` times in [0, 1], in a fixed buffer without allocation.
@@ -43,15 +41,14 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
 /// c(1 + δ2)/(1 + δ1), and has its sign. The relative errors are then 2ω for its square root, 3ω for q (a sum
 /// of two terms of one sign), 4ω for q/2a, and 6ω for 2c/q with c in place of c'. An error of 1ω in a, such
 /// as that of 3a in a cubic's derivative, enters c' and θ too, which makes them 3ω and 7ω.
-template <class T, int capacity, class Steps = AllSteps>
-void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c, const Steps& steps = {}) {
+template <class T, int capacity>
+void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c) {
   using std::sqrt;
   if (a == 0) {
     add_quotient(times, -c, b);
     return;
   }
   const T disc = b * b - 4 * a * c;
-  if (disc < 0 && !steps.does(Step::clamped_discriminant)) return;
   const T root = disc > 0 ? T(sqrt(disc)) : T(0);
   const T q = b >= 0 ? -(b + root) : root - b;
   add_quotient(times, q, 2 * a);

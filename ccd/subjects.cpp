@@ -9,6 +9,7 @@
 #include "ccd/basic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/excerpt.hpp"
+#include "ccd/loosened.hpp"
 #include "ccd/pair_bound.hpp"
 #include "ccd/plugin.hpp"
 #include "ccd/stopwatch.hpp"
@@ -67,8 +68,8 @@ class BuiltInSubject final : public Subject {
  private:
   [[nodiscard]] Verdict decide_plainly(const Query& query) const {
     if (!is_finite(query)) refuse_coordinates(name_);
-    return query.kind == Kind::vertex_triangle ? Policy::template decide<Kind::vertex_triangle>(query, given_)
-                                               : Policy::template decide<Kind::edge_edge>(query, given_);
+    return with_kind(query.kind,
+                     [&]<Kind kind>() { return Policy::template decide<kind>(query, given_); });
   }
 
   std::string name_;
@@ -101,7 +102,7 @@ struct Empty : Basic<false> {
   }
 };
 
-template <WangOptions options, class Steps = AllSteps>
+template <WangOptions options, class Rule = PaperTolerances>
 struct Wang {
   static constexpr bool claims_bound = true;
   static constexpr bool takes_separation = false;
@@ -109,17 +110,17 @@ struct Wang {
 
   template <Kind kind>
   static Verdict decide(const Query& query, const std::optional<double>& given) {
-    return wang<kind, double, options, Steps>(query, given);
+    return wang<kind, double, options, Rule>(query, given);
   }
   static double distance_bound(const Query& query, const std::optional<double>& given) {
-    return distance_bound_of(Steps::tolerances(1.0), given.value_or(pair_bound(query)));
+    return distance_bound_of(Rule()(1.0), given.value_or(pair_bound(query)));
   }
   static double needed_tolerance(const Query& query, const std::optional<double>& given) {
     return least_loosening([&](double s) {
-      const Loosened<Steps> steps{{}, s};
-      return query.kind == Kind::vertex_triangle
-                 ? wang<Kind::vertex_triangle, double, options>(query, given, steps).hit
-                 : wang<Kind::edge_edge, double, options>(query, given, steps).hit;
+      const Loosened<Rule> tolerances{{}, s};
+      return with_kind(query.kind, [&]<Kind kind>() {
+        return wang<kind, double, options>(query, given, tolerances).hit;
+      });
     });
   }
 };
@@ -144,9 +145,8 @@ struct Advance {
     return advance<kind, double>(query);
   }
   static double distance_bound(const Query& query, const std::optional<double>& /*given*/) {
-    const double bound = query.kind == Kind::vertex_triangle
-                             ? advance_distance_bound<Kind::vertex_triangle, double>(query)
-                             : advance_distance_bound<Kind::edge_edge, double>(query);
+    const double bound = with_kind(
+        query.kind, [&]<Kind kind>() { return advance_distance_bound<kind, double>(query); });
     return std::nextafter(bound, std::numeric_limits<double>::infinity());
   }
   static double needed_tolerance(const Query& /*query*/, const std::optional<double>& /*given*/) {
@@ -176,7 +176,7 @@ constexpr std::array registry{
     entry<Wang<WangOptions{true, VeCulling::fixed}>>(
         "wang-eps", "the same with the fixed interval of the paper's text, the square root of epsilon"),
     entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
-    entry<Wang<WangOptions{true, VeCulling::per_root}, TightSteps>>(
+    entry<Wang<WangOptions{true, VeCulling::per_root}, TightTolerances>>(
         "wang-tight", "wang with the smallest tolerances that its proof allows"),
     entry<WangTime<WangOptions{true, VeCulling::per_root}>>(
         "wang-time", "wang with a lower bound of the earliest time of contact"),

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "ccd/constraints.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -188,10 +187,10 @@ Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
-/// The algorithm with tight tolerances.
-struct TightSteps : AllSteps {
+/// The rule for tolerances that gives these.
+struct TightTolerances {
   template <class T>
-  static Tolerances<T> tolerances(T B) {
+  Tolerances<T> operator()(T B) const {
     return tight_tolerances(B);
   }
 };

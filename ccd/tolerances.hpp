@@ -66,4 +66,12 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
+/// A rule for tolerances: a function of B that `wang` takes. This one gives the paper's.
+struct PaperTolerances {
+  template <class T>
+  Tolerances<T> operator()(T B) const {
+    return paper_tolerances(B);
+  }
+};
+
 }  // namespace nearmiss

@@ -7,7 +7,6 @@
 
 #include "ccd/cubic.hpp"
 #include "ccd/proximity.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -95,14 +94,13 @@ auto outside(const Configuration<kind, T>& configuration, T spread, T eps, T B) 
 /// changes the weight by at most ‖N‖‖edge‖ δ. If a weight is farther outside [0, N·N] than that plus the
 /// rounding error, nothing touches at t0. The paper bounds ‖N‖‖edge‖ √3 W h by 9 B⁴ h; `per_root` uses the
 /// configuration's own lengths (‖·‖₁ >= ‖·‖₂).
-template <VeCulling culling, Kind kind, class T, class Steps = AllSteps>
+template <VeCulling culling, Kind kind, class T>
 bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
-                        const Configuration<kind, T>& configuration, T t, const Tolerances<T>& tol,
-                        const Steps& steps = {}) {
+                        const Configuration<kind, T>& configuration, T t, const Tolerances<T>& tol) {
   using std::abs;
   using std::sqrt;
   const T B = pair.B;
-  const T eps = steps.does(Step::culling_rounding) ? epsilon<T>() : 0;
+  const T eps = epsilon<T>();
   const T threshold = detail::culling_threshold(tol.mu, eps, B);
   T h;
   T spread;  // the most by which a weight may move
@@ -115,17 +113,14 @@ bool excludes_collision(const Pair<kind, T>& pair, const Cubic<T>& F,
     h = 4 * threshold;
     if (!(h < slope)) return false;
     h /= slope;
-    const auto bracketed = [&] {
-      return !steps.does(Step::culling_bracket) || detail::brackets_root(F, t, h, threshold);
-    };
-    for (int i = 0; !bracketed(); ++i) {
+    for (int i = 0; !detail::brackets_root(F, t, h, threshold); ++i) {
       if (i == detail::culling_doublings) return false;
       h *= 2;
     }
     if (h > 1) return false;
     spread = detail::weight_spread(configuration, pair.W, h);
   }
-  return detail::outside(configuration, steps.does(Step::culling_spread) ? spread : T(0), eps, B);
+  return detail::outside(configuration, spread, eps, B);
 }
 
 }  // namespace nearmiss

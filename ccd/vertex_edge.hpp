@@ -5,7 +5,6 @@
 
 #include "ccd/motion.hpp"
 #include "ccd/quadratic.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tolerances.hpp"
 #include "ccd/vertex_vertex.hpp"
@@ -22,16 +21,16 @@ namespace detail {
 
 /// The proximity test of Algorithm 2 at one time: the test of F_0ij, the barycentric test and the length
 /// test.
-template <class T, class Steps = AllSteps>
-bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol, const Steps& steps = {}) {
+template <class T>
+bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
   const Vector3<T> a = ve.x0i.at(t);
   const Vector3<T> e = ve.xji.at(t);
   const T ll = dot(e, e);
-  if (!at_most(tol.lambda2, ll, steps)) return false;
+  if (!(tol.lambda2 <= ll)) return false;
   const T w = dot(a, e);
-  if (!(at_most(T(0), w, steps) && at_most(w, ll, steps))) return false;
+  if (!(T(0) <= w && w <= ll)) return false;
   const T F = norm_1(a.cross(e)) - tol.S * max_component(e);
-  return at_most(F, tol.psi, steps);
+  return F <= tol.psi;
 }
 
 /// Case 3: times at which two components of x_ji have the same magnitude.
@@ -63,10 +62,10 @@ struct CrossProduct {
 };
 
 /// Case 4: times at which a component of x_0i × x_ji is zero.
-template <class T, class Steps = AllSteps>
-CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g, const Steps& steps = {}) {
+template <class T>
+CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
   CandidateTimes<T, 6> times;
-  for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k], steps);
+  for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k]);
   return times;
 }
 
@@ -113,25 +112,22 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// Along this path F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square root of an
 /// error, because all times are nearly exact times of one function near F_0ij. The paper's 688 B²ε^½, for the
 /// distance from the computed root of one Q_k to the exact root, is not needed.
-template <class T, class Steps = AllSteps>
-Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol, const Steps& steps = {}) {
-  const auto accept = [&](Step step, T t) {
-    return steps.does(step) && detail::near_edge(ve, t, tol, steps);
-  };
+template <class T>
+Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
+  const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };
   const auto found = [](Stage stage, T t) { return Verdict::accepted(stage, static_cast<double>(t)); };
 
-  if (accept(Step::ve_start, T(0))) return found(Stage::ve_end, T(0));
-  if (accept(Step::ve_end, T(1))) return found(Stage::ve_end, T(1));
+  if (is_near(T(0))) return found(Stage::ve_end, T(0));
+  if (is_near(T(1))) return found(Stage::ve_end, T(1));
   for (const T& t : detail::equal_components(ve.xji))
-    if (accept(Step::ve_equal, t)) return found(Stage::ve_equal, t);
+    if (is_near(t)) return found(Stage::ve_equal, t);
   const detail::CrossProduct<T> g(ve.x0i, ve.xji, tol.rho);
-  for (const T& t : detail::zero_components(g, steps))
-    if (accept(Step::ve_zero, t)) return found(Stage::ve_zero, t);
+  for (const T& t : detail::zero_components(g))
+    if (is_near(t)) return found(Stage::ve_zero, t);
   for (const T& t : detail::piece_minima(g, ve.xji, tol.S))
-    if (accept(Step::ve_minimum, t)) return found(Stage::ve_minimum, t);
-  if (!steps.does(Step::vv)) return {};
+    if (is_near(t)) return found(Stage::ve_minimum, t);
   for (const Moving<T>* end : {&ve.x0i, &ve.x0j})
-    if (const auto t = vertex_vertex(*end, tol, steps)) return found(Stage::vv, *t);
+    if (const auto t = vertex_vertex(*end, tol)) return found(Stage::vv, *t);
   return {};
 }
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "ccd/motion.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 
 namespace nearmiss {
@@ -13,13 +12,13 @@ namespace nearmiss {
 /// Algorithm 1: the time at which two vertices are closest, if they are then within D. The test is that the
 /// computed squared distance is at most D² + δ, and every pair within D passes it (§4.2). If the vertices do
 /// not move relative to each other (v = 0), t is 0.
-template <class T, class Steps = AllSteps>
-std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol, const Steps& steps = {}) {
+template <class T>
+std::optional<T> vertex_vertex(const Moving<T>& ji, const Tolerances<T>& tol) {
   using std::clamp;
   const T vv = dot(ji.v(), ji.v());
   const T t = vv > 0 ? clamp(T(-dot(ji.x(), ji.v()) / vv), T(0), T(1)) : T(0);
   const Vector3<T> apart = ji.at(t);
-  if (at_most(T(dot(apart, apart)), T(tol.D2 + tol.delta), steps)) return t;
+  if (dot(apart, apart) <= tol.D2 + tol.delta) return t;
   return std::nullopt;
 }
 

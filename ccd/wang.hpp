@@ -6,12 +6,10 @@
 #include <sstream>
 #include <string>
 
-#include "ccd/basic.hpp"
 #include "ccd/cubic.hpp"
 #include "ccd/error.hpp"
 #include "ccd/plane_culling.hpp"
 #include "ccd/proximity.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/subject.hpp"
 #include "ccd/tolerances.hpp"
 #include "ccd/ve_culling.hpp"
@@ -27,29 +25,21 @@ struct WangOptions {
 
 namespace detail {
 
-// The vertex-edge pairs of Algorithms 3 and 4: the vertex, then i and j of the edge.
-template <Kind kind>
-inline constexpr auto ve_tests = [] {
-  if constexpr (kind == Kind::vertex_triangle)
-    return std::array<std::array<int, 3>, 3>{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
-  else
-    return std::array<std::array<int, 3>, 4>{{{2, 0, 1}, {3, 0, 1}, {0, 2, 3}, {1, 2, 3}}};
-}();
-
-template <Kind kind, class T, class Steps>
+// The vertex-edge tests of Algorithms 3 and 4, in their order.
+template <Kind kind, class T>
 [[gnu::noinline]] Verdict vertex_edge_tests(const Query& query, const Frame& frame, const VertexOrder& order,
-                                            const Tolerances<T>& tol, const Steps& steps) {
-  if (!steps.does(Step::vertex_edge)) return Verdict::rejected(Rejection::tests);
-  for (const auto& test : ve_tests<kind>) {
-    if (&test == &ve_tests<kind>.back() && !steps.does(Step::last_edge)) break;
-    const int vertex = order[static_cast<std::size_t>(test[0])];
-    const int i = order[static_cast<std::size_t>(test[1])];
-    const int j = order[static_cast<std::size_t>(test[2])];
-    const VertexEdge<T> ve{relative_motion<T>(query, vertex, i, frame),
-                           relative_motion<T>(query, j, i, frame),
-                           relative_motion<T>(query, vertex, j, frame)};
-    if (const Verdict verdict = vertex_edge(ve, tol, steps); verdict.hit) return verdict;
-  }
+                                            const Tolerances<T>& tol) {
+  constexpr const Topology& of = topology(kind);
+  for (const auto& pairs : {of.second_to_first, of.first_to_second})
+    for (const VertexAndEdge& pair : pairs) {
+      const int vertex = order[pair.vertex];
+      const int i = order[pair.from];
+      const int j = order[pair.to];
+      const VertexEdge<T> ve{relative_motion<T>(query, vertex, i, frame),
+                             relative_motion<T>(query, j, i, frame),
+                             relative_motion<T>(query, vertex, j, frame)};
+      if (const Verdict verdict = vertex_edge(ve, tol); verdict.hit) return verdict;
+    }
   return Verdict::rejected(Rejection::tests);
 }
 
@@ -97,27 +87,28 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 // mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter
 // either, since it only affects the sign of F*. The code compares squares, (16 μ1)² s³, to avoid a square
 // root. If s is out of range, s³ might overflow or underflow, and the answer is false.
-template <Kind kind, class T, class Steps>
-auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Steps& steps) {
+template <Kind kind, class T, class Rule>
+auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);
   const T c = clearance(F);
-  const T factor = steps.does(Step::clear_of_mu) ? T(16 * steps.tolerances(T(1)).mu) : T(0);
+  const T factor = 16 * tolerances(T(1)).mu;
   return in_range(s) & (c > T(0)) & (c * c > factor * factor * (s * s * s));
 }
 
 // Algorithms 3 and 4 for a pair whose vectors are within B.
-template <Kind kind, class T, WangOptions options, class Steps>
+template <Kind kind, class T, WangOptions options, class Rule>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
-                                                 const Cubic<T>& F, const Steps& steps) {
-  const Tolerances<T> tol = steps.tolerances(pair.B);
-  const auto roots = solve_cubic(F, tol.mu, steps);
+                                                 const Cubic<T>& F, const Rule& tolerances) {
+  const Tolerances<T> tol = tolerances(pair.B);
+  const auto roots = solve_cubic(F, tol.mu);
   bool culled = options.ve_culling != VeCulling::none;
   const auto proximity = [&](T t, bool root) {
     const Configuration<kind, T> configuration(pair, t);
-    const bool well_shaped = configuration.well_shaped(tol, steps);
-    if (well_shaped && configuration.inside(steps) && steps.does(Step::proximity)) return true;
-    culled = culled && (!root || (well_shaped && excludes_collision<options.ve_culling>(
-                                                     pair, F, configuration, t, tol, steps)));
+    const bool well_shaped = configuration.well_shaped(tol);
+    if (well_shaped && configuration.inside()) return true;
+    culled =
+        culled &&
+        (!root || (well_shaped && excludes_collision<options.ve_culling>(pair, F, configuration, t, tol)));
     return false;
   };
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
@@ -126,20 +117,19 @@ template <Kind kind, class T, WangOptions options, class Steps>
   // The algorithms test T ∪ {0, 1}; 0 and 1 count only if their residual is that of a root. Then t = 0 is the
   // left node of the first interval, hence among the roots; t = 1 need not be.
   using std::abs;
-  if (steps.does(Step::proximity_end) && at_most(T(abs(F(T(1)))), tol.mu, steps) && proximity(T(1), false))
-    return hit(T(1));
+  if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
   if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);
-  return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol, steps);
+  return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
 }
 
 // The same for a pair that has a given B (§5), or needs another frame or another order of end points.
-template <Kind kind, class T, WangOptions options, class Steps>
+template <Kind kind, class T, WangOptions options, class Rule>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
-                                       const Steps& steps) {
-  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query, steps), given_order, steps);
+                                       const Rule& tolerances) {
+  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
   if (given) pair = with_given_bound(query, pair, *given);
-  if (!bring_within_reach(query, pair, steps)) return Verdict::rejected(Rejection::apart);
-  return wang_tests<kind, T, options>(query, pair, coplanarity(pair), steps);
+  if (!bring_within_reach(query, pair)) return Verdict::rejected(Rejection::apart);
+  return wang_tests<kind, T, options>(query, pair, coplanarity(pair), tolerances);
 }
 
 }  // namespace detail
@@ -147,20 +137,20 @@ template <Kind kind, class T, WangOptions options, class Steps>
 /// Algorithms 3 and 4. Reports every true collision of finite input, including contact at t = 0 and t = 1, in
 /// a scalar of 13 bits or more (§4 and constraints.hpp). A pair that it reports without a collision is within
 /// the tolerances' distance bound, about 41 B ε^¼ (§4.4.1, §4.5.1). If `given` is set, it replaces the pair's
-/// own B; a smaller value throws Error (§5).
-template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
-Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt, const Steps& steps = {}) {
-  if (options.plane_culling && separated_by_plane<kind>(query, steps))
-    return Verdict::rejected(Rejection::planes);
+/// own B; a smaller value throws Error (§5). `tolerances(B)` gives the tolerances for a bound B.
+template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
+Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt,
+             const Rule& tolerances = {}) {
+  if (options.plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
   Pair<kind, T> pair;
   form_vectors(query, pair);
   const Cubic<T> F = coplanarity(pair);
-  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, steps))
+  if (options.ve_culling != VeCulling::none && !given && detail::keeps_clear(pair, F, tolerances))
     return Verdict::rejected(Rejection::no_root);
-  detail::form_bound(pair, steps);
+  detail::form_bound(pair);
   if (given || !in_range(pair.B) || !within_reach(pair))
-    return detail::wang_careful<kind, T, options>(query, given, steps);
-  return detail::wang_tests<kind, T, options>(query, pair, F, steps);
+    return detail::wang_careful<kind, T, options>(query, given, tolerances);
+  return detail::wang_tests<kind, T, options>(query, pair, F, tolerances);
 }
 
 }  // namespace nearmiss

@@ -133,7 +133,7 @@ class WangLanes {
       Pair<kind, Real> pair;
       form_vectors(points([&](std::size_t lane) { return rows[i + lane]; }), pair);
       const Cubic<Real> F = coplanarity(pair);
-      const auto is_clear = each(detail::keeps_clear(pair, F, AllSteps{}));
+      const auto is_clear = each(detail::keeps_clear(pair, F, PaperTolerances{}));
       detail::form_bound(pair);
       // If the sum of squares is in range, all vectors are finite.
       const auto is_plain =
@@ -172,7 +172,7 @@ class WangLanes {
     for (auto& column : columns_) pad(column, left_.size());
     for (std::size_t i = 0; i < left_.size(); i += n) {
       const auto [F, W, B] = polynomial([i](const auto& column) { return Real::load(&column[i]); });
-      const Real mu = AllSteps::tolerances(B).mu;
+      const Real mu = paper_tolerances(B).mu;
       const auto critical = detail::critical_times(F);
       const std::array<Real, 4> time{Real(0), critical.first, critical.second, Real(1)};
       const std::array<Real, 4> value{F.d, F(time[1]), F(time[2]), F(time[3])};
@@ -221,7 +221,7 @@ class WangLanes {
       const Polynomial known = polynomial_at([&](std::size_t lane) { return bracket_place_[i + lane]; });
       const detail::Bracket<Real> bracket{Real::load(&brackets_[0][i]), Real::load(&brackets_[1][i]),
                                           Real::load(&brackets_[2][i]), Real::load(&brackets_[3][i])};
-      const auto roots = each(detail::refined(known.F, bracket, AllSteps::tolerances(known.B).mu,
+      const auto roots = each(detail::refined(known.F, bracket, paper_tolerances(known.B).mu,
                                               Real::gather([](std::size_t lane) {
                                                 return static_cast<double>(lane);
                                               }) < Real(static_cast<double>(bracket_count_ - i))));
@@ -242,7 +242,7 @@ class WangLanes {
       pair.W = known.W;
       pair.B = known.B;
       const Real t = Real::load(&candidate_time_[i]);
-      const auto tol = AllSteps::tolerances(known.B);
+      const auto tol = paper_tolerances(known.B);
       const Configuration<kind, Real> configuration(pair, t);
       const Mask well_shaped = configuration.well_shaped(tol);
       const Mask passes = well_shaped & configuration.inside();

@@ -11,7 +11,6 @@
 #include "ccd/cubic.hpp"
 #include "ccd/motion.hpp"
 #include "ccd/proximity.hpp"
-#include "ccd/steps.hpp"
 #include "ccd/tolerances.hpp"
 #include "ccd/ve_culling.hpp"
 #include "ccd/wang.hpp"
@@ -45,7 +44,7 @@ auto vertex_differences(const Pair<kind, T>& pair) {
   const auto& p = pair.p.xv;
   const auto& q = pair.q.xv;
   const auto& r = pair.r.xv;
-  if constexpr (kind == Kind::vertex_triangle)
+  if constexpr (has_triangle(kind))
     return std::array<Moving<T>, 3>{{{p}, {p - q}, {p - r}}};
   else
     return std::array<Moving<T>, 4>{{{p}, {p - q}, {p + r}, {p - q + r}}};
@@ -61,9 +60,9 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
 
 /// A time before which a moving plane across an axis or a diagonal separates the primitives: one coordinate of all
 /// differences of vertices keeps its sign.
-template <Kind kind, class T, class Steps>
-T separated_until(const Pair<kind, T>& pair, const Steps& steps) {
-  const T error = steps.does(Step::time_rounding) ? gap_error * epsilon<T>() * pair.B : 0;
+template <Kind kind, class T>
+T separated_until(const Pair<kind, T>& pair) {
+  const T error = gap_error * epsilon<T>() * pair.B;
   const auto differences = vertex_differences(pair);
   constexpr std::size_t count = std::tuple_size_v<decltype(vertex_differences(pair))>;
   std::array<std::array<T, plane_count>, count> start;
@@ -76,7 +75,7 @@ T separated_until(const Pair<kind, T>& pair, const Steps& steps) {
   for (std::size_t plane = 0; plane < plane_count; ++plane) {
     const T sign = start[0][plane] < 0 ? T(-1) : T(1);
     T until = 1;
-    for (std::size_t k = 0; k < (steps.does(Step::last_vertex) ? count : count - 1); ++k)
+    for (std::size_t k = 0; k < count; ++k)
       until = closing_time(T(sign * start[k][plane] - error), T(-sign * velocity[k][plane]), until);
     latest = std::max(latest, until);
   }
@@ -89,16 +88,15 @@ T separated_until(const Pair<kind, T>& pair, const Steps& steps) {
 /// evaluation, with one sign. Such a time is near the root of F less twice the residual, which has the same nodes. There,
 /// `refine_root` ends with at most half of the residual (3). The error of d in this cubic is at most 7uB³, so |F| is above
 /// 1.4 residuals less h at the returned time.
-template <class T, class Steps>
-T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual, const Steps& steps) {
+template <class T>
+T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);
-  const T before = steps.does(Step::beside_root) ? (steps.does(Step::lower_end) ? T(2) : T(-2)) : T(0);
-  const T shift = sign * before * residual;
+  const T shift = sign * 2 * residual;
   const T start = nodes.value[i] - shift;
   if (!(sign * start > residual / 2)) return nodes.time[i];
   const T end = nodes.value[i + 1] - shift;
   return refine_root(Cubic<T>{F.a, F.b, F.c, F.d - shift}, nodes.time[i], nodes.time[i + 1], start, end,
-                     T(residual / 2), steps);
+                     T(residual / 2));
 }
 
 /// A time before which there is no contact, if there is none before `from`.
@@ -107,13 +105,13 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
 /// for a part of one: if t0 is in an interval, the interval has a candidate that represents t0. So there is no contact in
 /// an interval without a candidate, nor in one whose candidate `excludes_collision` excludes. The first interval that is left
 /// has no contact before `before_root`.
-template <Kind kind, class T, class Steps>
-T rootless_until(const Pair<kind, T>& pair, T from, const Steps& steps) {
+template <Kind kind, class T>
+T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);
   Tolerances<T> tol{};
   tol.mu = least_residual * epsilon<T>() * pair.B * pair.B * pair.B;
   if (clearance(F) > tol.mu) return 1;
-  Nodes<T> nodes(F, steps);
+  Nodes<T> nodes(F);
   T until = 1;
   for (std::size_t i = 0; i <= nodes.last; ++i) {
     if (nodes.time[i + 1] < from) continue;
@@ -121,22 +119,22 @@ T rootless_until(const Pair<kind, T>& pair, T from, const Steps& steps) {
       nodes.time[i] = from;
       nodes.value[i] = F(from);
     }
-    const auto root = root_in_interval(F, nodes, i, tol.mu, steps);
+    const auto root = root_in_interval(F, nodes, i, tol.mu);
     if (!root) continue;
     const Configuration<kind, T> configuration(pair, *root);
-    if (excludes_collision<VeCulling::per_root>(pair, F, configuration, *root, tol, steps)) continue;
-    until = before_root(F, nodes, i, tol.mu, steps);
-    if (steps.does(Step::earliest_root)) break;
+    if (excludes_collision<VeCulling::per_root>(pair, F, configuration, *root, tol)) continue;
+    until = before_root(F, nodes, i, tol.mu);
+    break;
   }
   return until;
 }
 
 /// A time before which the primitives of a query do not touch: 1 if they never do.
-template <Kind kind, class T, class Steps>
-[[gnu::noinline]] T contactless_until(const Query& query, const Steps& steps) {
-  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query, steps), given_order, steps);
-  if (!bring_within_reach(query, pair, steps)) return 1;
-  return rootless_until(pair, separated_until(pair, steps), steps);
+template <Kind kind, class T>
+[[gnu::noinline]] T contactless_until(const Query& query) {
+  auto pair = make_pair<kind, T>(query, normalising_frame<kind, T>(query));
+  if (!bring_within_reach(query, pair)) return 1;
+  return rootless_until(pair, separated_until(pair));
 }
 
 }  // namespace detail
@@ -147,11 +145,11 @@ template <Kind kind, class T, class Steps>
 /// It is the later of two times: moving planes separate the primitives until the first, and F has no root that may be a
 /// contact from there until the second. Where F is nearly 0 for a long time, as for primitives that move in one plane, the
 /// time is early, and it is 0 if no plane separates them at t = 0.
-template <Kind kind, class T, WangOptions options, class Steps = AllSteps>
+template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
 Verdict wang_time(const Query& query, const std::optional<double>& given = std::nullopt,
-                  const Steps& steps = {}) {
-  Verdict verdict = wang<kind, T, options>(query, given, steps);
-  if (verdict.hit) verdict.time = static_cast<double>(detail::contactless_until<kind, T>(query, steps));
+                  const Rule& tolerances = {}) {
+  Verdict verdict = wang<kind, T, options>(query, given, tolerances);
+  if (verdict.hit) verdict.time = static_cast<double>(detail::contactless_until<kind, T>(query));
   return verdict;
 }
 

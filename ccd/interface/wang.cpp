@@ -52,7 +52,7 @@ int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers) {
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds) {
   const nearmiss::PlainArithmetic guard;
   if (!are_usable(queries, bounds)) return NEARMISS_BAD_ARGUMENT;
-  const auto tolerances = nearmiss::AllSteps::tolerances(1.0);
+  const auto tolerances = nearmiss::paper_tolerances(1.0);
   return nearmiss::interface::for_each_query(
       queries,
       [&](const Query& query, std::size_t q) {

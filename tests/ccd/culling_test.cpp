@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "ccd/steps.hpp"
+#include "ccd/loosened.hpp"
 
 namespace nearmiss {
 namespace {

@@ -11,10 +11,8 @@ namespace {
 template <Kind kind>
 void expect_same(const Query& query, const std::string& provenance) {
   const auto x = coordinates(query);
-  EXPECT_EQ(certified::separated_across_axes<kind>(x), detail::separated_across_axis<kind>(x, AllSteps{}))
-      << provenance;
-  EXPECT_EQ(certified::separated_across_diagonals<kind>(x),
-            detail::separated_across_diagonal<kind>(x, AllSteps{}))
+  EXPECT_EQ(certified::separated_across_axes<kind>(x), detail::separated_across_axis<kind>(x)) << provenance;
+  EXPECT_EQ(certified::separated_across_diagonals<kind>(x), detail::separated_across_diagonal<kind>(x))
       << provenance;
 }
 

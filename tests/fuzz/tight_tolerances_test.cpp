@@ -189,8 +189,8 @@ int misses(std::uint64_t queries) {
       for (double& c : query.x) c = static_cast<double>(static_cast<T>(c));
       if (!is_finite(query) || !collides(query)) continue;
       const bool hit = query.kind == Kind::vertex_triangle
-                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightSteps>(query).hit
-                           : wang<Kind::edge_edge, T, WangOptions{}, TightSteps>(query).hit;
+                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightTolerances>(query).hit
+                           : wang<Kind::edge_edge, T, WangOptions{}, TightTolerances>(query).hit;
       if (!hit) ++count;
     }
   }

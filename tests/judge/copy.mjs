@@ -2,7 +2,7 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { applied, here } from './list.mjs';
+import { applied, filesOf, here } from './list.mjs';
 
 export const source = path.resolve(here, '../..');
 
@@ -57,13 +57,13 @@ export class Copy {
 
   /** Alters the oracle, calls `work`, and takes the defect back. */
   async with(defect, work) {
-    const original = readFileSync(path.join(source, defect.file), 'utf8');
-    this.#write(defect.file, applied(defect, original));
+    const originals = filesOf(defect).map((file) => [file, readFileSync(path.join(source, file), 'utf8')]);
+    for (const [file, text] of originals) this.#write(file, applied(defect, file, text));
     this.altered = true;
     try {
       return await work();
     } finally {
-      this.#write(defect.file, original);
+      for (const [file, text] of originals) this.#write(file, text);
     }
   }
 

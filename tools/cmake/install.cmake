@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 
 # Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. There, "ccd/query.hpp" is
 # "nearmiss/ccd/query.hpp", so that no folder of the user's can be meant.
-set(templates advance arithmetic basic constraints cubic elementary error kind motion pair_bound plane_culling proven proximity
-  quadratic query scalar solver_errors steps subject tight_tolerances tolerances ve_culling vertex_edge vertex_vertex wang wang_time)
+set(templates advance arithmetic basic constraints cubic error kind motion pair_bound plane_culling proven proximity
+  quadratic query scalar solver_errors subject tight_tolerances tolerances ve_culling vertex_edge vertex_vertex wang wang_time)
 list(TRANSFORM templates REPLACE "(.+)" "ccd/\\1.hpp")
 set(interface ccd/interface/queries.h ccd/interface/wang.h oracle/interface/oracle.h oracle/interface/nearmiss.h oracle/interface/nearmiss.hpp
   oracle/interface/contact.hpp)
