@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/statistics/sums.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -68,10 +70,9 @@ QueryClass class_of(std::string_view family) {
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {
-  std::map<ClassKey, CountsSum> sums;
-  for (const auto& [key, each] : statistics.counts)
-    sums[{key.subject, key.kind, class_of(key.family)}].add(key.family, each);
-  return sums;
+  return sums_by(statistics, [](const CountsKey& key) {
+    return ClassKey{key.subject, key.kind, class_of(key.family)};
+  });
 }
 
 }  // namespace nearmiss
