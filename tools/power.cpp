@@ -16,7 +16,7 @@
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "reports/sections/power_table.hpp"
+#include "reports/sections/other_tables.hpp"
 #include "reports/text/text.hpp"
 #include "tools/arguments.hpp"
 #include "tools/commands.hpp"

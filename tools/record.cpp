@@ -18,9 +18,8 @@
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/ladder.hpp"
-#include "reports/sections/option_sweep.hpp"
 #include "reports/sections/summary.hpp"
-#include "reports/sections/sweep.hpp"
+#include "reports/sections/sweeps.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
@@ -185,8 +184,7 @@ int Record::finish(bool interrupted, bool complete) {
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",
-             sweep_tables(statistics_) + option_sweep_tables(statistics_) + ladder_table(statistics_) +
-                 decider_tables(statistics_),
+             sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
              funnel_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "reports/statistics/family_name.hpp"
+#include "reports/statistics/sums.hpp"
 
 namespace nearmiss {
 
@@ -70,10 +71,9 @@ QueryClass class_of(std::string_view family) {
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {
-  std::map<ClassKey, CountsSum> sums;
-  for (const auto& [key, each] : statistics.counts)
-    sums[{key.subject, key.kind, class_of(key.family)}].add(key.family, each);
-  return sums;
+  return sums_by(statistics, [](const CountsKey& key) {
+    return ClassKey{key.subject, key.kind, class_of(key.family)};
+  });
 }
 
 }  // namespace nearmiss
