@@ -30,7 +30,7 @@ constexpr double spread_of_machine = 0.15;
 
 /// The key under which a subject as a whole is compared.
 CountsKey whole(const std::string& subject) {
-  return {subject, Kind::vertex_triangle, std::string(ChangedTime::all_families)};
+  return {subject, {}, std::string(ChangedTime::all_families)};
 }
 
 bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_families; }
