@@ -2,7 +2,6 @@
 #include "fuzz/studies/audit.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string_view>
 #include <vector>

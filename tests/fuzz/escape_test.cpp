@@ -14,7 +14,7 @@
 
 #include "ccd/error.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "tests/fuzz/copied_plugin.hpp"
+#include "tests/plugins.hpp"
 
 namespace nearmiss {
 namespace {

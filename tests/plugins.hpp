@@ -1,4 +1,4 @@
-// Plug-ins of tests/plugin/ whose processes a test can count.
+// Plug-ins of tests/plugin/, the queries that they are asked, and copies of them whose processes a test can count.
 #pragma once
 
 #include <stdlib.h>
