@@ -12,7 +12,7 @@
 
 #include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/trial/patience.hpp"
+#include "fuzz/trial/so_far.hpp"
 #include "oracle/explanation.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
@@ -140,7 +140,7 @@ void Record::add(TrialResult&& result) {
       fmt::print(
           stderr,
           "{}nearmiss: {} exceeded its time limit {} times in {} ({}) and is not asked there any more\n",
-          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, Patience::most_late, key.family,
+          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, most_slow, key.family,
           short_name(key.kind));
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
   for (auto& [number, finding] : result.shrunk) findings_.at(number) = std::move(finding);

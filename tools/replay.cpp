@@ -42,21 +42,16 @@ int run(const Options& options) {
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
-  if (!options.bound.empty()) {
-    info["bound"] = options.bound;
-    info["again"] += " --bound " + options.bound;
-  }
-  if (options.separation.is_given()) {
-    info["separation"] = options.separation.text;
-    info["again"] += " --separation " + options.separation.text;
-  }
+  if (!options.bound.empty()) note_option(info, "bound", "--bound", options.bound);
+  if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
   std::uint64_t with_separation = 0;
   {
     Progress progress(options.record.quiet);
     std::uint64_t count = 0;
-    SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink);
-    TrialStream stream(trials, [&](TrialResult&& result) { record.add(std::move(result)); });
+    Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+                  [&](TrialResult&& result) { record.add(std::move(result)); });
+    TrialStream stream(trials);
     const auto add = [&](const Case& each) {
       stop.check();
       // A recorded truth is that of the recorded question.
@@ -74,9 +69,8 @@ int run(const Options& options) {
     } catch (const Stopped&) {  // what was asked counts
     }
     stream.finish();
-    trials.finish([&](TrialResult&& result, std::size_t left) {
-      record.add(std::move(result));
-      if (progress.due()) progress.show(shrinking_line(left));
+    trials.finish([&] {
+      if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
     });
   }
   for (const auto& subject : subjects)

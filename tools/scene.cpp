@@ -105,21 +105,15 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + shell_quoted(each);
   RunInfo info = options.trial.run_info(command, all.subjects);
-  std::string& again = info["again"];
-  again += fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
+  info["again"] +=
+      fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
   info["left out"] = options.leave_out;
-  if (options.separation.is_given()) {
-    info["separation"] = options.separation.text;
-    again += " --separation " + options.separation.text;
-  }
+  if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
-  if (!options.thickness.empty()) {
-    info["thickness"] = options.thickness;
-    again += " --thickness " + options.thickness;
-  }
+  if (!options.thickness.empty()) note_option(info, "thickness", "--thickness", options.thickness);
   if (options.weld) {
     info["welded"] = "yes";
-    again += " --weld";
+    info["again"] += " --weld";
   }
   return info;
 }
@@ -170,8 +164,9 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
   Export exported(options.export_to);
   Verified verified;
   SceneProgress progress(options, scene.steps(), record);
-  SiftedTrials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink);
-  SceneTrial trial(scene, leave_out, trials, [&](TrialResult&& result) { record.add(std::move(result)); });
+  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+                [&](TrialResult&& result) { record.add(std::move(result)); });
+  SceneTrial trial(scene, leave_out, trials);
   const auto is_over = [&] { return stop.is_due(); };
   for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
     exported.add_all(mesh, leave_out, stop);
@@ -184,10 +179,7 @@ Verified hold_trials(const Options& options, const Scene& scene, const Subjects&
         return !stop.is_due();
       }));
   });
-  trials.finish([&](TrialResult&& result, std::size_t left) {
-    record.add(std::move(result));
-    progress.shrinking(left);
-  });
+  trials.finish([&] { progress.shrinking(trials.to_shrink()); });
   if (!stop.is_due()) exported.finish();
   if (const auto picture = trial.picture()) record.add(*picture);
   return verified;

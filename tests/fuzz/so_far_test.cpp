@@ -1,5 +1,5 @@
-// What a campaign knows about the farthest false positives, and the samples of its queries.
-#include "fuzz/trial/least_kept.hpp"
+// What trials know from the cases that count so far, and the samples of their queries.
+#include "fuzz/trial/so_far.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,25 +22,36 @@ std::map<CountsKey, Counts> counters(double first, std::size_t cases) {
   return {{key, counts}};
 }
 
-TEST(LeastKept, IsZeroUntilAllPlacesAreTaken) {
-  LeastKept least;
-  EXPECT_EQ(least.of(key), 0);
-  least.take(counters(1, Counts::far_cases - 1));
-  EXPECT_EQ(least.of(key), 0);
-  least.take(counters(1000, 1));
-  EXPECT_EQ(least.of(key), 1);
+TEST(SoFar, KeepsEveryDistanceUntilAllPlacesAreTaken) {
+  SoFar so_far;
+  EXPECT_EQ(so_far.of(key).least_kept, 0);
+  so_far.take(counters(1, Counts::far_cases - 1));
+  EXPECT_EQ(so_far.of(key).least_kept, 0);
+  so_far.take(counters(1000, 1));
+  EXPECT_EQ(so_far.of(key).least_kept, 1);
 }
 
-TEST(LeastKept, IsThatOfTheFarthestOfAllCounters) {
-  LeastKept least;
-  least.take(counters(1, Counts::far_cases));
-  least.take(counters(1000, Counts::far_cases - 1));
-  EXPECT_EQ(least.of(key), Counts::far_cases) << "one of the first counters is still kept";
-  least.take(counters(1, Counts::far_cases));
-  EXPECT_EQ(least.of(key), Counts::far_cases);
+TEST(SoFar, KeepsTheFarthestOfAllCounters) {
+  SoFar so_far;
+  so_far.take(counters(1, Counts::far_cases));
+  so_far.take(counters(1000, Counts::far_cases - 1));
+  EXPECT_EQ(so_far.of(key).least_kept, Counts::far_cases) << "one of the first counters is still kept";
+  so_far.take(counters(1, Counts::far_cases));
+  EXPECT_EQ(so_far.of(key).least_kept, Counts::far_cases);
   CountsKey other = key;
   other.kind = Kind::vertex_triangle;
-  EXPECT_EQ(least.of(other), 0);
+  EXPECT_EQ(so_far.of(other).least_kept, 0);
+}
+
+TEST(SoFar, SetsASubjectAsideAfterThreeQueriesOverTheTimeLimit) {
+  SoFar so_far;
+  for (std::uint64_t slow = 0; slow < 5; ++slow) {
+    EXPECT_EQ(so_far.of(key).slow, slow);
+    EXPECT_EQ(so_far.of(key).is_set_aside(), slow >= 3);
+    Counts counts;
+    counts.faults[static_cast<std::size_t>(Fault::time)] = 1;
+    so_far.take({{key, counts}});
+  }
 }
 
 TEST(Sample, HasTheExpectedPartOfAnyProgression) {
