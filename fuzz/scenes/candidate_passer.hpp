@@ -1,4 +1,4 @@
-// The step that all searches for candidates share: it makes a candidate of two primitives.
+// The step that both ways through a mesh's pairs share: it makes a candidate of two primitives.
 #pragma once
 
 #include <algorithm>
