@@ -77,7 +77,7 @@ struct NearestPoint {
 /// direction has lost digits by cancellation. For the same reason, the direction of the point below the origin is
 /// the normal.
 template <Kind kind, class T, std::size_t size>
-NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
+[[gnu::always_inline]] inline NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
   NearestPoint<T> nearest;
   for (std::size_t k = 0; k < size; ++k) {
     const Vector3<T> e = c[(k + 1) % size] - c[k];
@@ -155,8 +155,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
 // The time until which all corners stay beyond `distance` along a direction, from t on: t if one is not at t, and t + 2 if
 // there is no end.
 template <Kind kind, class T, class Corners>
-T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t, T t,
-               const Vector3<T>& direction, T distance) {
+[[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
+                                             T t, const Vector3<T>& direction, T distance) {
   const T largest = max_component(direction);
   if (!(largest > 0)) return t;
   const Vector3<T> scaled = direction / largest;
