@@ -52,7 +52,9 @@ def _value(counts, column):
     for i, end in enumerate(ENDS):
         if column.endswith(end):
             name = column.removesuffix(end)
-            ends = counts[name] if isinstance(counts[name], list) else counts[f'{name}_interval_95']
+            ends = (
+                counts[name] if isinstance(counts[name], list) else counts[f'{name}_interval_95']
+            )
             return math.inf if ends[i] is None else ends[i]
     return counts['false_positives_measured_by_wang' if column == 'measured_by_wang' else column]
 

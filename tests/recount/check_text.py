@@ -33,6 +33,13 @@ COLUMNS = {
     'claimed / B': 'claimed',
     'invalid': ('faults', 'invalid'),
 }
+# Counters of which texts say "12 of 504", with their totals.
+PAIRS = (
+    ('false_negatives', 'collisions'),
+    ('late', 'times_promised'),
+    ('refuted_bounds', 'false_positives'),
+    ('unknown', 'queries'),
+)
 
 
 def agrees(text, value):
@@ -86,19 +93,28 @@ def _check_headline(comparison, section, report):
     total = report['oracle']['total']['queries']
     comparison.same('text', f'{section} headline queries', asked, [total])
     alarming = [
-        verdict['subject'] for verdict in verdicts for failure in verdict['failures']
+        verdict['subject']
+        for verdict in verdicts
+        for failure in verdict['failures']
         if failure not in ON_REQUEST
     ]
     comparison.same('text', f'{section} alarms', len(found['alarms']), len(alarming))
-    said = [*zip(alarming, found['alarms']), *((each['subject'], each['text']) for each in verdicts)]
+    said = [
+        *zip(alarming, found['alarms']),
+        *((each['subject'], each['text']) for each in verdicts),
+    ]
     for subject, text in said:
         text = text.removeprefix(f'{subject} ').partition('the farthest ')[0]
-        wrong = set(numbers(text)) - _counts_of(report, subject)
+        sums = _sums_of(report, subject)
+        counts = {value for each in sums for value in each.values() if isinstance(value, int)}
+        pairs = {(each[part], each[of]) for each in sums for part, of in PAIRS if of in each}
+        said_of = {tuple(numbers(pair)) for pair in re.findall(r'[\d,]+ of [\d,]+', text)}
+        wrong = (set(numbers(text)) - counts) | (said_of - pairs)
         comparison.same('text', f'{section} numbers of {subject} in "{text}"', wrong, set())
 
 
-def _counts_of(report, subject):
-    """The counts of a subject: of each kind, of both, and of each class."""
+def _sums_of(report, subject):
+    """The counters of a subject: of each kind, of both, and of each class."""
     (verdict,) = (each for each in report['verdicts'] if each['subject'] == subject)
     kinds = list(report['subjects'][subject].values())
     by_name = [
@@ -108,7 +124,7 @@ def _counts_of(report, subject):
     sums = [verdict['counts'], *verdict['classes'].values(), *by_name]
     for of in kinds:
         sums += [of, of['false_negatives_by_class'], *of['classes'].values()]
-    return {value for each in sums for value in each.values() if isinstance(value, int)}
+    return sums
 
 
 def _check_output(comparison, where, text, report):

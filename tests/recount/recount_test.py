@@ -172,7 +172,9 @@ class Recount(unittest.TestCase):
     def test_a_change_in_the_json_of_fuzz_is_found(self):
         path = ('subjects', 'wang', 'ee', 'families', 'parallel', 'false_positives')
         with put(self.report.fuzz_json, path, 1000):
-            self.assertTrue(self.finds(check_statistics, 'changed', self.report.fuzz_json, self.answers))
+            self.assertTrue(
+                self.finds(check_statistics, 'changed', self.report.fuzz_json, self.answers)
+            )
 
     def test_a_change_in_any_column_of_a_csv_file_is_found(self):
         for name, check, *more in (
