@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss {
 

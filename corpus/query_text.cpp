@@ -10,8 +10,8 @@
 #include <iterator>
 #include <type_traits>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 
 namespace nearmiss {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 
@@ -18,7 +18,7 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// influence. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
 
-/// The same number rounded once to the nearest float. Throws Error "<where>: found '...', expected a number in
+/// The number that parse_number reads, rounded once to the nearest float. Throws Error "<where>: found '...', expected a number in
 /// the range of float", also for a number that is too large.
 float parse_float(std::string_view text, std::string_view where);
 
@@ -48,7 +48,7 @@ std::string to_exact(double value);
 /// it back exactly.
 std::string to_line(const Query& query);
 
-/// The same in decimals for people: points are separated by two blanks, the two times by three. parse_line reads it back exactly.
+/// The numbers of to_line in decimals, for people: points are separated by two blanks, the two times by three. parse_line reads it back exactly.
 /// If a decimal is not exact, a second line is to_line(query).
 std::string to_readable(const Query& query);
 

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <fstream>
 #include <istream>
+#include <optional>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/sample_csv.hpp"
@@ -18,9 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The kind of the queries in files named *.vt or *.ee.
+std::optional<Kind> kind_of_extension(const fs::path& extension) {
+  for (const Kind kind : kinds)
+    if (extension == fmt::format(".{}", short_name(kind))) return kind;
+  return std::nullopt;
+}
+
 bool is_case_file(const fs::path& path) {
   const auto extension = path.extension();
-  return extension == ".case" || extension == ".csv" || extension == ".vt" || extension == ".ee";
+  return extension == ".case" || extension == ".csv" || kind_of_extension(extension);
 }
 
 /// Throws Error if the reading of a file ended before its end.
@@ -40,8 +48,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
     sink(parse_case(in, name));
   } else if (extension == ".csv") {
     read_sample_csv(in, path, sink);
-  } else if (extension == ".vt" || extension == ".ee") {
-    read_query_lines(in, extension == ".vt" ? Kind::vertex_triangle : Kind::edge_edge, name, sink);
+  } else if (const auto kind = kind_of_extension(extension)) {
+    read_query_lines(in, *kind, name, sink);
   } else {
     throw Error(fmt::format("{}: found an unknown kind of file, expected *.case, *.csv, *.vt or *.ee", name));
   }

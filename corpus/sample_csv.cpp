@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

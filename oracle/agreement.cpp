@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/sturm/times.hpp"
 
 namespace nearmiss {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/methods.hpp"
 
 namespace nearmiss {
@@ -39,7 +39,7 @@ class Answers {
 /// Asks all methods.
 Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 
-/// The same if the answer of the first method, a complete method, is already known.
+/// Asks the other methods, if the answer of the first one, a complete method, is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
 /// How the second method contradicts the earliest time of a query with a collision or a tie, such as "time (sturm: earlier)";

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/conversion.hpp"
 #include "oracle/distance/proximity.hpp"

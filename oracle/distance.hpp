@@ -1,7 +1,7 @@
 // The smallest distance of two primitives over the step. Only two functions depend on the query's separation.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/distance/needed_distance.hpp"
 
@@ -15,7 +15,7 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// The same for the distance less the query's separation h > 0; 0 if that is negative. Up to rounding, lo >= needed(hi).
+/// An enclosure in `unit` of the smallest distance less the query's separation h > 0; 0 if that is negative. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
 /// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, and of 1e-9 near 1; infinite

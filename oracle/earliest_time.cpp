@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/filter/filter.hpp"

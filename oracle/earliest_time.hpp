@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/within_separation.hpp"
 
@@ -29,7 +29,7 @@ class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
   explicit EarliestTime(const Query& query) : EarliestTime(query, KnownTimes{}) {}
-  /// The same, starting from what a decision of the query has found. All answers are the same.
+  /// Starts from what a decision of the query has found, which changes no answer.
   EarliestTime(const Query& query, const KnownTimes& known);
 
   /// What certified bounds in double show of t*.

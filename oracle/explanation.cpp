@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/parity/parity.hpp"

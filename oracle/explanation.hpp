@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

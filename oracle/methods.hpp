@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/oracle.hpp"
 
 namespace nearmiss {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/filter/box.hpp"

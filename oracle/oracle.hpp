@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/earliest_time.hpp"
 #include "oracle/filter/filter.hpp"
 #include "oracle/within_separation.hpp"
@@ -33,14 +33,14 @@ Decision settle(const Query& query, FilterStage stage);
 /// exact for every finite query, including degenerate, planar, huge and subnormal ones.
 Decision decide(const Query& query);
 
-/// The same for many queries of both kinds. The filter processes those with h = 0 side by side. The answers are the same
+/// Decides many queries of any kinds. The filter processes those with h = 0 side by side. The answers are the same
 /// as for single queries; the stages may differ.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 /// Whether decide() finds a collision.
 bool collides(const Query& query);
 
-/// The same by exact arithmetic only, without the filters.
+/// The decision by exact arithmetic only, without the filters.
 Decision decide_exactly(const Query& query);
 bool collides_exactly(const Query& query);
 

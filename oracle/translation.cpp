@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "oracle/arithmetic/double_word.hpp"
@@ -80,16 +81,14 @@ std::optional<bool> edges_meet(const Query& query) {
 }  // namespace
 
 RelativeMotion relative_motion(const Query& query) {
-  if (query.kind == Kind::vertex_triangle) {
-    if (!move_alike(query, 1, 2) || !move_alike(query, 1, 3)) return RelativeMotion::other;
-    return move_alike(query, 0, 1) ? RelativeMotion::rest : RelativeMotion::translation;
-  }
-  if (!move_alike(query, 0, 1) || !move_alike(query, 2, 3)) return RelativeMotion::other;
-  return move_alike(query, 0, 2) ? RelativeMotion::rest : RelativeMotion::translation;
+  const Topology& of = topology(query.kind);
+  const auto moves_alike = [&](VertexPair pair) { return move_alike(query, pair.from, pair.to); };
+  if (!std::all_of(of.edges.begin(), of.edges.end(), moves_alike)) return RelativeMotion::other;
+  return moves_alike(of.gaps.front()) ? RelativeMotion::rest : RelativeMotion::translation;
 }
 
 std::optional<bool> meets_by_translation(const Query& query) {
-  return query.kind == Kind::vertex_triangle ? vertex_meets_triangle(query) : edges_meet(query);
+  return has_triangle(query.kind) ? vertex_meets_triangle(query) : edges_meet(query);
 }
 
 }  // namespace nearmiss

@@ -1,6 +1,6 @@
 #include "oracle/within_separation.hpp"
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/distance/approach.hpp"
 #include "oracle/distance/conversion.hpp"
 #include "oracle/distance/quick_search.hpp"
@@ -55,8 +55,7 @@ KnownApproach known_approach(const Query& query) {
   const double h = query.separation;
   if (!is_finite(query)) return {FilterStage::undecided};
   if (!boxes_meet(query)) return {FilterStage::boxes};
-  if (query.kind == Kind::vertex_triangle ? farther_apart_than<Kind::vertex_triangle>(h, query)
-                                          : farther_apart_than<Kind::edge_edge>(h, query))
+  if (with_kind(query.kind, [&]<Kind kind>() { return farther_apart_than<kind>(h, query); }))
     return {FilterStage::planes};
   const FirstTime first = ApproachSearch(query).decide();
   if (first.never) return {FilterStage::apart};

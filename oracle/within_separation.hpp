@@ -1,7 +1,7 @@
 // Queries with a separation h > 0, in arithmetic with certified bounds.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/filter/filter.hpp"
 
@@ -22,11 +22,11 @@ struct KnownApproach {
 /// leaves it.
 KnownApproach known_approach(const Query& query);
 
-/// The same with a time that is at most `width` wide, or as narrow as doubles allow, if a further search succeeds. It starts from
+/// The answer with an enclosure of the time that is at most `width` wide, or as narrow as doubles allow, if a further search succeeds. It starts from
 /// `known`, which must be the answer of known_approach(query).
 KnownApproach narrowed(const Query& query, const KnownApproach& known, double width);
 
-/// Both.
+/// The answer, narrowed to `width`.
 inline KnownApproach known_approach(const Query& query, double width) {
   return narrowed(query, known_approach(query), width);
 }

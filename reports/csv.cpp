@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <functional>
-#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "corpus/query_text.hpp"
+#include "reports/sections/measures.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
@@ -26,142 +26,110 @@ std::string field(std::string text) {
   return quoted + '"';
 }
 
-/// A row of statistics.csv or classes.csv.
-struct CsvRow {
-  CountsKey key;  ///< `family` is a family or a class
-  CountsSum sum;
+/// A field of a row, and the heading of its column.
+struct Field {
+  std::string heading, text;
+};
+using Fields = std::vector<Field>;
+
+/// Adds the field of a value; of a range, the fields of its ends.
+struct AddField {
+  Fields& fields;
+  const std::string& heading;
+
+  void operator()(std::monostate /*nothing*/) const { fields.push_back({heading, ""}); }
+  void operator()(const Bin& range) const {
+    fields.push_back({heading + "_from", fmt::format("{}", range.from)});
+    fields.push_back({heading + "_to", fmt::format("{}", range.to)});
+  }
+  template <class Simple>
+  void operator()(const Simple& value) const {
+    fields.push_back({heading, fmt::format("{}", value)});
+  }
 };
 
-/// A column: its heading, and its field in a row.
-struct CsvColumn {
-  std::string heading;
-  std::function<std::string(const CsvRow&)> field;
-};
-using CsvColumns = std::vector<CsvColumn>;
-
-/// Adds a column of numbers; `number` computes one from the counters.
-template <class Number>
-void add_column(CsvColumns& columns, std::string heading, const Number& number) {
-  columns.push_back({std::move(heading), [number](const CsvRow& row) {
-                       return fmt::format("{}", std::invoke(number, row.sum.counts));
-                     }});
+void add(Fields& fields, const std::string& heading, const Value& value) {
+  std::visit(AddField{fields, heading}, value);
 }
 
-/// Adds the two columns of a range; `range` computes it from the counters.
-template <class Range>
-void add_range(CsvColumns& columns, const std::string& name, const Range& range) {
-  add_column(columns, name + "_from", [range](const Counts& counts) { return range(counts).from; });
-  add_column(columns, name + "_to", [range](const Counts& counts) { return range(counts).to; });
-}
-
-void add_quantile(CsvColumns& columns, const std::string& name, double part) {
-  add_range(columns, name + "_fp_distance_over_bound",
-            [part](const Counts& counts) { return counts.ratio_quantile(part); });
-}
-
-std::string upper_bound_of_misses(const CsvRow& row) {
-  if (!row.sum.is_sample) return "";
-  return fmt::format("{}", clopper_pearson_upper(row.sum.counts.false_negatives, row.sum.counts.collisions));
-}
-
-/// Adds the columns that are computed from this counter.
-void add_computed(CsvColumns& columns, std::uint64_t Counts::*counter) {
-  if (counter == &Counts::false_negatives)
-    columns.push_back({"false_negative_rate_upper_95", upper_bound_of_misses});
-  if (counter == &Counts::false_positives) {
-    add_column(columns, "false_positive_rate", &Counts::false_positive_rate);
-    add_range(columns, "false_positive_rate", [](const Counts& c) {
-      const ConfidenceInterval interval = clopper_pearson(c.false_positives, c.others());
-      return Bin{interval.lo, interval.hi};
-    });
-  }
-  if (counter == &Counts::refuted_bounds) {
-    add_quantile(columns, "median", 0.5);
-    add_quantile(columns, "q99", 0.99);
-    add_column(columns, "max_fp_distance_over_bound", &Counts::max_ratio);
-    columns.push_back({"ns_per_query", [](const CsvRow& row) {
-                         const auto ns = row.sum.counts.times.ns_per_query();
-                         return ns ? fmt::format("{}", *ns) : "";
-                       }});
-  }
-}
-
-/// Adds the columns of times that are computed after this counter.
-void add_times(CsvColumns& columns, std::uint64_t Counts::*counter) {
-  if (counter != &Counts::stuck) return;
-  add_column(columns, "unknown", &Counts::unknown);
-  for (const auto& [name, part] : {std::pair{"median_early", 0.5}, {"q99_early", 0.99}})
-    add_range(columns, name, [part = part](const Counts& counts) { return counts.early_quantile(part); });
-  add_column(columns, "max_early", &Counts::max_early);
-  add_column(columns, "max_after", &Counts::max_after);
-  add_range(columns, "q99_travelled", [](const Counts& counts) { return counts.travelled.quantile(0.99); });
-}
-
-void add_counter(CsvColumns& columns, const Counter<Counts, std::uint64_t>& counter) {
-  add_column(columns, std::string(counter.name), counter.member);
-  add_computed(columns, counter.member);
-  add_times(columns, counter.member);
+void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, std::uint64_t>& counter) {
+  add(fields, std::string(counter.name), counts.*counter.member);
 }
 
 template <std::size_t size>
-void add_counter(CsvColumns& columns, const NamedCounts<Counts, size>& counter) {
+void add_counter(Fields& fields, const Counts& counts, const NamedCounts<Counts, size>& counter) {
   for (std::size_t i = counter.first; i < size; ++i)
-    add_column(columns, fmt::format("{}_{}", counter.csv_prefix, counter.names[i]),
-               [member = counter.member, i](const Counts& c) { return (c.*member)[i]; });
+    add(fields, fmt::format("{}_{}", counter.csv_prefix, counter.names[i]), (counts.*counter.member)[i]);
 }
 
-void add_time_quantile(CsvColumns& columns, std::string heading, double part) {
-  columns.push_back({std::move(heading), [part](const CsvRow& row) {
-                       const auto time = row.sum.counts.times.each.quantile(part);
-                       return time ? fmt::format("{:.0f}", *time) : "";
-                     }});
-}
-
-void add_counter(CsvColumns& columns, const Counter<Counts, SubjectTimes>& /*counter*/) {
-  add_time_quantile(columns, "median_ns", 0.5);
-  add_time_quantile(columns, "q99_ns", 0.99);
+void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, SubjectTimes>& /*counter*/) {
+  for (const auto& [heading, part] : {std::pair{"median_ns", 0.5}, {"q99_ns", 0.99}}) {
+    const auto time = counts.times.each.quantile(part);
+    fields.push_back({heading, time ? fmt::format("{:.0f}", *time) : ""});
+  }
 }
 
 /// These members have no column: distances.csv and times.csv have the histograms, and case files have the farthest false
 /// positives.
 template <class Member>
-void add_counter(CsvColumns& /*columns*/, const Counter<Counts, Member>& /*counter*/) {}
+void add_counter(Fields& /*fields*/, const Counts& /*counts*/, const Counter<Counts, Member>& /*counter*/) {}
 
-/// The columns; `of` is the heading of the rows' families or classes.
-CsvColumns columns_of(const std::string& of) {
-  CsvColumns columns{{"subject", [](const CsvRow& row) { return field(row.key.subject); }},
-                     {"kind", [](const CsvRow& row) { return std::string(short_name(row.key.kind)); }},
-                     {of, [](const CsvRow& row) { return field(row.key.family); }}};
-  for_each_counter<Counts>([&](const auto& counter) { add_counter(columns, counter); });
-  return columns;
+/// The ends of an interval that statistics.csv has for every family, also for one whose queries are no random sample.
+Value interval_of_false_positives(const Counts& counts) {
+  const auto [lo, hi] = clopper_pearson(counts.false_positives, counts.others());
+  return Bin{lo, hi};
 }
 
-std::string as_csv(const CsvColumns& columns, const std::vector<CsvRow>& rows) {
-  std::vector<std::string> fields;
-  for (const CsvColumn& column : columns) fields.push_back(column.heading);
-  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
-  for (const CsvRow& row : rows) {
-    for (std::size_t i = 0; i < columns.size(); ++i) fields[i] = columns[i].field(row);
-    text += fmt::format("{}\n", fmt::join(fields, ","));
-  }
+/// The counters, each followed by what is computed from it.
+void add_counters(Fields& fields, const CountsSum& sum) {
+  for_each_counter<Counts>([&](const auto& counter) {
+    add_counter(fields, sum.counts, counter);
+    for (const Measure& each : rate_measures())
+      if (each.csv_after == counter.name) add(fields, std::string(each.key), each.value(sum));
+    if (counter.name == "false_positives")
+      add(fields, "false_positive_rate", interval_of_false_positives(sum.counts));
+  });
+}
+
+/// The fields of a row that begins with this key; `of` is the heading of the key's family, or class.
+Fields fields_of(const CountsKey& key, const char* of, const CountsSum& sum) {
+  Fields fields{
+      {"subject", field(key.subject)}, {"kind", std::string(short_name(key.kind))}, {of, field(key.family)}};
+  add_counters(fields, sum);
+  return fields;
+}
+
+std::string line(const Fields& fields, std::string Field::*part) {
+  std::vector<std::string> parts;
+  for (const Field& each : fields) parts.push_back(each.*part);
+  return fmt::format("{}\n", fmt::join(parts, ","));
+}
+
+/// The text of a file; `any` is a row with the headings.
+std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
+  std::string text = line(any, &Field::heading);
+  for (const Fields& row : rows) text += line(row, &Field::text);
   return text;
 }
 
 }  // namespace
 
 std::string statistics_csv(const Statistics& statistics) {
-  CsvColumns columns = columns_of("family");
-  columns.push_back({"class", [](const CsvRow& row) { return std::string(name(class_of(row.key.family))); }});
-  std::vector<CsvRow> rows;
-  for (const auto& [key, counts] : statistics.counts) rows.push_back({key, {counts, is_random(key.family)}});
-  return as_csv(columns, rows);
+  const auto row = [](const CountsKey& key, const Counts& counts) {
+    Fields fields = fields_of(key, "family", {counts, is_random(key.family)});
+    fields.push_back({"class", std::string(name(class_of(key.family)))});
+    return fields;
+  };
+  std::vector<Fields> rows;
+  for (const auto& [key, counts] : statistics.counts) rows.push_back(row(key, counts));
+  return as_csv(row({}, {}), rows);
 }
 
 std::string classes_csv(const Statistics& statistics) {
-  std::vector<CsvRow> rows;
+  std::vector<Fields> rows;
   for (const auto& [key, sum] : by_class(statistics))
-    rows.push_back({{key.subject, key.kind, std::string(name(key.of))}, sum});
-  return as_csv(columns_of("class"), rows);
+    rows.push_back(fields_of({key.subject, key.kind, std::string(name(key.of))}, "class", sum));
+  return as_csv(fields_of({}, "class", {}), rows);
 }
 
 std::string distances_csv(const Statistics& statistics) {

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "corpus/query_text.hpp"
 #include "reports/sections/common_factors_table.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
-#include "reports/sections/option_sweep.hpp"
-#include "reports/sections/sweep.hpp"
+#include "reports/sections/sweeps.hpp"
 #include "reports/sections/version_table.hpp"
 #include "reports/statistics/family.hpp"
 #include "reports/statistics/family_class.hpp"
@@ -44,6 +44,14 @@ std::optional<std::string> command_to_repeat(const Run& run) {
   if (run.shards.size() != 1 || run.shards.front().count != 1) return std::nullopt;
   return fmt::format("{} --first {}", again->second, run.shards.front().cases);
 }
+
+/// The sections that are left out if they are empty.
+constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 5> sections{
+    {{"common_factors", common_factors_json},
+     {"versions", versions_json},
+     {"scenes", funnels_json},
+     {"sweeps", sweeps_json},
+     {"option_sweeps", option_sweeps_json}}};
 
 }  // namespace
 
@@ -92,23 +100,17 @@ ordered_json summary_json(const Campaign& campaign) {
     return json["subjects"][subject][std::string(short_name(kind))];
   };
   for (const auto& [key, sum] : campaign.statistics.by_subject_and_kind())
-    of_kind(key.subject, key.kind) = counts_json(sum.counts, sum.is_sample);
+    of_kind(key.subject, key.kind) = counts_json(sum);
   for (const auto& [key, sum] : by_class(campaign.statistics))
-    of_kind(key.subject, key.kind)["classes"][std::string(name(key.of))] =
-        counts_json(sum.counts, sum.is_sample);
+    of_kind(key.subject, key.kind)["classes"][std::string(name(key.of))] = counts_json(sum);
   for (const auto& [key, counts] : campaign.statistics.counts) {
     ordered_json& family = of_kind(key.subject, key.kind)["families"][key.family];
     family["class"] = name(class_of(key.family));
-    family.update(counts_json(counts, is_random(key.family)));
+    family.update(counts_json({counts, is_random(key.family)}));
   }
-  if (auto common = common_factors_json(campaign.statistics); !common.empty())
-    json["common_factors"] = std::move(common);
-  if (auto versions = versions_json(campaign.statistics); !versions.empty())
-    json["versions"] = std::move(versions);
-  if (auto funnels = funnels_json(campaign.statistics); !funnels.empty()) json["scenes"] = std::move(funnels);
-  if (auto sweeps = sweeps_json(campaign.statistics); !sweeps.empty()) json["sweeps"] = std::move(sweeps);
-  if (auto sweeps = option_sweeps_json(campaign.statistics); !sweeps.empty())
-    json["option_sweeps"] = std::move(sweeps);
+  for (const auto& [key, section_of] : sections)
+    if (ordered_json section = section_of(campaign.statistics); !section.empty())
+      json[key] = std::move(section);
   return json;
 }
 

@@ -106,13 +106,12 @@ ordered_json extreme_time_json(const ShownTime& each) {
 ordered_json before_and_now(const Statistics& now, const Statistics& before) {
   ordered_json json = ordered_json::array();
   const auto earlier = before.by_subject_and_kind();
-  const auto rates = [](const CountsSum& sum) { return rates_json(sum.counts, sum.is_sample); };
   for (const auto& [key, sum] : now.by_subject_and_kind()) {
     const auto same = earlier.find(key);
     json.push_back({{"subject", key.subject},
                     {"kind", short_name(key.kind)},
-                    {"now", rates(sum)},
-                    {"before", same == earlier.end() ? ordered_json() : rates(same->second)}});
+                    {"now", rates_json(sum)},
+                    {"before", same == earlier.end() ? ordered_json() : rates_json(same->second)}});
   }
   return json;
 }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "reports/campaign/campaign.hpp"
-#include "reports/sections/environment_table.hpp"
-#include "reports/sections/power_table.hpp"
+#include "reports/sections/other_tables.hpp"
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {

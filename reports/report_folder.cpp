@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "reports/sections/json_file.hpp"
 

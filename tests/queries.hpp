@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss::testing {
 

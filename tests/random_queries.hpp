@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss::testing {

@@ -10,9 +10,9 @@
 #include <set>
 #include <thread>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
-#include "ccd/plugin.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/trial.hpp"

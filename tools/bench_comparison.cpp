@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "reports/text/text.hpp"
 #include "tools/median.hpp"
 

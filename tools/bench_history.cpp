@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/file.hpp"
 
 namespace nearmiss::tools {

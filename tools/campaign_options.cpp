@@ -83,21 +83,17 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
 RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
   RunInfo info = options.trial.run_info("fuzz", subjects);
   std::string& again = info["again"];
-  info["seed"] = fmt::format("{}", plan.seed);
-  again += fmt::format(" --seed {}", plan.seed);
+  note_option(info, "seed", "--seed", fmt::format("{}", plan.seed));
   const std::string families =
       fmt::format("{}", fmt::join(options.sweeps.empty() ? options.families : options.sweeps, ","));
   if (options.sweeps.empty()) {
-    info["families"] = families;
-    again += fmt::format(" --family {}", families);
+    note_option(info, "families", "--family", families);
   } else {
     info["families"] = fmt::format("{} in {} steps", families, options.steps);
     again += fmt::format(" --sweep {} --steps {}", families, options.steps);
   }
-  if (const std::string separation = options.separation.of_families(); !separation.empty()) {
-    info["separation"] = separation;
-    again += fmt::format(" --separation {}", separation);
-  }
+  if (const std::string separation = options.separation.of_families(); !separation.empty())
+    note_option(info, "separation", "--separation", separation);
   if (options.search) {
     info["families"] += ", search";
     again += " --search";
@@ -110,8 +106,7 @@ RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const 
   }
   info["cases"] = std::string(until_the_time_is_over);
   if (plan.cases != 0) {
-    info["cases"] = fmt::format("{}", plan.cases);
-    again += fmt::format(" --cases {}", plan.cases);
+    note_option(info, "cases", "--cases", fmt::format("{}", plan.cases));
   } else if (plan.first != 0) {
     info["cases"] = fmt::format("the first {}", plan.first);
     again += fmt::format(" --first {}", plan.first);

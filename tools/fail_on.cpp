@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "tools/commands.hpp"
 
 namespace nearmiss::tools {

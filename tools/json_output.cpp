@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 
 namespace nearmiss::tools {

@@ -16,11 +16,11 @@
 #include <system_error>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
-#include "ccd/instructions.hpp"
-#include "ccd/printable.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/query/instructions.hpp"
+#include "ccd/query/printable.hpp"
 #include "fuzz/stop.hpp"
 #include "reports/text/shell.hpp"
 #include "tools/commands.hpp"

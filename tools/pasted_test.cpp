@@ -6,8 +6,8 @@
 #include <sstream>
 #include <vector>
 
-#include "ccd/error.hpp"
-#include "ccd/printable.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/explanation.hpp"
@@ -85,7 +85,7 @@ std::string what_was_answered(const Finding& finding) {
 
 /// The lines of the comment on top of the test.
 std::string comment(const Finding& finding, std::string_view mark) {
-  const bool is_vt = finding.shrunk.kind == Kind::vertex_triangle;
+  const bool is_vt = has_triangle(finding.shrunk.kind);
   std::istringstream lines(
       fmt::format("{} (found by nearmiss).\nVertices move linearly from `start` (t = 0) to `end` (t = "
                   "1).\n{}\n{}\n{} {}.\n",
@@ -172,15 +172,14 @@ std::string pasted_test(const Finding& finding, TimeSort sort, Form language) {
   const std::string arguments =
       fmt::format("(start, end{})", has_separation ? ", " + literal(query.separation, language) : "");
   const bool python = language == Form::python;
-  return fmt::format(fmt::runtime(python ? "{}{}def {}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
-                                           "    assert {}\n"
-                                         : "{}{}bool {}() {{\n  const double start[4][3] = {{\n{}  }};\n"
-                                           "  const double end[4][3] = {{\n{}  }};\n  return {};\n}}\n"),
-                     comment(finding, python ? "#" : "//"),
-                     request(functions(finding, sort), has_separation, language),
-                     query.kind == Kind::vertex_triangle ? "test_vertex_triangle" : "test_edge_edge",
-                     vertices(query, 0, language), vertices(query, 1, language),
-                     expectation(finding, sort, arguments, language));
+  return fmt::format(
+      fmt::runtime(python ? "{}{}def test_{}():\n    start = [\n{}    ]\n    end = [\n{}    ]\n"
+                            "    assert {}\n"
+                          : "{}{}bool test_{}() {{\n  const double start[4][3] = {{\n{}  }};\n"
+                            "  const double end[4][3] = {{\n{}  }};\n  return {};\n}}\n"),
+      comment(finding, python ? "#" : "//"), request(functions(finding, sort), has_separation, language),
+      topology(query.kind).name, vertices(query, 0, language), vertices(query, 1, language),
+      expectation(finding, sort, arguments, language));
 }
 
 }  // namespace nearmiss::tools

@@ -10,17 +10,16 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
-#include "fuzz/trial/patience.hpp"
+#include "fuzz/trial/so_far.hpp"
 #include "oracle/explanation.hpp"
 #include "reports/json.hpp"
 #include "reports/sections/decider_table.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/sections/ladder.hpp"
-#include "reports/sections/option_sweep.hpp"
 #include "reports/sections/summary.hpp"
-#include "reports/sections/sweep.hpp"
+#include "reports/sections/sweeps.hpp"
 #include "reports/text/text.hpp"
 #include "tools/commands.hpp"
 #include "tools/commit.hpp"
@@ -140,7 +139,7 @@ void Record::add(TrialResult&& result) {
       fmt::print(
           stderr,
           "{}nearmiss: {} exceeded its time limit {} times in {} ({}) and is not asked there any more\n",
-          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, Patience::most_late, key.family,
+          isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", key.subject, most_slow, key.family,
           short_name(key.kind));
   std::move(result.findings.begin(), result.findings.end(), std::back_inserter(findings_));
   for (auto& [number, finding] : result.shrunk) findings_.at(number) = std::move(finding);
@@ -185,8 +184,7 @@ int Record::finish(bool interrupted, bool complete) {
   const Campaign campaign{{{info_, {shard_}, findings_, {}}}, statistics_};
   std::FILE* const text = options_.json.text();
   fmt::print(text, "{}{}{}", options_.summary ? summary_table(statistics_, options_.fail_on.failures()) : "",
-             sweep_tables(statistics_) + option_sweep_tables(statistics_) + ladder_table(statistics_) +
-                 decider_tables(statistics_),
+             sweep_tables(statistics_) + ladder_table(statistics_) + decider_tables(statistics_),
              funnel_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);

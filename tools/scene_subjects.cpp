@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "ccd/error.hpp"
-#include "ccd/pair_bound.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/wang/pair_bound.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/claimed_precision.hpp"
 #include "fuzz/subjects/subjects.hpp"
@@ -33,7 +33,7 @@ double scene_bound(const Scene& scene) {
 
 /// Whether a given bound makes a difference to a subject.
 bool uses_bound(const std::string& text) {
-  Query query{.kind = Kind::edge_edge};
+  Query query;
   query.x[0] = 1;
   return make_any_subject(text)->distance_bound(query) != make_any_subject(text, 1e3)->distance_bound(query);
 }

@@ -99,13 +99,8 @@ std::string terminal_picture(const Query& query, double time) {
   const auto edge = [&](std::size_t i, std::size_t j, char mark) {
     sheet.draw(at(i, time), at(j, time), mark);
   };
-  if (query.kind == Kind::vertex_triangle) {
-    for (std::size_t i = 1; i < 4; ++i) edge(i, i % 3 + 1, '#');
-    sheet.draw(at(0, time), 'o');
-  } else {
-    edge(2, 3, '#');
-    edge(0, 1, 'o');
-  }
+  if (has_triangle(query.kind)) sheet.draw(at(0, time), 'o');
+  for (const auto& [from, to] : topology(query.kind).edges) edge(from, to, from == 0 ? 'o' : '#');
   constexpr std::string_view numbers = "0123";
   for (std::size_t i = 4; i-- > 0;) sheet.draw(at(i, time), numbers[i]);
   return sheet.text();

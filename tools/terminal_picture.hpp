@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss::tools {
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
-#include "ccd/plugin.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
-#include "fuzz/trial/patience.hpp"
+#include "fuzz/trial/so_far.hpp"
 #include "reports/text/shell.hpp"
 #include "reports/text/text.hpp"
 #include "tools/record.hpp"
@@ -40,7 +40,7 @@ void TrialOptions::add_to(CLI::App& command) {
 
 isolation::PluginLimits TrialOptions::plugin_limits(const Stop& stop) const {
   isolation::PluginLimits plugin_limits = limits.limits();
-  plugin_limits.most_late = Patience::most_late;
+  plugin_limits.most_late = most_slow;
   plugin_limits.stop = &stop;
   return plugin_limits;
 }
@@ -115,6 +115,12 @@ RunInfo TrialOptions::run_info(const std::string& what, const Subjects& made) co
         info[plugin_fact(subject->name()) + " contract"] = contract;
     }
   return info;
+}
+
+void note_option(RunInfo& info, const std::string& fact, const std::string& option,
+                 const std::string& value) {
+  info[fact] = value;
+  info["again"] += fmt::format(" {} {}", option, value);
 }
 
 std::string shrinking_line(std::size_t left) {

@@ -35,6 +35,10 @@ struct TrialOptions {
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
 
+/// Notes the value of an option that a run's results depend on, and adds the option to the command that repeats
+/// the run.
+void note_option(RunInfo& info, const std::string& fact, const std::string& option, const std::string& value);
+
 /// The progress of a command that has asked everything, and shrinks what it has found.
 std::string shrinking_line(std::size_t left);
 

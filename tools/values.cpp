@@ -7,8 +7,8 @@
 #include <optional>
 #include <system_error>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 
 namespace nearmiss::tools {
 

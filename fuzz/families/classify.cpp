@@ -12,7 +12,7 @@
 #include <span>
 #include <type_traits>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/arithmetic/vectors.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
@@ -59,25 +59,6 @@ Points<Real> points(const Query& query, std::size_t time) {
   return all;
 }
 
-/// Two vertices.
-struct Pair {
-  std::size_t a, b;
-};
-
-/// The sides of the triangle, or both edges.
-std::span<const Pair> edges(Kind kind) {
-  static constexpr std::array<Pair, 3> sides{{{1, 2}, {2, 3}, {3, 1}}};
-  static constexpr std::array<Pair, 2> both{{{0, 1}, {2, 3}}};
-  return kind == Kind::vertex_triangle ? std::span<const Pair>(sides) : both;
-}
-
-/// The pairs with a vertex of each primitive.
-std::span<const Pair> gaps(Kind kind) {
-  static constexpr std::array<Pair, 3> of_vertex{{{0, 1}, {0, 2}, {0, 3}}};
-  static constexpr std::array<Pair, 4> of_edges{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
-  return kind == Kind::vertex_triangle ? std::span<const Pair>(of_vertex) : of_edges;
-}
-
 // --- sizes ----------------------------------------------------------------------------------------------
 
 template <class Real>
@@ -103,7 +84,7 @@ Lengths<Real> lengths(const Query& query) {
   const std::array<Points<Real>, 2> x{points<Real>(query, 0), points<Real>(query, 1)};
   Lengths<Real> found;
   for (const auto& at_time : x)
-    for (const auto& [a, b] : edges(query.kind)) {
+    for (const auto& [a, b] : topology(query.kind).edges) {
       const Real length = largest_component(at_time[a] - at_time[b]);
       if (!(Real(0) < length)) continue;
       found.shortest = Real(0) < found.longest ? Real(min(found.shortest, length)) : length;
@@ -191,10 +172,12 @@ bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& que
 
 /// The sum of the squared distances of some pairs of points.
 template <class Real>
-Real sum_of_squares(std::span<const Pair> pairs, const Points<Real>& x) {
-  const auto square = [&](const Pair& pair) { return dot(x[pair.a] - x[pair.b], x[pair.a] - x[pair.b]); };
+Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
+  const auto square = [&](VertexPair pair) {
+    return dot(x[pair.from] - x[pair.to], x[pair.from] - x[pair.to]);
+  };
   Real sum = square(pairs[0]);
-  for (const Pair& pair : pairs.subspan(1)) sum = sum + square(pair);
+  for (const VertexPair pair : pairs.subspan(1)) sum = sum + square(pair);
   return sum;
 }
 
@@ -207,21 +190,21 @@ struct Squares {
 
 template <class Real>
 Squares<Real> squares(Kind kind, const Points<Real>& x) {
-  const auto pairs = edges(kind);
-  const Real gap = sum_of_squares(gaps(kind), x);
-  if (kind == Kind::edge_edge)
-    return {sum_of_squares(pairs.first(1), x), sum_of_squares(pairs.last(1), x), gap};
-  const Real triangle = sum_of_squares(pairs, x);
+  const auto& edges = topology(kind).edges;
+  const Real gap = sum_of_squares(topology(kind).gaps, x);
+  if (!has_triangle(kind)) return {sum_of_squares(edges.first(1), x), sum_of_squares(edges.last(1), x), gap};
+  const Real triangle = sum_of_squares(edges, x);
   return {triangle, triangle, gap};
 }
 
-constexpr double excess(Kind kind) { return kind == Kind::vertex_triangle ? 27 : 4; }
+constexpr double excess(Kind kind) { return has_triangle(kind) ? 27 : 4; }
 
 /// Vectors whose determinant is F, or their velocities.
 template <class Real>
 std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
-  if (kind == Kind::vertex_triangle) return {x[2] - x[1], x[3] - x[1], x[0] - x[1]};
-  return {x[1] - x[0], x[3] - x[2], x[2] - x[0]};
+  const auto difference = [&](VertexPair pair) { return x[pair.to] - x[pair.from]; };
+  const auto& [p, q, r] = topology(kind).pqr;
+  return {difference(q), difference(r), difference(p)};
 }
 
 /// x² times a factor.
@@ -256,15 +239,15 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a point is near a segment: near one of its ends, or near its line and between the planes through the ends.
+/// Whether a vertex is near an edge: near one of its ends, or near its line and between the planes through the ends.
 template <class Real, class AtMost>
-bool is_near(const Moment<Real>& moment, std::size_t point, const Pair& segment, const AtMost& at_most) {
-  const Vec<Real> from_a = moment.x[point] - moment.x[segment.a];
-  const Vec<Real> from_b = moment.x[point] - moment.x[segment.b];
+bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost& at_most) {
+  const Vec<Real> from_a = moment.x[pair.vertex] - moment.x[pair.from];
+  const Vec<Real> from_b = moment.x[pair.vertex] - moment.x[pair.to];
   const auto is_short = [&](const Vec<Real>& v) { return at_most(dot(v, v), moment.squared_length); };
   if (is_short(from_a) || is_short(from_b)) return true;
-  const Vec<Real> ab = moment.x[segment.b] - moment.x[segment.a];
-  const Vec<Real> ba = moment.x[segment.a] - moment.x[segment.b];
+  const Vec<Real> ab = moment.x[pair.to] - moment.x[pair.from];
+  const Vec<Real> ba = moment.x[pair.from] - moment.x[pair.to];
   const Vec<Real> area = cross(from_a, ab);
   const Real squared = dot(ab, ab);
   return at_most(dot(area, area), moment.squared_length * squared) && !at_most(squared, dot(from_a, ab)) &&
@@ -274,13 +257,12 @@ bool is_near(const Moment<Real>& moment, std::size_t point, const Pair& segment,
 /// Whether primitives that touch do so near an edge of the triangle, or near an end of an edge.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
-  const auto is_near_to = [&](std::size_t point, const Pair& segment) {
-    return is_near(moment, point, segment, at_most);
+  const auto is_any_near = [&](std::span<const VertexAndEdge> pairs) {
+    return std::any_of(pairs.begin(), pairs.end(),
+                       [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
   };
-  const auto all = edges(moment.kind);
-  if (moment.kind == Kind::vertex_triangle)
-    return std::any_of(all.begin(), all.end(), [&](const Pair& side) { return is_near_to(0, side); });
-  return is_near_to(0, all[1]) || is_near_to(1, all[1]) || is_near_to(2, all[0]) || is_near_to(3, all[0]);
+  const Topology& of = topology(moment.kind);
+  return is_any_near(of.first_to_second) || is_any_near(of.second_to_first);
 }
 
 /// Whether t* <= time. The difference to is_before matters only for a t* that is this double.

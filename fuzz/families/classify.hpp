@@ -1,7 +1,7 @@
 // The class of a single query.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {

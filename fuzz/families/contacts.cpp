@@ -18,19 +18,19 @@ Path scaled(const Path& path, double factor) { return {factor * path.start, fact
 
 Vector Contact::place(Kind kind) const {
   Vector c = beta * r.at(time);
-  if (kind == Kind::vertex_triangle) c += alpha * q.at(time);
+  if (has_triangle(kind)) c += alpha * q.at(time);
   return c;
 }
 
 Vector Contact::velocity(Kind kind) const {
   Vector v = base.velocity() + beta * r.velocity();
-  if (kind == Kind::vertex_triangle) v += alpha * q.velocity();
+  if (has_triangle(kind)) v += alpha * q.velocity();
   return v;
 }
 
 Query meet(Kind kind, const Contact& contact, const Vector& w) {
   Vector point = contact.base.at(contact.time) + contact.beta * contact.r.at(contact.time);
-  if (kind == Kind::vertex_triangle) point += contact.alpha * contact.q.at(contact.time);
+  if (has_triangle(kind)) point += contact.alpha * contact.q.at(contact.time);
   const Path touching = passing(point, w, contact.time);
 
   Query query{.kind = kind};
@@ -39,7 +39,7 @@ Query meet(Kind kind, const Contact& contact, const Vector& w) {
     query.set_end(vertex, end);
   };
   const auto& [base, q, r, alpha, beta, time] = contact;
-  if (kind == Kind::vertex_triangle) {
+  if (has_triangle(kind)) {
     set(0, touching.start, touching.end);
     set(1, base.start, base.end);
     set(2, base.start + q.start, base.end + q.end);
@@ -87,11 +87,11 @@ Aim ContactSampler::aim(Kind kind) {
   aim.alpha = weight();
   aim.beta = weight();
   aim.time = weight();
-  if (kind == Kind::vertex_triangle && aim.alpha + aim.beta > 1) {  // in the other half of the parallelogram
+  if (has_triangle(kind) && aim.alpha + aim.beta > 1) {  // in the other half of the parallelogram
     aim.alpha = 1 - aim.alpha;
     aim.beta = 1 - aim.beta;
   }
-  if (kind == Kind::vertex_triangle && random_.one_in(8)) aim.beta = 1 - aim.alpha;  // on the edge x2x3
+  if (has_triangle(kind) && random_.one_in(8)) aim.beta = 1 - aim.alpha;  // on the edge x2x3
   return aim;
 }
 
@@ -131,7 +131,7 @@ Contact integer_contact(Random& random, Kind kind) {
 
   const auto weight = [&](int most) { return random.integer(0, most) / 16.0; };
   contact.alpha = random.one_in(4) ? 0 : weight(16);
-  const int left = kind == Kind::vertex_triangle ? 16 - static_cast<int>(16 * contact.alpha) : 16;
+  const int left = has_triangle(kind) ? 16 - static_cast<int>(16 * contact.alpha) : 16;
   const int place = random.integer(0, 7);
   contact.beta = place == 0 ? 0 : place == 1 ? left / 16.0 : weight(left);
 
@@ -179,7 +179,7 @@ Query turned(Random& random, Query query) {
 
 Query shuffled(Random& random, const Query& query) {
   std::array<int, 4> order{0, 1, 2, 3};
-  if (query.kind == Kind::vertex_triangle) {
+  if (has_triangle(query.kind)) {
     for (int i = 3; i > 1; --i)
       std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.integer(1, i))]);
   } else {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss {
@@ -83,12 +83,12 @@ void move_to_origin(Kind kind, Contact& contact, const Vector3<double>& velocity
 Contact integer_contact(Random& random, Kind kind);
 
 /// The sign with which x0 - base = β r + sign α q at a contact.
-constexpr double alpha_sign(Kind kind) { return kind == Kind::vertex_triangle ? 1 : -1; }
+constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 
 /// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
 Query rescaled(Random& random, Query query);
 
-/// The same, after moving one query of integers in four by an integer vector.
+/// As `rescaled`, after one query of integers in four is moved by an integer vector.
 Query placed(Random& random, Query query);
 
 /// Turns or mirrors a query, and multiplies all lengths, and the separation, by 1, 3, 5, 7 or 9, so that the matrix is

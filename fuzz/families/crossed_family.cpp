@@ -68,7 +68,7 @@ std::pair<Vector, Vector> sides(Random& random, Kind kind, Shape shape) {
       return {q.cwiseProduct(factors), r.cwiseProduct(factors)};
     }
     case Shape::tiny:
-      return {0x1p-10 * q, kind == Kind::vertex_triangle ? Vector(0x1p-10 * r) : r};
+      return {0x1p-10 * q, has_triangle(kind) ? Vector(0x1p-10 * r) : r};
     case Shape::parallel:
       return {q, multiple(random, q)};
     case Shape::zero_edge:
@@ -199,7 +199,7 @@ bool has_planned_roots(const Draft& draft, Roots roots) {
 
 /// The weights of the point of contact: multiples of 1/16, or outside by 2^-10 to 2^-52.
 std::pair<double, double> weights(Random& random, Kind kind, Where where) {
-  const bool is_edges = kind == Kind::edge_edge;
+  const bool is_edges = !has_triangle(kind);
   const int first = random.integer(1, is_edges ? 15 : 14);
   const int second = random.integer(1, is_edges ? 15 : 15 - first);
   const double alpha = first / 16.0;
@@ -287,7 +287,7 @@ int bits_for_time(const Draft& draft, const Frame& frame) {
 void set_positions(Query& query, bool at_start, const Draft& draft, const Frame& frame,
                    std::pair<double, double> weight, double tau) {
   const auto [alpha, beta] = weight;
-  const bool is_edges = query.kind == Kind::edge_edge;
+  const bool is_edges = !has_triangle(query.kind);
   const Vector q = draft.q + tau * draft.q_velocity;
   const Vector r = draft.r + tau * draft.r_velocity;
   const Vector middle = frame.place + tau * frame.velocity;

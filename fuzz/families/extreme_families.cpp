@@ -71,7 +71,7 @@ Query scale(Random& random, Kind kind, double x) {
 /// coordinates are at rest.
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
-  const std::size_t first_vertices = kind == Kind::vertex_triangle ? 1 : 2;
+  const auto first_vertices = static_cast<std::size_t>(split(kind));
   const int only = random.integer(0, 5);  // an axis, or every axis at random if it is 3 or more
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
@@ -115,7 +115,7 @@ Query static_pair(Random& random, Kind kind, double x) {
   Contact contact = sampler.contact(kind, slow);
   const auto rest = [](Path& path, double time) { path = passing(path.at(time), Vector::Zero(), time); };
   const bool first_moves = random.one_in(2);
-  if ((kind == Kind::edge_edge) != first_moves) rest(contact.q, contact.time);
+  if (has_triangle(kind) == first_moves) rest(contact.q, contact.time);
   if (first_moves) rest(contact.r, contact.time);
   const Vector fast = speed * sampler.direction();
   const Vector none = Vector::Zero();
@@ -135,7 +135,7 @@ Query near_parallel(Random& random, Kind kind, double x) {
   const double along = std::ldexp(sign, random.integer(-2, 1));
   const Vector nearly = along * contact.q.start + angle * sampler.vector();
   Vector w = sampler.velocity();
-  if (kind == Kind::edge_edge)
+  if (!has_triangle(kind))
     contact.r = {nearly, nearly};
   else
     w = nearly;

@@ -25,20 +25,20 @@ Vector vector_in_plane(Random& random) {
 }
 
 Closest draw_closest(Random& random, Kind kind) {
-  return static_cast<Closest>(random.integer(0, kind == Kind::edge_edge ? 3 : 2));
+  return static_cast<Closest>(random.integer(0, has_triangle(kind) ? 2 : 3));
 }
 
 bool is_closest(Kind kind, Closest closest, bool is_side_q) {
   if (closest == Closest::vertices) return false;
   if (closest != Closest::vertex_and_edge) return true;
-  return is_side_q == (kind == Kind::vertex_triangle);
+  return is_side_q == has_triangle(kind);
 }
 
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level) {
   const bool rests = random.one_in(2);
   // A triangle is the second primitive; of edges, q belongs to the first.
   const auto side = [&](bool is_q) {
-    const double away = is_q && kind == Kind::edge_edge ? level : -level;
+    const double away = is_q && !has_triangle(kind) ? level : -level;
     const auto draw = [&] {
       return is_closest(kind, closest, is_q) ? vector_in_plane(random) : vector_away(random, away);
     };
@@ -54,7 +54,7 @@ Contact facing_contact(Random& random, Kind kind, Closest closest, double time, 
     contact.r = scaled(contact.q, std::ldexp(sign, random.integer(-1, 1)));
   }
   const int eighths = random.integer(1, 6);
-  const int most = kind == Kind::vertex_triangle && closest != Closest::vertex_and_edge ? 7 - eighths : 7;
+  const int most = has_triangle(kind) && closest != Closest::vertex_and_edge ? 7 - eighths : 7;
   const int others = random.integer(1, most);
   contact.alpha = is_closest(kind, closest, true) ? eighths / 8.0 : 0;
   contact.beta = is_closest(kind, closest, false) ? others / 8.0 : 0;

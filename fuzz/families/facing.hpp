@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/families/contacts.hpp"
 
 namespace nearmiss {

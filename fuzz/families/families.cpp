@@ -7,11 +7,12 @@
 #include <iterator>
 #include <limits>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/tables.hpp"
+#include "reports/statistics/family_name.hpp"
 
 namespace nearmiss {
 
@@ -27,9 +28,6 @@ const Parameter& parameter_of(const Family& family) {
     throw Error(fmt::format("found the family '{}', expected one with a parameter", family.name));
   return *family.parameter;
 }
-
-/// The name without "@VALUE" and "~SEPARATION".
-std::string_view base_name(std::string_view name) { return name.substr(0, name.find_first_of("@~")); }
 
 /// Draws a separation, as parse_family_separation() says.
 double draw_separation(Random& random, const Query& query) {
@@ -59,9 +57,9 @@ Family with_collisions(Family family) {
 
 Family at_value(const Family& family, double value) {
   const Parameter& parameter = parameter_of(family);
-  const auto separation = std::min(family.name.find('~'), family.name.size());
+  const FamilyName of(family.name);
   const std::string name =
-      fmt::format("{}@{}{}", family.name.substr(0, separation), value, family.name.substr(separation));
+      fmt::format("{}@{}{}{}", of.base, value, of.separation.empty() ? "" : "~", of.separation);
   if (!(parameter.lo <= value && value <= parameter.hi) || (parameter.whole && value != std::round(value)))
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
@@ -149,20 +147,19 @@ std::span<const Family> all_families() {
 }
 
 Family find_family(std::string_view name, std::span<const Family> known) {
-  const std::string_view base = base_name(name);
+  const FamilyName of(name);
   const auto found =
-      std::find_if(known.begin(), known.end(), [&](const Family& family) { return family.name == base; });
+      std::find_if(known.begin(), known.end(), [&](const Family& family) { return family.name == of.base; });
   if (found == known.end()) {
     std::string names;
     for (const Family& family : known) names += ", " + family.name;
-    throw Error(fmt::format("unknown family '{}', expected one of {}", excerpt(base), names.substr(2)));
+    throw Error(fmt::format("unknown family '{}', expected one of {}", excerpt(of.base), names.substr(2)));
   }
-  const std::string_view of_contact = name.substr(0, name.find('~'));
-  Family family = *found;
-  if (base != of_contact)
-    family = at_value(
-        family, parse_number(of_contact.substr(base.size() + 1), fmt::format("family '{}'", excerpt(name))));
-  return of_contact == name ? family : with_separation(family, name.substr(of_contact.size() + 1));
+  const bool has_value = name.substr(of.base.size()).starts_with('@');
+  const Family family =
+      has_value ? at_value(*found, parse_number(of.value, fmt::format("family '{}'", excerpt(name))))
+                : *found;
+  return name.find('~') == std::string_view::npos ? family : with_separation(family, of.separation);
 }
 
 namespace {
@@ -170,7 +167,7 @@ namespace {
 /// A hash of the name (FNV-1a), so a family's queries stay the same when the list changes.
 std::uint64_t stream_of(const Family& family) {
   std::uint64_t stream = 0xcbf29ce484222325;
-  for (const char c : base_name(family.name))
+  for (const char c : FamilyName(family.name).base)
     stream = (stream ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return stream;
 }

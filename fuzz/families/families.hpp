@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss {
@@ -71,7 +71,7 @@ std::span<const Family> families();
 /// The families whose queries have separations of their own.
 std::span<const Family> separation_families();
 
-/// Both.
+/// families() and separation_families().
 std::span<const Family> all_families();
 
 /// A family by its name, NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name, throws an Error that lists

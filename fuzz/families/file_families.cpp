@@ -23,7 +23,7 @@ Query everyday(Random& random, Kind kind, double size, double speed) {
   contact.q = path(size);
   contact.r = path(size);
   contact.alpha = random.uniform(-0.25, 1);
-  contact.beta = random.uniform(-0.25, kind == Kind::edge_edge ? 1.25 : 1 - contact.alpha);
+  contact.beta = random.uniform(-0.25, has_triangle(kind) ? 1 - contact.alpha : 1.25);
   contact.time = random.uniform(-0.25, 1.25);
   return shuffled(random, meet(kind, contact, random.vector(speed)));
 }
@@ -65,7 +65,7 @@ Query decimals(Random& random, Kind kind, double x) {
     contact.r = path();
     const int tenths = random.integer(0, 10);
     contact.alpha = tenths / 10.0;
-    contact.beta = random.integer(0, kind == Kind::edge_edge ? 10 : 10 - tenths) / 10.0;
+    contact.beta = random.integer(0, has_triangle(kind) ? 10 - tenths : 10) / 10.0;
     contact.time = random.integer(0, 10) / 10.0;
     query = meet(kind, contact, hundreds());
     query = moved(query, random.integer_vector(10 * unit));

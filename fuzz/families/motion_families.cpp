@@ -31,7 +31,7 @@ Query touching_at_rest(Random& random, Kind kind) {
   contact.r = rest(wide_vector(random, 45));
   if (random.one_in(2)) {
     contact.alpha = random.integer(0, 1);
-    contact.beta = random.integer(0, kind == Kind::edge_edge || contact.alpha == 0 ? 1 : 0);
+    contact.beta = random.integer(0, !has_triangle(kind) || contact.alpha == 0 ? 1 : 0);
   }
   return meet(kind, contact, Vector::Zero());
 }
@@ -75,11 +75,11 @@ Query far_start(Random& random, Kind kind, double x) {
 Query first_moment(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   const Vector axis = Vector::Unit(random.integer(0, 2));
-  const bool along_axis = kind == Kind::edge_edge || random.one_in(2);
-  if (kind == Kind::edge_edge)
+  const bool along_axis = !has_triangle(kind) || random.one_in(2);
+  if (!has_triangle(kind))
     for (Vector* const side : {&contact.q.start, &contact.q.end}) *side -= side->cwiseProduct(axis);
   const auto place = [&](const Vector& q, const Vector& r) -> Vector {
-    if (kind == Kind::edge_edge) return contact.beta * r;
+    if (!has_triangle(kind)) return contact.beta * r;
     return contact.alpha * q + contact.beta * r;
   };
   contact.base = {-place(contact.q.start, contact.r.start), -place(contact.q.end, contact.r.end)};
@@ -145,8 +145,8 @@ Query touch_twice(Random& random, Kind kind) {
   const Path third{c_start, c_end};
 
   Query query{.kind = kind};
-  const std::array<Path, 4> paths = kind == Kind::vertex_triangle ? std::array{rest, corner, other, third}
-                                                                  : std::array{corner, other, rest, third};
+  const std::array<Path, 4> paths =
+      has_triangle(kind) ? std::array{rest, corner, other, third} : std::array{corner, other, rest, third};
   for (int i = 0; i < 4; ++i) {
     const Path& path = paths[static_cast<std::size_t>(i)];
     query.set_start(i, vertex.start + path.start);

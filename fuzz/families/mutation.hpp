@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss {

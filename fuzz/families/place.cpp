@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "ccd/cubic.hpp"
-#include "ccd/motion.hpp"
-#include "ccd/proximity.hpp"
+#include "ccd/wang/cubic.hpp"
+#include "ccd/wang/motion.hpp"
+#include "ccd/wang/proximity.hpp"
 #include "oracle/arithmetic/double_word.hpp"
 
 namespace nearmiss {
@@ -23,7 +23,7 @@ std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   const DoubleWord beta = place.beta;
   const DoubleWord time = place.time;
   std::array<DoubleWord, 4> weights{one, alpha + beta - one, -alpha, -beta};
-  if (kind == Kind::edge_edge) weights = {one - alpha, alpha, beta - one, -beta};
+  if (!has_triangle(kind)) weights = {one - alpha, alpha, beta - one, -beta};
   std::array<DoubleWord, 8> shares;
   for (std::size_t i = 0; i < 4; ++i) {
     shares[i] = weights[i] * (one - time);
@@ -63,7 +63,7 @@ Place place_of(Random& random, const Query& query) {
   if (!std::isfinite(first) || !std::isfinite(second)) return place;
   place.time = time;
   const double margin = random.one_in(2) ? 0 : random.log_uniform(0x1p-50, 0x1p-4);
-  if constexpr (kind == Kind::vertex_triangle) {
+  if constexpr (has_triangle(kind)) {
     place.beta = std::clamp(first, margin, 1 - 3 * margin);
     place.alpha = std::clamp(second, margin, 1 - place.beta - margin);
   } else {
@@ -100,14 +100,13 @@ Place random_place(Random& random, Kind kind) {
   Place place{};
   place.alpha = random_fraction(random);
   place.beta = random_fraction(random);
-  if (kind == Kind::vertex_triangle) place.beta *= 1 - place.alpha;
+  if (has_triangle(kind)) place.beta *= 1 - place.alpha;
   place.time = random_fraction(random);
   return place;
 }
 
 Place own_place(Random& random, const Query& query) {
-  return query.kind == Kind::vertex_triangle ? place_of<Kind::vertex_triangle>(random, query)
-                                             : place_of<Kind::edge_edge>(random, query);
+  return with_kind(query.kind, [&]<Kind kind>() { return place_of<kind>(random, query); });
 }
 
 }  // namespace nearmiss

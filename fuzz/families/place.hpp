@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss {

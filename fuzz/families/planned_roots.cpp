@@ -21,7 +21,7 @@ Eigen::Matrix3d sides(Kind kind, const std::array<PlannedRoot, 3>& roots, double
 
 std::array<Vector, 4> vertices(Kind kind, const Vector& base, const Eigen::Matrix3d& M) {
   const Vector x0 = base + M.col(0);
-  if (kind == Kind::vertex_triangle) return {x0, base, base + M.col(1), base + M.col(2)};
+  if (has_triangle(kind)) return {x0, base, base + M.col(1), base + M.col(2)};
   return {x0, x0 + M.col(1), base, base + M.col(2)};
 }
 
@@ -29,7 +29,7 @@ std::array<Vector, 4> vertices(Kind kind, const Vector& base, const Eigen::Matri
 
 bool Weights::are_inside(Kind kind) const {
   if (alpha < 0 || beta < 0) return false;
-  return kind == Kind::vertex_triangle ? alpha + beta <= whole : alpha <= whole && beta <= whole;
+  return has_triangle(kind) ? alpha + beta <= whole : alpha <= whole && beta <= whole;
 }
 
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {

@@ -73,7 +73,7 @@ Contact aimed_contact(Random& random, Kind kind) {
   const double margin = random.one_in(2) ? 0 : random.log_uniform(1e-9, 0.3);
   contact.alpha = random.uniform(-margin, 1 + margin);
   contact.beta = random.uniform(-margin, 1 + margin);
-  if (kind == Kind::vertex_triangle && contact.alpha + contact.beta > 1) {
+  if (has_triangle(kind) && contact.alpha + contact.beta > 1) {
     contact.alpha = 1 - contact.alpha;
     contact.beta = 1 - contact.beta;
   }

@@ -48,7 +48,7 @@ Draft small_touching(Random& random, Kind kind) {
     return Path{start, random.integer_vector(2)};
   };
   const int eighths = random.integer(0, 8);
-  const int left = kind == Kind::vertex_triangle ? 8 - eighths : 8;
+  const int left = has_triangle(kind) ? 8 - eighths : 8;
   Contact contact;
   contact.alpha = eighths / 8.0;
   contact.beta = random.integer(0, left) / 8.0;

@@ -38,7 +38,7 @@ Query even_roots(Random& random, Kind kind, double x) {
 
   Contact contact = sampler.contact(kind, 0);
   contact.time = std::clamp(contact.time, h, 1 - h);
-  const bool q_turns = !flat || kind == Kind::vertex_triangle;
+  const bool q_turns = !flat || has_triangle(kind);
   const Vector q_velocity = across(sampler.vector());
   contact.q = passing(within(contact.q.start), q_turns ? q_velocity : Vector(Vector::Zero()), contact.time);
   contact.r = passing(within(contact.r.start), across(sampler.vector()), contact.time);
@@ -83,7 +83,7 @@ Query triple_root(Random& random, Kind kind, double x) {
   contact.r = passing(M0.col(2) + off * sampler.vector(), M1.col(2), contact.time);
   move_to_origin(kind, contact, sampler.velocity());
   Vector w = contact.base.velocity() + M1.col(0);
-  if (kind == Kind::edge_edge) w += contact.alpha * M1.col(1);
+  if (!has_triangle(kind)) w += contact.alpha * M1.col(1);
   return finished(random, meet(kind, contact, w));
 }
 

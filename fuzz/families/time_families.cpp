@@ -19,7 +19,7 @@ using Vector = Vector3<double>;
 Weights inside(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int alpha = random.integer(1, whole - 2);
-  const int beta = random.integer(1, kind == Kind::vertex_triangle ? whole - 1 - alpha : whole - 1);
+  const int beta = random.integer(1, has_triangle(kind) ? whole - 1 - alpha : whole - 1);
   return {whole, alpha, beta};
 }
 
@@ -38,7 +38,7 @@ Weights outside(Random& random, Kind kind) {
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);
-  return kind == Kind::edge_edge && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
+  return !has_triangle(kind) && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
 }
 
 /// Draws the roots until F is not zero at all times. They are then placed at the origin or on a path of integers.
@@ -149,7 +149,7 @@ Graze graze_face(Random& random, Kind kind, double time) {
     const double curvature = beta_rate * r_velocity + alpha_rate * q_velocity;
     if (curvature == 0 || q.cross(r).isZero()) continue;
     const int eighths = random.integer(1, 6);
-    const int others = random.integer(1, kind == Kind::vertex_triangle ? 7 - eighths : 7);
+    const int others = random.integer(1, has_triangle(kind) ? 7 - eighths : 7);
     const Contact contact{.base = at_rest(),
                           .q = passing(q, q_velocity * Vector::UnitZ(), time),
                           .r = passing(r, r_velocity * Vector::UnitZ(), time),
@@ -173,7 +173,7 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   const Path multiple = scaled(edge, random.integer(-1, 1));
   const Path other{multiple.start + away * Vector::UnitY(), multiple.end + away * Vector::UnitY()};
   const double weight = random.integer(1, 7) / 8.0;
-  const bool is_triangle = kind == Kind::vertex_triangle;
+  const bool is_triangle = has_triangle(kind);
   const Contact contact{.base = at_rest(),
                         .q = is_triangle ? edge : other,
                         .r = is_triangle ? other : edge,

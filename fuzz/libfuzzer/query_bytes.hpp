@@ -7,7 +7,7 @@
 #include <cstring>
 #include <optional>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss::libfuzzer {
 

@@ -14,15 +14,15 @@
 #include <optional>
 #include <string>
 
-#include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/families/mutation.hpp"
 #include "fuzz/libfuzzer/query_bytes.hpp"
 #include "fuzz/libfuzzer/untraced.hpp"
 #include "fuzz/subjects/built_in.hpp"
+#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/named.hpp"
-#include "oracle/contract.hpp"
 #include "reports/campaign/finding_case.hpp"
 
 namespace nearmiss::libfuzzer {
@@ -103,7 +103,7 @@ std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   return query;
 }
 
-/// The same, but a default query if the input is not a query.
+/// The query that is asked, or a default query if the input is not a query.
 Query query_of(const std::uint8_t* data, std::size_t size) { return asked(data, size).value_or(Query{}); }
 
 /// Throws Error if there is no such subject, or if the target is not for it.

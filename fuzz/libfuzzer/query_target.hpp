@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss::libfuzzer {

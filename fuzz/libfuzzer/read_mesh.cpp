@@ -1,16 +1,14 @@
 // libFuzzer target: the readers of OFF, PLY and STL files. Every reader gets every file.
-#include <istream>
-
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"
 #include "fuzz/meshes/formats.hpp"
+#include "fuzz/meshes/lines.hpp"
 
 void nearmiss::libfuzzer::read(std::istream& in) {
+  const std::string text = read_all(in, "input");
   for (const auto parse : {parse_off, parse_ply, parse_stl}) {
-    in.clear();
-    in.seekg(0);
     try {
-      expect_sound(parse(in, "input"));
+      expect_sound(parse(text, "input"));
     } catch (const Error&) {  // refused
     }
   }

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss::libfuzzer {

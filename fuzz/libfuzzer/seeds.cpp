@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
@@ -87,7 +87,7 @@ void append(std::string& bytes, Number value, bool little_endian = true) {
   std::array<char, sizeof value> raw{};
   std::memcpy(raw.data(), &value, sizeof value);
   if (!little_endian) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.begin(), raw.end());
+  bytes.append(raw.data(), raw.size());
 }
 
 std::string binary_ply(const Query& query, bool little_endian) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss::libfuzzer {

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <map>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
+#include "fuzz/meshes/lines.hpp"
 
 namespace nearmiss {
 
@@ -16,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Reader = Mesh (*)(std::istream&, const std::string&);
+using Reader = Mesh (*)(std::string_view, const std::string&);
 
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> by_ending{
@@ -27,9 +26,7 @@ const std::map<std::string, Reader>& readers() {
 }  // namespace
 
 std::string mesh_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string ending = lower_case(file.extension().string());
   return readers().contains(ending) ? ending : "";
 }
 
@@ -41,7 +38,7 @@ Mesh read_mesh(const fs::path& file) {
   expect_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
-  return reader->second(in, file.string());
+  return reader->second(read_all(in, file.string()), file.string());
 }
 
 }  // namespace nearmiss

@@ -1,11 +1,12 @@
 #include "fuzz/meshes/lines.hpp"
-#include "ccd/excerpt.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <istream>
 
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 
 namespace nearmiss {
@@ -81,6 +82,13 @@ double parse_decimal(std::string_view word, const Lines& lines) {
   const double value = parse_number(word, lines.where());
   if (word.find_first_of("xX") != std::string_view::npos) throw lines.error(shown(word), "a decimal number");
   return value;
+}
+
+std::string lower_case(std::string_view word) {
+  std::string lower(word);
+  std::transform(word.begin(), word.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
 }
 
 std::string shown(std::string_view word) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss {
 
@@ -66,6 +66,8 @@ class Lines {
 
 /// Parses a word as a finite decimal number. Throws Error if it is not one.
 double parse_decimal(std::string_view word, const Lines& lines);
+
+std::string lower_case(std::string_view word);
 
 /// A word, or the end of the file if the word is empty, as messages show it.
 std::string shown(std::string_view word);

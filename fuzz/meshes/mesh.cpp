@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss {
 

@@ -89,8 +89,7 @@ bool is_skipped(std::string_view keyword) {
 
 }  // namespace
 
-Mesh parse_obj(std::istream& in, const std::string& name) {
-  const std::string text = read_all(in, name);
+Mesh parse_obj(std::string_view text, const std::string& name) {
   Lines lines(text, name, Lines::Comments::hash, Lines::Continuation::backslash);
   Mesh mesh;
   std::vector<FaceOrPolyline> primitives;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "ccd/excerpt.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/meshes/formats.hpp"
 #include "fuzz/meshes/lines.hpp"
@@ -88,8 +88,7 @@ std::vector<long> parse_face(Words face, int vertices, const Lines& lines) {
 
 }  // namespace
 
-Mesh parse_off(std::istream& in, const std::string& name) {
-  const std::string text = read_all(in, name);
+Mesh parse_off(std::string_view text, const std::string& name) {
   Lines lines(text, name, Lines::Comments::hash);
   const MeshSize size = read_size(lines, name);
   Mesh mesh;

@@ -205,8 +205,7 @@ class ItemReader {
 
 }  // namespace
 
-Mesh parse_ply(std::istream& in, const std::string& name) {
-  const std::string text = read_all(in, name);
+Mesh parse_ply(std::string_view text, const std::string& name) {
   Lines lines(text, name, Lines::Comments::none);
   const ply::Header header = ply::parse_header(lines);
   const ply::MeshProperties wanted = ply::mesh_properties(header, name);

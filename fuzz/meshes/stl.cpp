@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -39,13 +38,6 @@ class TriangleSoup {
   Mesh mesh_;
   std::map<Corner, int> points_;  // 0 and -0 are equal here
 };
-
-std::string lower_case(std::string_view word) {
-  std::string lower(word);
-  std::transform(word.begin(), word.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 // --- text -------------------------------------------------------------------------------------------------
 
@@ -127,8 +119,7 @@ Mesh parse_binary(std::string_view bytes, std::string_view name) {
 
 }  // namespace
 
-Mesh parse_stl(std::istream& in, const std::string& name) {
-  const std::string text = read_all(in, name);
+Mesh parse_stl(std::string_view text, const std::string& name) {
   const std::string_view words = without_byte_order_mark(text);
   const std::size_t start = std::min(words.find_first_not_of(" \t\r\n"), words.size());
   const bool is_text = lower_case(words.substr(start, 5)) == "solid" && text.size() != promised_size(text);

@@ -65,103 +65,73 @@ class Block {
   std::vector<CellBoxGroup> near_;
 };
 
+// With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
+constexpr std::int64_t block_groups = 2;
+
 }  // namespace
 
-/// The boxes of all primitives. A row has the pairs of one vertex with all triangles, or of one edge with the edges
-/// after it; these are the partners of the row.
-class CandidateFinder::Search {
- public:
-  Search(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
-      : mesh_(&mesh),
-        kind_(kind),
-        vertices_(swept_cells(mesh, jobs)),
-        tree_(partners(), jobs, is_over),
-        block_size_(block_groups * tree_.typical_group()) {}
-
-  void move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
-    mesh_ = &mesh;
-    vertices_ = swept_cells(mesh, jobs);
-    tree_.move(partners(), jobs, is_over);
-    block_size_ = block_groups * tree_.typical_group();
-  }
-
-  [[nodiscard]] std::size_t parts() const {
-    return (pair_rows(*mesh_, kind_) + rows_of_part() - 1) / rows_of_part();
-  }
-
-  std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const {
-    const auto sink_meeting = [&](const Candidate& candidate) {
-      if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
-    };
-    // Primitives with a common vertex need no exact test: their boxes meet.
-    CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
-    const bool edges = kind_ == Kind::edge_edge;
-    const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
-    Block block;
-    try {
-      for (std::size_t row = part * rows_of_part(); row < end && !is_over();) {
-        const std::size_t next = block.start(rows(), row, end, block_size_);
-        block.collect(tree_, partners(), edges ? static_cast<std::int32_t>(row) + 1 : 0);
-        block.compare(edges, [&](std::size_t i, std::size_t j) { passer.pass(i, j); });
-        row = next;
-      }
-    } catch (const Stopped&) {
-    }
-    return passer.sharing();
-  }
-
- private:
-  // With larger blocks, more time goes to comparisons; with smaller ones, to the tree.
-  static constexpr std::int64_t block_groups = 2;
-
-  /// Small enough for all threads of a small mesh to have work.
-  [[nodiscard]] std::size_t rows_of_part() const {
-    return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
-  }
-  [[nodiscard]] PrimitiveBoxes rows() const {
-    return kind_ == Kind::edge_edge ? PrimitiveBoxes(vertices_, mesh_->edges) : PrimitiveBoxes(vertices_);
-  }
-  [[nodiscard]] PrimitiveBoxes partners() const {
-    return kind_ == Kind::edge_edge ? rows() : PrimitiveBoxes(vertices_, mesh_->triangles);
-  }
-
-  const MovingMesh* mesh_;
-  Kind kind_;
-  std::vector<CellBox> vertices_;
-  CellTree tree_;
-  std::int64_t block_size_;
-};
-
 CandidateFinder::CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over)
-    : search_(std::make_unique<Search>(mesh, kind, jobs, is_over)) {}
-CandidateFinder::CandidateFinder(CandidateFinder&&) noexcept = default;
-CandidateFinder::~CandidateFinder() = default;
+    : mesh_(&mesh),
+      kind_(kind),
+      vertices_(swept_cells(mesh, jobs)),
+      tree_(partners(), jobs, is_over),
+      block_size_(block_groups * tree_.typical_group()) {}
 
 void CandidateFinder::move(const MovingMesh& mesh, int jobs, const IsOver& is_over) {
-  search_->move(mesh, jobs, is_over);
+  mesh_ = &mesh;
+  vertices_ = swept_cells(mesh, jobs);
+  tree_.move(partners(), jobs, is_over);
+  block_size_ = block_groups * tree_.typical_group();
 }
 
-std::size_t CandidateFinder::parts() const { return search_->parts(); }
+std::size_t CandidateFinder::parts() const {
+  return (pair_rows(*mesh_, kind_) + rows_of_part() - 1) / rows_of_part();
+}
 
 std::uint64_t CandidateFinder::find(std::size_t part, const CandidateSink& sink,
                                     const IsOver& is_over) const {
-  return search_->find(part, sink, is_over);
-}
-
-std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                              const IsOver& is_over) {
-  std::uint64_t sharing = 0;
+  const auto sink_meeting = [&](const Candidate& candidate) {
+    if (boxes_meet(make_query(*mesh_, candidate))) sink(candidate);
+  };
+  // Primitives with a common vertex need no exact test: their boxes meet.
+  CandidatePasser passer(*mesh_, kind_, sink_meeting, is_over);
+  const bool edges = !has_triangle(kind_);
+  const std::size_t end = std::min(pair_rows(*mesh_, kind_), (part + 1) * rows_of_part());
+  Block block;
   try {
-    const CandidateFinder finder(mesh, kind, 1, is_over);
-    for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
-      sharing += finder.find(part, sink, is_over);
+    for (std::size_t row = part * rows_of_part(); row < end && !is_over();) {
+      const std::size_t next = block.start(rows(), row, end, block_size_);
+      block.collect(tree_, partners(), edges ? static_cast<std::int32_t>(row) + 1 : 0);
+      block.compare(edges, [&](std::size_t i, std::size_t j) { passer.pass(i, j); });
+      row = next;
+    }
   } catch (const Stopped&) {
   }
-  return sharing;
+  return passer.sharing();
 }
 
-void find_candidates(const MovingMesh& mesh, const CandidateSink& sink) {
-  for (const Kind kind : kinds) find_candidates(mesh, kind, sink, [] { return false; });
+/// Small enough for all threads of a small mesh to have work.
+std::size_t CandidateFinder::rows_of_part() const {
+  return std::clamp(pair_rows(*mesh_, kind_) / 64, std::size_t{128}, std::size_t{16384});
+}
+
+PrimitiveBoxes CandidateFinder::rows() const {
+  return has_triangle(kind_) ? PrimitiveBoxes(vertices_) : PrimitiveBoxes(vertices_, mesh_->edges);
+}
+
+PrimitiveBoxes CandidateFinder::partners() const {
+  return has_triangle(kind_) ? PrimitiveBoxes(vertices_, mesh_->triangles) : rows();
+}
+
+void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over) {
+  try {
+    for (const Kind kind : kinds) {
+      const CandidateFinder finder(mesh, kind, 1, is_over);
+      for (std::size_t part = 0; part < finder.parts() && !is_over(); ++part)
+        finder.find(part, sink, is_over);
+    }
+  } catch (const Stopped&) {
+  }
 }
 
 }  // namespace nearmiss

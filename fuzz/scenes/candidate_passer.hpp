@@ -1,4 +1,4 @@
-// The step that all searches for candidates share: it makes a candidate of two primitives.
+// The step that both ways through a mesh's pairs share: it makes a candidate of two primitives.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class CandidatePasser {
   void pass(std::size_t i, std::size_t j) {
     constexpr std::uint64_t now_and_then = 1 << 16;
     if (++passed_ % now_and_then == 0 && is_over_()) throw Stopped();
-    if (kind_ == Kind::vertex_triangle)
+    if (has_triangle(kind_))
       pass_unless_shared(std::array{static_cast<int>(i)}, mesh_.triangles[j]);
     else
       pass_unless_shared(mesh_.edges[std::min(i, j)], mesh_.edges[std::max(i, j)]);

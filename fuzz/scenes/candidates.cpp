@@ -5,13 +5,13 @@
 namespace nearmiss {
 
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind) {
-  return kind == Kind::edge_edge ? mesh.edges.size() : mesh.start.size();
+  return has_triangle(kind) ? mesh.start.size() : mesh.edges.size();
 }
 
 std::uint64_t for_pairs_of_row(const MovingMesh& mesh, Kind kind, std::size_t row, const CandidateSink& sink,
                                const IsOver& is_over) {
   CandidatePasser passer(mesh, kind, sink, is_over);
-  const bool of_edges = kind == Kind::edge_edge;
+  const bool of_edges = !has_triangle(kind);
   const std::size_t end = of_edges ? mesh.edges.size() : mesh.triangles.size();
   try {
     for (std::size_t i = of_edges ? row + 1 : 0; i < end; ++i) passer.pass(row, i);

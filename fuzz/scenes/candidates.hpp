@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/meshes/mesh.hpp"
+#include "fuzz/scenes/cell_tree.hpp"
 
 namespace nearmiss {
 
@@ -34,47 +35,44 @@ using IsOver = std::function<bool()>;
 /// Work that never ends early.
 inline const IsOver never_over = [] { return false; };
 
-/// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every axis
-/// (oracle/filter/box.hpp; closed boxes: touching counts). The pairs come in the order of rows (pair_rows below). A part has
-/// some rows that follow each other; parts can be searched in any order and by any thread, and which rows they have
-/// depends only on the number of rows.
+/// Finds the pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
+/// axis (oracle/filter/box.hpp; closed boxes: touching counts). The pairs come in the order of rows
+/// (pair_rows below), and those of a row in the order of its partners: all triangles, or the edges after the
+/// row's edge. A part has some rows that follow each other; parts can be searched in any order and by any
+/// thread, and which rows they have depends only on the number of rows.
 class CandidateFinder {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` says so, and Error for
-  /// a coordinate that is not finite.
+  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` says so, and
+  /// Error for a coordinate that is not finite.
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
-  CandidateFinder(CandidateFinder&&) noexcept;
-  ~CandidateFinder();
 
-  /// Replaces the mesh by another step of the same mesh, in less time than a new object would take. The pairs are those
-  /// that a new object would find. After an exception, the object must not be used any more.
+  /// Replaces the mesh by another step of the same mesh, in less time than a new object would take. The pairs
+  /// are those that a new object would find. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;
 
   /// Passes on each pair of a part without a common vertex once, and returns the number of pairs with a
-  /// common vertex. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and then,
-  /// and ends the search.
+  /// common vertex. Pairs are not stored, so a scene of any size can be streamed. `is_over` is called now and
+  /// then, and ends the search.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
-  class Search;
-  std::unique_ptr<Search> search_;
+  [[nodiscard]] std::size_t rows_of_part() const;
+  /// The boxes of the rows' primitives.
+  [[nodiscard]] PrimitiveBoxes rows() const;
+  [[nodiscard]] PrimitiveBoxes partners() const;
+
+  const MovingMesh* mesh_;
+  Kind kind_;
+  std::vector<CellBox> vertices_;
+  CellTree tree_;  ///< of the partners
+  std::int64_t block_size_;
 };
 
-/// Finds all candidates of a kind, part by part. Returns the number of pairs with a common vertex.
-std::uint64_t find_candidates(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                              const IsOver& is_over);
-
-/// Finds all candidates of both kinds, vertex-triangle pairs first.
-void find_candidates(const MovingMesh& mesh, const CandidateSink& sink);
-
-/// Does the same as find_candidates by another search. It sorts the boxes along one axis and compares each
-/// box with those that begin before it ends. The two searches share no code except the test for a common
-/// vertex.
-std::uint64_t find_candidates_by_sweep(const MovingMesh& mesh, Kind kind, const CandidateSink& sink,
-                                       const IsOver& is_over);
+/// Finds all candidates of both kinds, vertex-triangle pairs first, until `is_over` says that it is enough.
+void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over = never_over);
 
 /// The number of rows of all pairs of a kind, whether their boxes meet or not. A row has the pairs of one
 /// vertex with all triangles, or of one edge with all edges after it.

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/parallel.hpp"
 
 namespace nearmiss {

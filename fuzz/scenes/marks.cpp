@@ -1,10 +1,10 @@
 #include "fuzz/scenes/marks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -25,17 +25,9 @@ std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& prim
 
 std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A list of numbers as text, separated by blanks.
-class NumberList {
- public:
-  void add(std::int64_t number) {
-    fmt::format_to(std::back_inserter(text_), "{}{}", text_.empty() ? "" : " ", number);
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
+using Numbers = std::vector<std::int64_t>;
 
- private:
-  std::string text_;
-};
+std::string to_text(const Numbers& numbers) { return fmt::format("{}", fmt::join(numbers, " ")); }
 
 /// Numbers the points that are shown, and lists their coordinates as integers from 0 to 9999.
 class ShownPoints {
@@ -51,11 +43,11 @@ class ShownPoints {
   }
 
   /// Adds a primitive to a list: the numbers of its points, then its mark.
-  void show(NumberList& list, const std::vector<int>& vertices, std::uint32_t mark) {
-    for (const int vertex : vertices) list.add(number(vertex));
-    list.add(mark);
+  void show(Numbers& list, const std::vector<int>& vertices, std::uint32_t mark) {
+    for (const int vertex : vertices) list.push_back(number(vertex));
+    list.push_back(mark);
   }
-  [[nodiscard]] const NumberList& coordinates() const { return coordinates_; }
+  [[nodiscard]] const Numbers& coordinates() const { return coordinates_; }
 
  private:
   int number(int vertex) {
@@ -65,7 +57,7 @@ class ShownPoints {
       for (const auto* points : {&mesh_.start, &mesh_.end})
         for (int k = 0; k < 3; ++k) {
           const double part = ((*points)[static_cast<std::size_t>(vertex)][k] / 2 - lo_[k] / 2) / scale_;
-          coordinates_.add(scale_ > 0 ? std::lround(9999 * part) : 0);
+          coordinates_.push_back(scale_ > 0 ? std::lround(9999 * part) : 0);
         }
     }
     return number;
@@ -77,7 +69,7 @@ class ShownPoints {
   double scale_ = 0;
   std::vector<int> numbers_;
   int count_ = 0;
-  NumberList coordinates_;
+  Numbers coordinates_;
 };
 
 /// At most `most` elements of a list, evenly spread.
@@ -106,7 +98,7 @@ void Marks::add(const Candidate& candidate, std::size_t subject, const Outcome& 
 
 void Marks::add(const Candidate& candidate, Mark mark) {
   const auto& v = candidate.vertices;
-  if (candidate.kind == Kind::vertex_triangle) {
+  if (has_triangle(candidate.kind)) {
     points_[v[0]] |= mark;
     triangles_[{v[1], v[2], v[3]}] |= mark;
   } else {
@@ -170,15 +162,15 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
-  std::array<NumberList, 3> lists;  // for points, lines and triangles
+  std::array<Numbers, 3> lists;  // for points, lines and triangles
   ShownPoints points(mesh);
   for (const auto& some :
        {thinned(primitives.others, most_primitives), thinned(primitives.marked, most_primitives)})
     for (const Marked& each : some) points.show(lists[each.vertices.size() - 1], each.vertices, each.mark);
-  json["points"] = points.coordinates().text();
-  json["dots"] = lists[0].text();
-  json["lines"] = lists[1].text();
-  json["triangles"] = lists[2].text();
+  json["points"] = to_text(points.coordinates());
+  json["dots"] = to_text(lists[0]);
+  json["lines"] = to_text(lists[1]);
+  json["triangles"] = to_text(lists[2]);
   return {step, json.dump()};
 }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/scenes/candidates.hpp"
 
@@ -57,7 +57,7 @@ Query touching(Query query, const Aim& aim) {
   const double alpha = aim.alpha;
   const double beta = aim.beta;
   const auto at = [&](int vertex) { return Path{query.start(vertex), query.end(vertex)}.at(aim.time); };
-  const bool triangle = query.kind == Kind::vertex_triangle;
+  const bool triangle = has_triangle(query.kind);
   const Vector first = triangle ? at(0) : Vector((1 - alpha) * at(0) + alpha * at(1));
   const Vector second = triangle ? Vector((1 - alpha - beta) * at(1) + alpha * at(2) + beta * at(3))
                                  : Vector((1 - beta) * at(2) + beta * at(3));

@@ -18,7 +18,7 @@ std::uint64_t since(Clock::time_point start) {
 /// The number of all pairs of a kind, with or without a common vertex.
 std::uint64_t all_pairs(const MovingMesh& mesh, Kind kind) {
   const std::uint64_t edges = mesh.edges.size();
-  if (kind == Kind::vertex_triangle) return std::uint64_t{mesh.start.size()} * mesh.triangles.size();
+  if (has_triangle(kind)) return std::uint64_t{mesh.start.size()} * mesh.triangles.size();
   return edges == 0 ? 0 : edges * (edges - 1) / 2;
 }
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/meshes/formats.hpp"
 
 namespace nearmiss {

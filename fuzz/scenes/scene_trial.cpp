@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "corpus/query_text.hpp"
@@ -18,6 +20,11 @@ void SceneTrial::make_plan(const MovingMesh& mesh) {
     plan_.emplace(mesh, leave_out_, trials_.jobs(), is_over);
 }
 
+void SceneTrial::PartResult::merge(const PartResult& other) {
+  for (const auto& [kind, funnel] : other.funnels) funnels[kind].merge(funnel);
+  marks.merge(other.marks);
+}
+
 void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress) {
   try {
     make_plan(mesh);
@@ -25,22 +32,24 @@ void SceneTrial::hold(std::size_t step, const MovingMesh& mesh, const std::funct
     plan_.reset();
     return;
   }
-  const std::string name = step_name(scene_, step);
   PartResult sum;
-  for (std::size_t first = 0; first < plan_->parts() && !trials_.stop().is_due();) {
-    std::vector<PartResult> parts(std::min(trials_.at_once(), plan_->parts() - first));
-    sink_(trials_.hold(parts.size(), [&](std::size_t i) { return hold_part(step, first + i, parts[i]); }));
-    for (const PartResult& part : parts) {
-      for (const auto& [kind, funnel] : part.funnels) sum.funnels[kind].merge(funnel);
-      sum.marks.merge(part.marks);
-    }
-    first += parts.size();
-    progress(static_cast<double>(first) / static_cast<double>(plan_->parts()));
-  }
+  const auto parts = static_cast<double>(plan_->parts());
+  trials_.run([&, begun = std::size_t{0}]() mutable -> std::optional<Work> {
+    if (begun == plan_->parts()) return std::nullopt;
+    const std::size_t number = begun++;
+    const auto part = std::make_shared<PartResult>();
+    return Work{[=, this](const AskBatch& ask) { *part = hold_part(step, number, ask); },
+                [=, &sum, &progress](bool /*complete*/) {
+                  sum.merge(*part);
+                  progress(static_cast<double>(number + 1) / parts);
+                  return true;
+                }};
+  });
   TrialResult counted;
   for (const Funnels& funnels : {sum.funnels, trials_.stop().is_due() ? Funnels{} : plan_->rest(sum.funnels)})
-    for (const auto& [kind, funnel] : funnels) counted.statistics.funnels[{name, kind}].merge(funnel);
-  sink_(std::move(counted));
+    for (const auto& [kind, funnel] : funnels)
+      counted.statistics.funnels[{step_name(scene_, step), kind}].merge(funnel);
+  trials_.add(std::move(counted));
   if (sum.marks.size() > marks_.size()) {
     most_marked_ = step;
     marks_ = std::move(sum.marks);
@@ -54,29 +63,28 @@ std::optional<ScenePicture> SceneTrial::picture() const {
   return marks_.picture(step_name(scene_, most_marked_), moving_mesh(scene_, most_marked_), names);
 }
 
-TrialResult SceneTrial::hold_part(std::size_t step, std::size_t number, PartResult& part) const {
+SceneTrial::PartResult SceneTrial::hold_part(std::size_t step, std::size_t number,
+                                             const AskBatch& ask) const {
   const std::string name = step_name(scene_, step);
-  TrialResult result;
-  const auto ask = [&](const AskedPairs& pairs) {
-    const Batch batch{
-        .kind = pairs.kind,
-        .family = name,
-        .queries = pairs.queries,
-        .first_number = (std::uint64_t{step} << 48) + (std::uint64_t{number} << 24),
-        .provenance =
-            [&](std::size_t i) {
-              return fmt::format("{}:{}:{}", name, short_name(pairs.kind),
-                                 fmt::join(pairs.candidates[i].vertices, ","));
-            },
-        .observe = [&](std::size_t i, std::size_t subject,
-                       const Outcome& outcome) { part.marks.add(pairs.candidates[i], subject, outcome); }};
-    result.merge(trials_.trial(batch));
+  PartResult part;
+  const auto ask_pairs = [&](const AskedPairs& pairs) {
+    ask({.kind = pairs.kind,
+         .family = name,
+         .queries = pairs.queries,
+         .first_number = (std::uint64_t{step} << 48) + (std::uint64_t{number} << 24),
+         .provenance =
+             [&](std::size_t i) {
+               return fmt::format("{}:{}:{}", name, short_name(pairs.kind),
+                                  fmt::join(pairs.candidates[i].vertices, ","));
+             },
+         .observe = [&](std::size_t i, std::size_t subject,
+                        const Outcome& outcome) { part.marks.add(pairs.candidates[i], subject, outcome); }});
   };
   const auto decided = [&](const Candidate& candidate, const Query&, PairFate, bool collides) {
     if (collides) part.marks.add_collision(candidate);
   };
-  part.funnels = plan_->follow(number, ask, decided, [&] { return trials_.stop().is_due(); });
-  return result;
+  part.funnels = plan_->follow(number, ask_pairs, decided, [&] { return trials_.stop().is_due(); });
+  return part;
 }
 
 }  // namespace nearmiss

@@ -4,22 +4,19 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "fuzz/scenes/marks.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
-#include "fuzz/trial/sifted_trials.hpp"
+#include "fuzz/trial/trials.hpp"
 
 namespace nearmiss {
 
-/// Runs trials over the steps of a scene and passes on the results as they come. It stores the results of
-/// only a few parts of a step at a time.
+/// Runs trials over the steps of a scene. It stores the results of only a few parts of a step at a time.
 class SceneTrial {
  public:
-  SceneTrial(const Scene& scene, LeaveOut leave_out, SiftedTrials& trials, TrialSink sink)
-      : scene_(scene), leave_out_(leave_out), trials_(trials), sink_(std::move(sink)) {}
+  SceneTrial(const Scene& scene, LeaveOut leave_out, Trials& trials)
+      : scene_(scene), leave_out_(leave_out), trials_(trials) {}
 
   /// Asks the subjects about all pairs of a step for which its plan requires that. `mesh` is the mesh of the
   /// step; `progress` receives the completed share, from 0 to 1.
@@ -29,22 +26,23 @@ class SceneTrial {
   [[nodiscard]] std::optional<ScenePicture> picture() const;
 
  private:
-  /// The funnels and marks of a part, in addition to the result of its trials.
+  /// The funnels and marks of some parts, in addition to the results of their trials.
   struct PartResult {
-    Funnels funnels;
-    Marks marks;
+    Funnels funnels = {};
+    Marks marks = {};
+
+    void merge(const PartResult& other);
   };
 
-  /// Runs the trials of one part of the plan, and counts and marks its pairs in `part`.
-  TrialResult hold_part(std::size_t step, std::size_t number, PartResult& part) const;
+  /// Asks about one part of the plan; counts and marks its pairs.
+  [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask) const;
 
   /// Makes the plan of a step. Throws Stopped.
   void make_plan(const MovingMesh& mesh);
 
   const Scene& scene_;
   LeaveOut leave_out_;
-  SiftedTrials& trials_;
-  TrialSink sink_;
+  Trials& trials_;
   std::optional<Plan> plan_;     ///< of the last step
   std::size_t most_marked_ = 0;  ///< the step of `marks_`
   Marks marks_;

@@ -14,19 +14,19 @@ namespace nearmiss {
 struct Verification {
   std::uint64_t left_out = 0;  ///< pairs without a common vertex that the plan leaves out; all were decided
   std::uint64_t wrong = 0;     ///< pairs for which the oracle contradicts the plan
-  /// The number of kinds, summed over all steps, for which tree and sweep find different pairs.
-  std::uint64_t different_searches = 0;
+  std::uint64_t wrong_searches =
+      0;  ///< steps in which the tree finds other pairs than those whose boxes meet
   std::map<std::string, std::uint64_t> spared;  ///< false positives of each subject on pairs left out
   double seconds = 0;  ///< time to ask the oracle and the subjects about all left-out pairs
 
-  [[nodiscard]] bool fine() const { return wrong == 0 && different_searches == 0; }
+  [[nodiscard]] bool fine() const { return wrong == 0 && wrong_searches == 0; }
   void merge(const Verification& other);
 };
 
 /// Asks the subjects and the oracle about every pair of a step that the plan leaves out. If the boxes of a
 /// pair do not meet, the oracle must find no collision; for rest and translation, it must agree with the
-/// plan. Two searches find the candidates. `progress` receives the completed share, and returns whether to
-/// continue.
+/// plan. The pairs whose boxes meet must be those that the plan's tree finds. `progress` receives the
+/// completed share, and returns whether to continue.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "ccd/elementary.hpp"
+#include "ccd/wang/elementary.hpp"
 #include "fuzz/search/searched.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 

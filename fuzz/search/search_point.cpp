@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ccd/elementary.hpp"
+#include "ccd/wang/elementary.hpp"
 
 namespace nearmiss {
 
@@ -80,7 +80,7 @@ Contact contact_of(Kind kind, const SearchPoint& point) {
   Contact contact{
       {Vector::Zero(), Vector::Zero()}, point.q, point.r, clamped(point.place[0]), clamped(point.place[1]),
       clamped(point.place[2])};
-  if (kind == Kind::vertex_triangle) contact.beta = std::min(contact.beta, 1 - contact.alpha);
+  if (has_triangle(kind)) contact.beta = std::min(contact.beta, 1 - contact.alpha);
   return contact;
 }
 
@@ -101,7 +101,7 @@ std::array<double, 6> hardness(Kind kind, const SearchPoint& point) {
   const Vector n = q.cross(r);
   const Vector relative = point.w - contact.velocity(kind);
   const auto ratio = [](double a, double b) { return b > 0 ? log2_of(std::max(a / b, 0x1p-40)) : -40; };
-  const double third = kind == Kind::vertex_triangle ? 1 - contact.alpha - contact.beta : 1;
+  const double third = has_triangle(kind) ? 1 - contact.alpha - contact.beta : 1;
   return {ratio(std::abs(n.dot(relative)), n.norm() * relative.norm()),
           ratio(n.norm(), q.norm() * r.norm()),
           ratio(std::min({contact.alpha, contact.beta, 1 - contact.alpha, 1 - contact.beta, third}), 1),

@@ -38,7 +38,7 @@ SearchPoint on_grid(SearchPoint point);
 /// A gap whose components are uniform in [-h, h), for every finite h.
 Vector3<double> draw_gap(Random& random, double h);
 
-/// The same with a gap of at most h.
+/// The point with its gap shortened to at most h.
 SearchPoint with_gap_within(SearchPoint point, double h);
 
 Contact contact_of(Kind kind, const SearchPoint& point);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/search/maximiser.hpp"
 #include "fuzz/stop.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ccd/elementary.hpp"
+#include "ccd/wang/elementary.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/search/searched.hpp"
 #include "oracle/oracle.hpp"

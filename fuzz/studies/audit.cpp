@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "ccd/constraints.hpp"
-#include "ccd/cubic.hpp"
-#include "ccd/ve_culling.hpp"
+#include "ccd/wang/bounds/constraints.hpp"
+#include "ccd/wang/cubic.hpp"
+#include "ccd/wang/ve_culling.hpp"
 
 namespace nearmiss {
 
@@ -23,14 +23,15 @@ constexpr std::string_view line = "B^4 eps / (eta N)";
 
 constexpr std::string_view beyond = "relative positions of edges are within 2B (§4.1 has B)";
 constexpr std::string_view exact = "of exact vectors";
-constexpr std::string_view appendix = "the paper's appendix is missing; derived in ccd/solver_errors.hpp";
+constexpr std::string_view appendix =
+    "the paper's appendix is missing; derived in ccd/wang/bounds/solver_errors.hpp";
 
-constexpr std::string_view extents = "bound_needs, ccd/motion.hpp";
-constexpr std::string_view margin = "bound_margin - bound_needs, ccd/motion.hpp";
-constexpr std::string_view value = "evaluation_error, ccd/ve_culling.hpp";
-constexpr std::string_view inside = "weight_error, ccd/ve_culling.hpp";
-constexpr std::string_view spread = "spread_error, ccd/ve_culling.hpp";
-constexpr std::string_view culling = "weight_error + spread_error, ccd/ve_culling.hpp";
+constexpr std::string_view extents = "bound_needs, ccd/wang/motion.hpp";
+constexpr std::string_view margin = "bound_margin - bound_needs, ccd/wang/motion.hpp";
+constexpr std::string_view value = "evaluation_error, ccd/wang/ve_culling.hpp";
+constexpr std::string_view inside = "weight_error, ccd/wang/ve_culling.hpp";
+constexpr std::string_view spread = "spread_error, ccd/wang/ve_culling.hpp";
+constexpr std::string_view culling = "weight_error + spread_error, ccd/wang/ve_culling.hpp";
 
 // Errors of the barycentric tests by Theorem 4.1.
 constexpr double inside_vt = 564;
@@ -79,7 +80,7 @@ std::vector<RoundingConstant> rounding_bounds() {
       {"EE: E + W", extents, b1, bound_needs / 2.0, none, proven::extents_ee},
       {"VT: B", margin, b1, bound_margin - bound_needs, none, proven::bound_vt},
       {"EE: B", margin, b1, bound_margin - bound_needs, none, proven::bound_ee},
-      {"clearance", "clearance_error, ccd/cubic.hpp", b3, clearance_error, none, proven::clearance,
+      {"clearance", "clearance_error, ccd/wang/cubic.hpp", b3, clearance_error, none, proven::clearance,
        "of exact coefficients"},
       {"VT: F(t)", value, b3, evaluation_error, none, proven::value_vt},
       {"EE: F(t)", value, b3, evaluation_error, none, proven::value_ee},
@@ -128,8 +129,8 @@ std::vector<RoundingConstant> rounding_consequences() {
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
       // A weight is linear in p, so it moves by at most ‖N‖ ‖edge‖ √3 B h, with ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
-      {"critical points", "node_error, ccd/ve_culling.hpp", b3, node_error, 3 * 18, none,
-       "derived in ccd/cubic.hpp"},
+      {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
+       "derived in ccd/wang/cubic.hpp"},
   };
 }
 

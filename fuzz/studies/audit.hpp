@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/tight_tolerances.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
 
 namespace nearmiss {
 
@@ -19,7 +19,7 @@ struct RoundingConstant {
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
   /// The bound by Theorem 4.1 for the operations in ccd/ on exact vectors, to first order; or the value that follows from other rows.
   double derived = none;
-  /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors (ccd/proven.hpp).
+  /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors (ccd/wang/bounds/proven.hpp).
   double proven = none;
   std::string_view note = "";
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/subjects/defects.hpp"

@@ -1,9 +1,9 @@
 #include "fuzz/subjects/built_in.hpp"
 
 #include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/exact.hpp"
 #include "fuzz/subjects/ladder/adaptive.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
-#include "oracle/subjects.hpp"
 
 namespace nearmiss {
 

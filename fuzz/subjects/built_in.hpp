@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
 
@@ -17,7 +17,7 @@ std::vector<SubjectInfo> built_in_subjects();
 /// is as for make_subject. Throws Error for an unknown name.
 std::unique_ptr<Subject> make_built_in(std::string_view name,
                                        std::optional<double> given_bound = std::nullopt);
-/// The same, but null for an unknown name.
+/// As make_built_in, but null for an unknown name.
 std::unique_ptr<Subject> try_make_built_in(std::string_view name,
                                            std::optional<double> given_bound = std::nullopt);
 

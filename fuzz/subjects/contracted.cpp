@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
-#include "oracle/contract.hpp"
 #include "reports/statistics/failure.hpp"
 
 namespace nearmiss {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/subject.hpp"
-#include "ccd/tolerances.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "ccd/wang/tolerances.hpp"
 
 namespace nearmiss {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 
 namespace nearmiss {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/subjects/beside.hpp"
 #include "reports/text/shell.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/peers.hpp"
 

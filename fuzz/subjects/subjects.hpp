@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/subjects/built_in.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/subjects/named.hpp"
@@ -25,7 +25,7 @@ std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// The same, but without a NAME all detectors of a shared object if the text does not say which.
+/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and does not say which.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});

@@ -12,9 +12,10 @@
 
 namespace nearmiss {
 
-/// The plan of a campaign. Its cases have an order (case_order.hpp). What counts is always a beginning
-/// of that order, so the result depends neither on `jobs` nor on how often the campaign was stopped and resumed. The
-/// shards together give the result of the whole campaign, except for subjects that are set aside (patience.hpp).
+/// The plan of a campaign. Its cases have an order (case_order.hpp). What counts is always a beginning of
+/// that order, so the result depends neither on `jobs` nor on how often the campaign was stopped and resumed.
+/// The shards together give the result of the whole campaign, except for subjects that are set aside
+/// (so_far.hpp).
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
@@ -41,8 +42,9 @@ struct CampaignProgress {
   std::chrono::duration<double> elapsed{};
 };
 
-/// Receives the results of further cases several times a second, in order, with the first findings of each signature and
-/// class (FirstFindings), and those that have been shrunk meanwhile. Returns false to end the campaign.
+/// Receives the results of further cases several times a second, in order, with the first findings of each
+/// signature and class (FirstFindings), and those that have been shrunk meanwhile. Returns false to end the
+/// campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
 /// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress.

@@ -133,6 +133,9 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
     stop.check();
     batch.queries.push_back(make(index));
   }
+  batch.place = [&plan, name = block.family->name, first](std::size_t i) {
+    return cases_up_to(plan, name, first + kinds.size() * i);
+  };
   if (block.family->planted) batch.truths.assign(batch.queries.size(), true);
   batch.provenance = [name = block.family->name, seed = plan.seed, first](std::size_t i) {
     return fmt::format("{}:{}:{}", name, seed, first + kinds.size() * i);

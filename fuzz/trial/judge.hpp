@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/trial/truth.hpp"
 #include "reports/statistics/statistics.hpp"
 

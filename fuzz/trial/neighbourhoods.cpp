@@ -257,7 +257,7 @@ Neighbourhood reorder(Kind kind) {
   for (std::size_t v = 0; v < 4; ++v)
     for (std::size_t w = v + 1; w < 4; ++w)
       if ((v < first) == (w < first)) changes.push_back({[=](Numbers& x) { exchange(x, v, w); }});
-  if (kind == Kind::edge_edge)
+  if (!has_triangle(kind))
     changes.push_back({[](Numbers& x) {
       exchange(x, 0, 2);
       exchange(x, 1, 3);

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/campaign/complexity.hpp"
 
 namespace nearmiss {

@@ -9,9 +9,9 @@
 
 namespace nearmiss {
 
-/// Chooses the size of slices of cases such that one takes at most about a tenth of a second: work looks at its limits between
-/// slices. A slice has no more cases than fit into a processor's caches, with all that is noted about them. No result except run
-/// times depends on it. Many threads use it at once.
+/// Chooses the size of slices of cases such that one takes at most about a tenth of a second: work looks at
+/// its limits between slices. A slice has no more cases than fit into a processor's caches, with all that is
+/// noted about them. No result except run times depends on it. Many threads use it at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;
@@ -26,7 +26,7 @@ class Pace {
   /// Notes how long a slice took.
   void took(const std::string& family, std::size_t cases, Duration time) {
     constexpr Duration wanted{0.1};
-    constexpr std::size_t growth = 4;
+    constexpr std::size_t growth = 8;
     const auto longest = static_cast<double>(growth * cases);
     const double fitting = time.count() > 0 ? static_cast<double>(cases) * (wanted / time) : longest;
     const std::lock_guard lock(mutex_);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/classify.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"

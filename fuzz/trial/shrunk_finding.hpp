@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/stop.hpp"
 #include "reports/statistics/statistics.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "ccd/printable.hpp"
+#include "ccd/query/printable.hpp"
 #include "oracle/features.hpp"
 
 namespace nearmiss {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "oracle/agreement.hpp"
 
 namespace nearmiss {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/classify.hpp"
 #include "fuzz/random.hpp"
 #include "fuzz/subjects/isolation/plugin_file.hpp"
@@ -32,7 +32,7 @@ struct Symmetry {
 std::vector<std::array<std::size_t, 4>> vertex_orders(Kind kind) {
   std::vector<std::array<std::size_t, 4>> orders;
   std::array<std::size_t, 4> order{0, 1, 2, 3};
-  const bool edges = kind == Kind::edge_edge;
+  const bool edges = !has_triangle(kind);
   do {
     const bool same_pairs = order[0] / 2 == order[1] / 2;
     if (edges ? same_pairs : order[0] == 0) orders.push_back(order);
@@ -195,9 +195,9 @@ const std::vector<SmallQuery>& list_of() {
 }  // namespace
 
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
-  if (kind == Kind::vertex_triangle)
-    return apart ? list_of<Kind::vertex_triangle, true>() : list_of<Kind::vertex_triangle, false>();
-  return apart ? list_of<Kind::edge_edge, true>() : list_of<Kind::edge_edge, false>();
+  return with_kind(kind, [&]<Kind of>() -> const std::vector<SmallQuery>& {
+    return apart ? list_of<of, true>() : list_of<of, false>();
+  });
 }
 
 SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,

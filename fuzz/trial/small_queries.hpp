@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "reports/statistics/query_class.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/sample.hpp"
 #include "fuzz/trial/versions.hpp"
@@ -88,27 +88,27 @@ void TrialResult::merge(TrialResult&& other) {
 
 namespace {
 
-/// Judges the answers to a batch, step by step.
+constexpr Verdict not_asked{.fault = Fault::not_asked};
+
+/// Judges the answers to a batch, query by query.
 class Judging {
  public:
   using Verdicts = std::vector<std::vector<Verdict>>;
 
-  Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison, const Verdicts& answers,
-          const std::vector<SubjectTimes>& times, const LeastKept& known)
+  Judging(const Subjects& subjects, const Batch& batch, const Comparison& comparison,
+          std::vector<Known> known, const Verdicts& answers, const std::vector<SubjectTimes>& times)
       : subjects_(subjects),
         batch_(batch),
         comparison_(comparison),
+        known_(std::move(known)),
         answers_(answers),
         decisions_(batch.queries.size()),
         versions_(subjects, comparison) {
     for (std::size_t s = 0; s < subjects.size(); ++s) {
       counts_.push_back(nullptr);
-      least_kept_.push_back(0);
       if (!batch.can_ask(*subjects[s])) continue;
-      const CountsKey key{subjects[s]->name(), batch.kind, batch.family};
-      counts_.back() = &result_.statistics.counts[key];
+      counts_.back() = &result_.statistics.counts[{subjects[s]->name(), batch.kind, batch.family}];
       counts_.back()->times = times[s];
-      least_kept_.back() = known.of(key);
     }
   }
 
@@ -173,8 +173,11 @@ class Judging {
 
   /// Judges, counts and stores the answer of subject s to query i.
   void try_subject(std::size_t i, std::size_t s, Truth& truth) {
-    const double least_kept = std::max(least_kept_[s], Counts::least_kept(counts_[s]->farthest));
-    Outcome outcome = judges_[s].judge(answers_[s][i], truth, least_kept);
+    Known& known = known_[s];
+    const Verdict& answer = known.is_set_aside() ? not_asked : answers_[s][i];
+    const double least_kept = std::max(known.least_kept, Counts::least_kept(counts_[s]->farthest));
+    Outcome outcome = judges_[s].judge(answer, truth, least_kept);
+    known.slow += outcome.verdict.fault == Fault::time ? 1 : 0;
     auto failure = failure_of(outcome, truth);
     if (failure) outcome.query_class = truth.query_class();
     counts_[s]->add(outcome, truth.query(), [&] { return batch_.provenance(i); });
@@ -196,7 +199,7 @@ class Judging {
     result_.findings.push_back({failure.what, subject, batch_.family, query, batch_.provenance(i), ratio,
                                 std::move(failure.signature), query});
     result_.findings.back().time = is_late ? outcome.verdict.time : 0;
-    result_.findings.back().place = i;
+    result_.findings.back().place = batch_.place ? batch_.place(i) : 0;
     result_.findings.back().simplest = query;
     result_.findings.back().query_class = result_.findings.back().simplest_class = truth.query_class();
     ++result_.statistics.seen[signature_of(result_.findings.back())];
@@ -205,10 +208,10 @@ class Judging {
   const Subjects& subjects_;
   const Batch& batch_;
   const Comparison& comparison_;
-  const Verdicts& answers_;  // by subject and query
+  std::vector<Known> known_;  // by subject, before the next query
+  const Verdicts& answers_;   // by subject and query
   TrialResult result_;
   std::vector<Counts*> counts_;      // by subject, in the result; null if it does not decide this kind
-  std::vector<double> least_kept_;   // by subject, as known from other cases
   std::vector<Judge> judges_;        // by subject
   std::vector<Rounded> rounded_;     // by subject
   std::vector<Decision> decisions_;  // by query
@@ -227,26 +230,18 @@ void check_coordinates(const Batch& batch) {
 
 }  // namespace
 
-Trial::Trial(const Subjects& subjects, Batch batch, const Comparison& comparison)
-    : subjects_(subjects), batch_(std::move(batch)), comparison_(comparison), times_(subjects.size()) {}
-
-void Trial::ask(const std::function<bool(std::size_t subject)>& asks) {
-  check_coordinates(batch_);
-  for (std::size_t s = 0; s < subjects_.size(); ++s)
-    if (batch_.can_ask(*subjects_[s]) && asks(s))
-      answers_.push_back(decide_all(*subjects_[s], batch_, times_[s]));
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison,
+                       std::vector<Known> known) {
+  check_coordinates(batch);
+  known.resize(subjects.size());
+  std::vector<std::vector<Verdict>> answers;
+  std::vector<SubjectTimes> times(subjects.size());
+  for (std::size_t s = 0; s < subjects.size(); ++s)
+    if (batch.can_ask(*subjects[s]) && !known[s].is_set_aside())
+      answers.push_back(decide_all(*subjects[s], batch, times[s]));
     else
-      answers_.emplace_back(batch_.queries.size(), Verdict{.fault = Fault::not_asked});
-}
-
-TrialResult Trial::judge(const LeastKept& known) const {
-  return Judging(subjects_, batch_, comparison_, answers_, times_, known).run();
-}
-
-TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison) {
-  Trial trial(subjects, batch, comparison);
-  trial.ask([](std::size_t /*subject*/) { return true; });
-  return trial.judge();
+      answers.emplace_back(batch.queries.size(), not_asked);
+  return Judging(subjects, batch, comparison, std::move(known), answers, times).run();
 }
 
 }  // namespace nearmiss

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
-#include "fuzz/trial/least_kept.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "fuzz/trial/so_far.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
@@ -25,19 +25,23 @@ inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   return pointers;
 }
 
-/// Queries of one kind and family that are decided, timed and counted together. All of them have a separation h > 0, or
-/// none has; a subject that takes no separation is asked in the second case only.
+/// Queries of one kind and family that are decided, timed and counted together. All of them have a separation
+/// h > 0, or none has; a subject that takes no separation is asked in the second case only.
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths = {};  ///< recorded truths; empty if there are none
-  /// The numbers of the queries in their family or stream: first, first + step, and so on. They choose samples.
+  /// The numbers of the queries in their family or stream: first, first + step, and so on. They choose
+  /// samples.
   std::uint64_t first_number = 0, step = 1;
   bool timed = true;         ///< whether run times count
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
   /// Returns the origin of query i of the batch; called only for queries that are kept.
   std::function<std::string(std::size_t)> provenance = {};
+  /// If set, returns the place of query i in the order of a campaign. Other trials pass on their findings in
+  /// order.
+  std::function<std::uint64_t(std::size_t)> place = {};
   /// If set, returns the values of the factors with which query i was made; called for collisions.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
   /// If set, receives every outcome: that of query i for the subject with this index.
@@ -52,7 +56,7 @@ struct Batch {
   }
 };
 
-/// The result of a trial. The place of a finding is that of its query in the batch.
+/// The result of a trial.
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
@@ -83,35 +87,12 @@ struct Comparison {
   }
 };
 
-/// A trial in two steps, so that what a subject was asked can be changed between them.
-class Trial {
- public:
-  Trial(const Subjects& subjects, Batch batch, const Comparison& comparison = {});
-
-  [[nodiscard]] std::size_t subjects() const { return subjects_.size(); }
-  [[nodiscard]] CountsKey key(std::size_t subject) const {
-    return {subjects_[subject]->name(), batch_.kind, batch_.family};
-  }
-
-  /// Asks the subjects. Each is timed over the whole batch, separately from the oracle. A subject for which `asks` is
-  /// false is not asked. Throws Error for a coordinate that is not finite.
-  void ask(const std::function<bool(std::size_t subject)>& asks);
-  /// A subject's answers, by query.
-  [[nodiscard]] std::vector<Verdict>& answers(std::size_t subject) { return answers_[subject]; }
-  /// Judges all answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is also the
-  /// query that is kept. Can be called again after the answers have changed.
-  /// `known` may know farther false positives than those of this trial.
-  [[nodiscard]] TrialResult judge(const LeastKept& known = {}) const;
-
- private:
-  const Subjects& subjects_;
-  Batch batch_;
-  Comparison comparison_;
-  std::vector<std::vector<Verdict>> answers_;  // by subject and query
-  std::vector<SubjectTimes> times_;            // by subject
-};
-
-/// Puts the subjects on trial over a batch. Throws Error for a coordinate that is not finite.
-TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {});
+/// Puts the subjects on trial over a batch: times each over the whole batch, separately from the oracle, and
+/// judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded query, which is
+/// also the query that is kept. `known` says for each subject what is known from earlier queries; it is empty
+/// if nothing is. A subject that is set aside (so_far.hpp) is not asked; if that happens within the batch,
+/// its other answers do not count. Throws Error for a coordinate that is not finite.
+TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
+                       std::vector<Known> known = {});
 
 }  // namespace nearmiss

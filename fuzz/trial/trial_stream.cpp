@@ -5,6 +5,7 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t batch_queries = 1000;
+constexpr std::size_t batches_of_a_thread = 4;  // so that no thread waits long for the others
 
 }  // namespace
 
@@ -21,7 +22,7 @@ bool TrialStream::add(const std::string& family, const Query& query, std::option
   if (pending.batch.queries.size() == batch_queries) {
     full_.push_back(std::move(pending));
     pending = {};
-    if (full_.size() == trials_.at_once()) hold_trials();
+    if (full_.size() == batches_of_a_thread * static_cast<std::size_t>(trials_.jobs())) hold_trials();
   }
   return !trials_.stop().is_due();
 }
@@ -34,11 +35,13 @@ void TrialStream::finish() {
 }
 
 void TrialStream::hold_trials() {
-  sink_(trials_.hold(full_.size(), [&](std::size_t i) {
-    Pending& pending = full_[i];
-    pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n](); };
-    return trials_.trial(pending.batch);
-  }));
+  trials_.run([this, next = std::size_t{0}]() mutable -> std::optional<Work> {
+    if (next == full_.size()) return std::nullopt;
+    return Work{[&pending = full_[next++]](const AskBatch& ask) {
+      pending.batch.provenance = [&](std::size_t n) { return pending.provenances[n](); };
+      ask(pending.batch);
+    }};
+  });
   full_.clear();
 }
 

@@ -9,15 +9,16 @@
 #include <tuple>
 #include <vector>
 
-#include "fuzz/trial/sifted_trials.hpp"
+#include "fuzz/trial/trials.hpp"
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind, family and whether there is a separation, runs the trials and passes on the results. It stores
-/// only a few batches at any time. Nothing is timed: a handful of queries says nothing about a subject's speed.
+/// Collects queries into batches by kind, family and whether there is a separation, and runs the trials. It
+/// stores only a few batches at any time. Nothing is timed: a handful of queries says nothing about a
+/// subject's speed.
 class TrialStream {
  public:
-  TrialStream(SiftedTrials& trials, TrialSink sink) : trials_(trials), sink_(std::move(sink)) {}
+  explicit TrialStream(Trials& trials) : trials_(trials) {}
 
   /// Adds a query; returns false after a request to stop. `provenance` is called only for queries that are
   /// kept, and at the latest in finish(). Throws Error as hold_trial does.
@@ -35,8 +36,7 @@ class TrialStream {
 
   void hold_trials();
 
-  SiftedTrials& trials_;
-  TrialSink sink_;
+  Trials& trials_;
   std::map<std::tuple<std::string, Kind, bool>, Pending> pending_;  // by family, kind and whether h > 0
   std::vector<Pending> full_;
   std::uint64_t batches_ = 0;  ///< begun so far

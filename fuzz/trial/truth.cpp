@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "ccd/pair_bound.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "ccd/wang/pair_bound.hpp"
 #include "fuzz/families/classify.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "oracle/distance.hpp"
@@ -45,14 +45,13 @@ EarliestTime& Truth::time() {
 double Truth::relative_speed() const {
   const double B = pair_bound(query_);
   double fastest = 0;
-  for (int i = 0; i < split(query_.kind); ++i)
-    for (int j = split(query_.kind); j < 4; ++j) {
-      // In units of B, nothing overflows.
-      const auto moved = [&](int vertex) -> Vector3<double> {
-        return query_.end(vertex) / B - query_.start(vertex) / B;
-      };
-      fastest = std::max(fastest, (moved(i) - moved(j)).norm());
-    }
+  for (const VertexPair gap : topology(query_.kind).gaps) {
+    // In units of B, nothing overflows.
+    const auto moved = [&](int vertex) -> Vector3<double> {
+      return query_.end(vertex) / B - query_.start(vertex) / B;
+    };
+    fastest = std::max(fastest, (moved(gap.from) - moved(gap.to)).norm());
+  }
   return std::isfinite(fastest) ? fastest : 0;
 }
 

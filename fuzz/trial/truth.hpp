@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/statistics/query_class.hpp"

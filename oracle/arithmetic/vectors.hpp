@@ -53,7 +53,7 @@ template <class Real>
 Vec<double> to_double(const Vec<Real>& v) {
   return {to_double(v[0]), to_double(v[1]), to_double(v[2])};
 }
-/// The same vector with another type of components.
+/// A vector of doubles with another type of components.
 template <class Real>
 Vec<Real> of_double(const Vec<double>& v) {
   return {Real(v[0]), Real(v[1]), Real(v[2])};

@@ -1,7 +1,7 @@
 // The smallest distance of two primitives over the step, by floating-point arithmetic with proven bounds.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 #include "oracle/distance/needed_distance.hpp"
 #include "oracle/distance/vertex_differences.hpp"

@@ -89,8 +89,8 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
 /// It counts if the weights are a, b >= 0, with a + b <= 1 for a triangle and a, b <= 1 for edges.
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
-  const bool is_triangle = x.differences().kind() == Kind::vertex_triangle;
-  const NormalPairs pairs = normal_pairs(x.differences().kind());
+  const Kind kind = x.differences().kind();
+  const NormalPairs pairs = normal_pairs(kind);
   const Vec<Real> p = x.position(pairs.p);
   const Vec<Real> q = x.position(pairs.q);
   const Vec<Real> r = x.position(pairs.r);
@@ -100,8 +100,8 @@ void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Real a = quotient(dot(N, cross(p, r)), squared);
   const Real b = quotient(dot(N, cross(q, p)), squared);
   const auto is_positive = [](const Real& w) { return to_double(w) >= 0; };
-  const bool is_inside =
-      is_triangle ? is_positive(Real(1) - a - b) : is_positive(Real(1) - a) && is_positive(Real(1) - b);
+  const bool is_inside = has_triangle(kind) ? is_positive(Real(1) - a - b)
+                                            : is_positive(Real(1) - a) && is_positive(Real(1) - b);
   if (!(is_positive(a) && is_positive(b) && is_inside)) return;
   take_closer(best, {ClosestFeatures::Combination::interiors}, p - (a * q + b * r), a, b);
 }
@@ -131,21 +131,15 @@ ClosestPoints<Real> points_of(const VerticesAt<Real>& x, Candidate<Real>& best) 
 template <class Real>
 ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   detail::Candidate<Real> best;
-  if (x.differences().kind() == Kind::vertex_triangle) {
-    detail::consider_edge(x, 0, 1, 2, best);
-    detail::consider_edge(x, 0, 2, 3, best);
-    detail::consider_edge(x, 0, 3, 1, best);
-  } else {
-    detail::consider_edge(x, 0, 2, 3, best);
-    detail::consider_edge(x, 1, 2, 3, best);
-    detail::consider_edge(x, 2, 0, 1, best);
-    detail::consider_edge(x, 3, 0, 1, best);
-  }
+  const Topology& of = topology(x.differences().kind());
+  for (const auto& pairs : {of.first_to_second, of.second_to_first})
+    for (const VertexAndEdge& pair : pairs) detail::consider_edge(x, pair.vertex, pair.from, pair.to, best);
   detail::consider_interiors(x, best);
   return detail::points_of(x, best);
 }
 
-/// The same if only the parts in `features` are considered, which takes less time; all, if the interiors have no closest points.
+/// The closest points of the parts in `features`, which takes less time; of all parts, if those are interiors without closest
+/// points.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

@@ -107,7 +107,7 @@ class DistanceSearch {
     if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
     return time;
   }
-  /// The same for a time between two others, either of which may be the double nearest to t.
+  /// Looks likewise at a time between two others, either of which may be the double nearest to t.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);

@@ -148,10 +148,7 @@ void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
                           (features.from == from || features.from == to);
     if (!is_there) moment.separations.push_back(separate_by_edge(x, from, to, direction));
   };
-  if (x.differences().kind() == Kind::vertex_triangle)
-    for (const std::size_t from : {1U, 2U, 3U}) add_edge(from, from % 3 + 1);
-  else
-    for (const std::size_t from : {0U, 2U}) add_edge(from, from + 1);
+  for (const VertexPair edge : topology(x.differences().kind()).edges) add_edge(edge.from, edge.to);
 }
 
 }  // namespace nearmiss::certified

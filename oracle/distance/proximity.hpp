@@ -1,7 +1,7 @@
 // Decides whether two primitives come within a given distance, in exact arithmetic.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

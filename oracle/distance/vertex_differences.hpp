@@ -5,25 +5,22 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/double_word.hpp"
 #include "oracle/arithmetic/vectors.hpp"
 
 namespace nearmiss::certified {
 
-/// The difference of two vertices, x_to - x_from.
-struct VertexPair {
-  std::size_t to, from;
-};
-
-/// The vectors p, q and r with the normal N = q × r and the coplanarity cubic F = ±N · p: x0 - x1, x2 - x1 and x3 -
-/// x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
+/// The vectors p, q and r (x_to - x_from) with the normal N = q × r and the coplanarity cubic F = p · N, such that the closest
+/// points of the planes or lines are where p = a q + b r + c N: x0 - x1, x2 - x1 and x3 - x1 for vertex and triangle, x0 - x2,
+/// x0 - x1 and x3 - x2 for edges.
 struct NormalPairs {
   VertexPair p, q, r;
 };
 constexpr NormalPairs normal_pairs(Kind kind) {
-  if (kind == Kind::vertex_triangle) return {{0, 1}, {2, 1}, {3, 1}};
-  return {{0, 2}, {0, 1}, {3, 2}};
+  const auto& [p, q, r] = topology(kind).pqr;
+  if (has_triangle(kind)) return {p, q, r};
+  return {{p.to, p.from}, {q.to, q.from}, r};
 }
 
 /// The differences x_i - x_j of all pairs of vertices at both ends of the step. Their unit, 2^exponent, is

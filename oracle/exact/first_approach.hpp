@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/exact/root.hpp"
 
 namespace nearmiss::exact {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/exact/polynomial.hpp"
 
 namespace nearmiss::exact {

@@ -31,20 +31,14 @@ Nearness::Nearness(const Query& query, double b) {
   const Number scaled_b = unit.scaled(b);
   squared_b_ = Polynomial({scaled_b * scaled_b});
   const auto x = moving_points(query, unit);
-  if (query.kind == Kind::vertex_triangle) {
-    for (std::size_t i = 1; i < 4; ++i) {
-      add_vertices(x[0], x[i]);
-      add_vertex_and_edge(x[0], x[i], x[i % 3 + 1]);
-    }
+  const Topology& of = topology(query.kind);
+  for (const VertexPair gap : of.gaps) add_vertices(x[gap.from], x[gap.to]);
+  for (const auto& pairs : {of.first_to_second, of.second_to_first})
+    for (const VertexAndEdge& pair : pairs) add_vertex_and_edge(x[pair.vertex], x[pair.from], x[pair.to]);
+  if (has_triangle(query.kind))
     add_vertex_and_triangle(x);
-  } else {
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 2; j < 4; ++j) add_vertices(x[i], x[j]);
-      add_vertex_and_edge(x[i], x[2], x[3]);
-      add_vertex_and_edge(x[i + 2], x[0], x[1]);
-    }
+  else
     add_edges(x);
-  }
 }
 
 bool Nearness::holds_at(Root& t) const {

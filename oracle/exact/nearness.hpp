@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/exact/moving.hpp"
 #include "oracle/exact/root.hpp"
 

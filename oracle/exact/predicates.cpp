@@ -13,11 +13,13 @@ OnSegment on_segment(const PolynomialVector& x, const PolynomialVector& a, const
 }  // namespace
 
 Predicates::Predicates(const Query& query) : query_(query), unit_(query) {
-  const bool is_triangle = query.kind == Kind::vertex_triangle;
-  const auto difference = [&](std::size_t i, std::size_t j) { return moving_difference(query, i, j, unit_); };
-  p_ = is_triangle ? difference(0, 1) : difference(2, 0);
-  q_ = is_triangle ? difference(2, 1) : difference(1, 0);
-  r_ = is_triangle ? difference(3, 1) : difference(3, 2);
+  const auto difference = [&](VertexPair pair) {
+    return moving_difference(query, pair.to, pair.from, unit_);
+  };
+  const auto& [p, q, r] = topology(query.kind).pqr;
+  p_ = difference(p);
+  q_ = difference(q);
+  r_ = difference(r);
 }
 
 const Polynomial& Predicates::F() {
@@ -43,7 +45,7 @@ const std::vector<OnSegment>& Predicates::segments() {
 std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
   const Polynomial& normal = N()[k];
   const Polynomial of_q = cross(p_, r_, k);
-  if (query_.kind == Kind::vertex_triangle) {
+  if (has_triangle(query_.kind)) {
     const Polynomial of_r = cross(q_, p_, k);
     return {normal - of_q - of_r, of_q, of_r};
   }
@@ -52,10 +54,13 @@ std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
 }
 
 std::vector<OnSegment> Predicates::make_segments() const {
-  const auto [x0, x1, x2, x3] = moving_points(query_, unit_);
-  if (query_.kind == Kind::vertex_triangle)
-    return {on_segment(x0, x1, x2), on_segment(x0, x2, x3), on_segment(x0, x3, x1)};
-  return {on_segment(x0, x2, x3), on_segment(x1, x2, x3), on_segment(x2, x0, x1), on_segment(x3, x0, x1)};
+  const auto x = moving_points(query_, unit_);
+  const Topology& of = topology(query_.kind);
+  std::vector<OnSegment> segments;
+  for (const auto& pairs : {of.first_to_second, of.second_to_first})
+    for (const VertexAndEdge& pair : pairs)
+      segments.push_back(on_segment(x[pair.vertex], x[pair.from], x[pair.to]));
+  return segments;
 }
 
 }  // namespace nearmiss::exact

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/exact/moving.hpp"
 
 namespace nearmiss::exact {

@@ -41,7 +41,7 @@ class BatchFilter {
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
   using OfBatch = std::array<double, batch_size + n>;  ///< a number of each query
-  static constexpr std::size_t weight_count = kind == Kind::vertex_triangle ? 3 : 4;
+  static constexpr std::size_t weight_count = has_triangle(kind) ? 3 : 4;
 
   /// A list of indices of queries, taken n at a time.
   class Rows {
@@ -189,8 +189,7 @@ class BatchFilter {
       const Vec<Real> x32{x31[0] - x21[0], x31[1] - x21[1], x31[2] - x21[2]};
       Vec<Real> normal;
       for (std::size_t k = 0; k < 3; ++k)
-        normal[k] =
-            abs(kind == Kind::vertex_triangle ? cross_component(x21, x31, k) : cross_component(a, x32, k));
+        normal[k] = abs(has_triangle(kind) ? cross_component(x21, x31, k) : cross_component(a, x32, k));
       const Mask first = !(normal[0] < max(normal[1], normal[2]));
       const Mask second = !(normal[1] < normal[2]);
       // Moves component k to the place of component 0, and the other two, which are the only ones needed,
@@ -317,8 +316,7 @@ class BatchFilter {
 template <int n>
 void filter_batch(const QueryRows& queries, double caution, FilterStage* stages, const QueryRows& ahead) {
   std::fill_n(stages, queries.size(), FilterStage::undecided);
-  BatchFilter<n, Kind::vertex_triangle>(queries, caution, ahead).run(stages);
-  BatchFilter<n, Kind::edge_edge>(queries, caution, ahead).run(stages);
+  for_each_kind([&]<Kind kind>() { BatchFilter<n, kind>(queries, caution, ahead).run(stages); });
 }
 
 }  // namespace nearmiss::certified

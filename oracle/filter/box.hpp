@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

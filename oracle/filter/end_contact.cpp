@@ -33,7 +33,7 @@ bool touch_at_end(const Query& query, int time) {
   }
   if (CGAL::orientation(x[0], x[1], x[2], x[3]) != CGAL::COPLANAR) return false;
   for (int k = 0; k < 3; ++k) {
-    if (query.kind == Kind::vertex_triangle) {
+    if (has_triangle(query.kind)) {
       const int side = orientation(x, 1, 2, 3, k);
       if (side == 0) continue;
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&

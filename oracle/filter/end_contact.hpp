@@ -1,7 +1,7 @@
 // Contact at t = 0 or t = 1, by exact predicates.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss::certified {
 

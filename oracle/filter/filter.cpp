@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/filter/box.hpp"
 #include "oracle/filter/end_contact.hpp"
 #include "oracle/filter/instruction_sets.hpp"
@@ -82,8 +82,7 @@ FilterStage filter(const Query& query) {
   const PlainArithmetic guard;
   if (!is_finite(query)) return FilterStage::undecided;
   const auto x = coordinates(query);
-  if (query.kind == Kind::vertex_triangle ? separated_by_a_plane<Kind::vertex_triangle>(x)
-                                          : separated_by_a_plane<Kind::edge_edge>(x))
+  if (with_kind(query.kind, [&]<Kind kind>() { return separated_by_a_plane<kind>(x); }))
     return FilterStage::planes;
   StepPart<double> whole{
       0, 1, difference<double>(x, 1, 0), difference<double>(x, 2, 0), difference<double>(x, 3, 0), {}, {}};

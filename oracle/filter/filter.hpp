@@ -7,9 +7,9 @@
 #include <span>
 #include <string_view>
 
-#include "ccd/instructions.hpp"
-#include "ccd/query.hpp"
-#include "ccd/query_rows.hpp"
+#include "ccd/query/instructions.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/query/query_rows.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 
 namespace nearmiss {
@@ -58,8 +58,8 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
   filter(QueryRows(queries), stages, instructions);
 }
 
-/// The same with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries
-/// that it decides are not near their bounds.
+/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries that it decides
+/// are not near their bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

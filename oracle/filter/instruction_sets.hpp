@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "ccd/query_rows.hpp"
+#include "ccd/query/query_rows.hpp"
 #include "oracle/filter/filter.hpp"
 
 namespace nearmiss::certified {

@@ -1,7 +1,7 @@
 // Lanes as a number type of bounds.
 #pragma once
 
-#include "ccd/lanes.hpp"
+#include "ccd/query/lanes.hpp"
 #include "oracle/arithmetic/bernstein.hpp"
 
 namespace nearmiss {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/bernstein.hpp"
 
 namespace nearmiss::certified {
@@ -16,17 +16,11 @@ struct HeightRange {
   Real lo, hi;
 
   explicit HeightRange(const Real& x) : lo(x), hi(x) {}
-  HeightRange(const Real& x, const Real& y) : lo(lesser(x, y)), hi(greater(x, y)) {}
-  HeightRange(const HeightRange& a, const Real& x) : lo(lesser(a.lo, x)), hi(greater(a.hi, x)) {}
-
- private:
-  static Real lesser(const Real& x, const Real& y) {
-    using std::min;
-    return min(x, y);
-  }
-  static Real greater(const Real& x, const Real& y) {
+  void add(const Real& x) {
     using std::max;
-    return max(x, y);
+    using std::min;
+    lo = min(lo, x);
+    hi = max(hi, x);
   }
 };
 
@@ -38,19 +32,15 @@ struct HeightRange {
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
-  const auto first = [&](std::size_t time) {
-    if constexpr (kind == Kind::vertex_triangle)
-      return HeightRange<Real>(height(time, 0));
-    else
-      return HeightRange<Real>(height(time, 0), height(time, 1));
+  // Of the vertices from `begin` to `end`.
+  const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
+    HeightRange<Real> heights(height(time, begin));
+    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) heights.add(height(time, vertex));
+    return heights;
   };
-  const auto second = [&](std::size_t time) {
-    const HeightRange<Real> edge(height(time, 2), height(time, 3));
-    if constexpr (kind == Kind::vertex_triangle)
-      return HeightRange<Real>(edge, height(time, 1));
-    else
-      return edge;
-  };
+  constexpr std::size_t middle = split(kind);
+  const auto first = [&](std::size_t time) { return range(time, 0, middle); };
+  const auto second = [&](std::size_t time) { return range(time, middle, 4); };
   const auto a0 = first(0);
   const auto a1 = first(1);
   const auto b0 = second(0);
@@ -79,7 +69,7 @@ template <Kind kind, class Points, class Above = IsAbove>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// The same for the diagonals x ± y, y ± z, z ± x. Their heights are sums or differences of two coordinates,
+/// Whether a plane across a diagonal x ± y, y ± z or z ± x separates the primitives likewise. Heights along it are sums or differences of two coordinates,
 /// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An
 /// overflowing sum is infinite; it is above every finite sum, as the exact sum is, and not above another
 /// infinite sum of its sign.
@@ -108,8 +98,8 @@ inline constexpr double root_of_two = 1.4142136;  ///< rounded up by a relative 
 inline constexpr double height_rounding =
     0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
 
-/// The same for heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has length
-/// √2, so heights of points at a distance of at most h differ by at most √2 h.
+/// For a separation h, and heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has
+/// length √2, so heights of points at a distance of at most h differ by at most √2 h.
 ///
 /// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact. D = fl(A - B) is
 /// at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact heights differ by at least

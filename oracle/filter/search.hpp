@@ -166,7 +166,7 @@ class ContactSearch {
     }
   }
 
-  /// The same if `found_` is known. What comes later does not matter.
+  /// The stage that decides if `found_` is known. What comes later does not matter.
   FilterStage look_before(const Enclosure& near, const Enclosure& interval) {
     if (asked_ == Asked::whether || interval.lo == near.lo || F_.sign_on(interval.lo, near.lo) != 0)
       return FilterStage::sign_change;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/arithmetic/vectors.hpp"
 
@@ -228,9 +228,9 @@ struct Weights {
   std::array<Bernstein<Real, 3>, 4> w;
   std::size_t count;
 
-  Weights(Kind kind, const StepPart<Real>& p, std::size_t k) : count(kind == Kind::vertex_triangle ? 3 : 4) {
+  Weights(Kind kind, const StepPart<Real>& p, std::size_t k) : count(has_triangle(kind) ? 3 : 4) {
     w[0] = cross_component(p.b, p.c, k);
-    if (kind == Kind::vertex_triangle) {
+    if (has_triangle(kind)) {
       w[1] = cross_component(p.c, p.a, k);
       w[2] = cross_component(p.a, p.b, k);
     } else {
@@ -244,7 +244,7 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// The same on [t - h, t + h].
+  /// 1, -1 or 0 likewise for [t - h, t + h].
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }
@@ -274,9 +274,9 @@ std::size_t largest_component(Kind kind, const StepPart<Real>& p, double t) {
     for (std::size_t k = 0; k < 3; ++k) v[k] = (1 - t) * approximate(m.start[k]) + t * approximate(m.end[k]);
     return v;
   };
-  const Vec<double> q = kind == Kind::vertex_triangle ? near(p.x21) : near(p.a);
+  const Vec<double> q = has_triangle(kind) ? near(p.x21) : near(p.a);
   Vec<double> r = near(p.x31);
-  if (kind == Kind::edge_edge) {
+  if (!has_triangle(kind)) {
     const Vec<double> x21 = near(p.x21);
     for (std::size_t k = 0; k < 3; ++k) r[k] -= x21[k];
   }

@@ -4,8 +4,8 @@
 #ifndef NEARMISS_H
 #define NEARMISS_H
 
-#include "ccd/interface/queries.h"
-#include "ccd/interface/wang.h"
+#include "ccd/query/queries.h"
+#include "ccd/wang/wang.h"
 #include "oracle/interface/oracle.h"
 
 #endif

@@ -16,7 +16,7 @@
 #include <limits>
 #include <span>
 
-#include "ccd/kind.hpp"
+#include "ccd/query/kind.hpp"
 #include "oracle/interface/nearmiss.h"
 
 /// The C++ interface, and the header-only CCD.

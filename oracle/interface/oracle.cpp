@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ccd/interface/gather.hpp"
+#include "ccd/query/gather.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 

@@ -12,7 +12,7 @@
 #ifndef NEARMISS_ORACLE_H
 #define NEARMISS_ORACLE_H
 
-#include "ccd/interface/queries.h"
+#include "ccd/query/queries.h"
 
 #ifdef __cplusplus
 extern "C" {

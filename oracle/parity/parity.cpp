@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 
 namespace nearmiss {
 
@@ -237,7 +237,7 @@ Gmpz scaled(double coordinate, int exponent) {
   return integer;
 }
 
-IntegerVector difference(const Query& query, int i, int j, int time, const Scale& scale) {
+IntegerVector difference(const Query& query, int i, int j, std::size_t time, const Scale& scale) {
   const auto p = time == 0 ? query.start(i) : query.end(i);
   const auto q = time == 0 ? query.start(j) : query.end(j);
   const auto along = [&](int k) {
@@ -247,37 +247,27 @@ IntegerVector difference(const Query& query, int i, int j, int time, const Scale
   return {along(0), along(1), along(2)};
 }
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// The images of the faces. A triangle is a patch with a side of length 0.
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>
       differences;  // between vertices of the two primitives
-  for (int i = 0; i < split(query.kind); ++i)
-    for (int j = split(query.kind); j < 4; ++j)
-      for (const int time : {0, 1})
-        differences[index(i)][index(j)][index(time)] = difference(query, i, j, time, scale);
-  const auto f = [&](int i, int j, int time) { return differences[index(i)][index(j)][index(time)]; };
+  const Topology& of = topology(query.kind);
+  for (const auto& [i, j] : of.gaps)
+    for (const std::size_t time : {0U, 1U}) differences[i][j][time] = difference(query, i, j, time, scale);
+  const auto f = [&](std::size_t i, std::size_t j, std::size_t time) { return differences[i][j][time]; };
   std::vector<BilinearPatch> faces;
-  const auto add_side = [&](int i, int j, int k,
-                            int l) {  // the difference x_i - x_j moves to x_k - x_l along the side
-    faces.push_back({f(i, j, 0), f(k, l, 0), f(i, j, 1), f(k, l, 1)});
-  };
-  if (query.kind == Kind::vertex_triangle) {
-    for (const int time : {0, 1})
+  for (const std::size_t time : {0U, 1U}) {
+    if (has_triangle(query.kind))
       faces.push_back({f(0, 1, time), f(0, 2, time), f(0, 1, time), f(0, 3, time)});
-    add_side(0, 1, 0, 2);
-    add_side(0, 2, 0, 3);
-    add_side(0, 3, 0, 1);
-  } else {
-    for (const int time : {0, 1})
+    else
       faces.push_back({f(0, 2, time), f(1, 2, time), f(0, 3, time), f(1, 3, time)});
-    add_side(0, 2, 1, 2);
-    add_side(0, 3, 1, 3);
-    add_side(0, 2, 0, 3);
-    add_side(1, 2, 1, 3);
   }
+  // Along a side, one difference of vertices moves to another one.
+  for (const auto& [vertex, from, to] : of.first_to_second)
+    faces.push_back({f(vertex, from, 0), f(vertex, to, 0), f(vertex, from, 1), f(vertex, to, 1)});
+  for (const auto& [vertex, from, to] : of.second_to_first)
+    faces.push_back({f(from, vertex, 0), f(to, vertex, 0), f(from, vertex, 1), f(to, vertex, 1)});
   return faces;
 }
 

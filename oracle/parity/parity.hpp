@@ -1,7 +1,7 @@
 // The third exact method: the root parity of Brochu and Bridson, in exact arithmetic.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

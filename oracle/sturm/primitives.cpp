@@ -80,9 +80,10 @@ Primitives::Primitives(const Query& query) : kind_(query.kind) {
   const auto exponents = exponents_of_units(query);
   for (int i = 0; i < 4; ++i) x_[static_cast<std::size_t>(i)] = moving_point(query, i, exponents);
   separation_ = in_units(query.separation, exponents[0]);
-  const auto& [x0, x1, x2, x3] = x_;
-  N_ = is_vertex_triangle() ? cross(x2 - x1, x3 - x1) : cross(x1 - x0, x3 - x2);
-  F_ = dot(is_vertex_triangle() ? x0 - x1 : x2 - x0, N_);
+  const auto difference = [&](VertexPair pair) { return x_[pair.to] - x_[pair.from]; };
+  const auto& [p, q, r] = topology(kind_).pqr;
+  N_ = cross(difference(q), difference(r));
+  F_ = dot(difference(p), N_);
 }
 
 const IntegerPolynomial& Primitives::area() {
@@ -102,7 +103,7 @@ const std::vector<SegmentMembership>& Primitives::segments() {
 
 std::vector<IntegerPolynomial> Primitives::make_weights() {
   const auto& [x0, x1, x2, x3] = x_;
-  if (is_vertex_triangle())
+  if (has_triangle(kind_))
     return {dot(cross(x2 - x0, x3 - x0), N_), dot(cross(x3 - x0, x1 - x0), N_),
             dot(cross(x1 - x0, x2 - x0), N_)};
   const IntegerPolynomial alpha = dot(cross(x2 - x0, x3 - x2), N_);
@@ -111,9 +112,12 @@ std::vector<IntegerPolynomial> Primitives::make_weights() {
 }
 
 std::vector<SegmentMembership> Primitives::make_segments() const {
-  const auto& [x0, x1, x2, x3] = x_;
-  if (is_vertex_triangle()) return {{x0, x1, x2}, {x0, x2, x3}, {x0, x3, x1}};
-  return {{x0, x2, x3}, {x1, x2, x3}, {x2, x0, x1}, {x3, x0, x1}};
+  const Topology& of = topology(kind_);
+  std::vector<SegmentMembership> segments;
+  for (const auto& pairs : {of.first_to_second, of.second_to_first})
+    for (const VertexAndEdge& pair : pairs)
+      segments.emplace_back(x_[pair.vertex], x_[pair.from], x_[pair.to]);
+  return segments;
 }
 
 Dyadic to_dyadic(double time) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/sturm/integer_polynomial.hpp"
 
 namespace nearmiss::sturm {
@@ -50,7 +50,6 @@ class Primitives {
   const std::vector<SegmentMembership>& segments();
 
  private:
-  [[nodiscard]] bool is_vertex_triangle() const { return kind_ == Kind::vertex_triangle; }
   [[nodiscard]] std::vector<IntegerPolynomial> make_weights();
   [[nodiscard]] std::vector<SegmentMembership> make_segments() const;
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/sturm/primitives.hpp"
 #include "oracle/sturm/root.hpp"
 
@@ -112,18 +112,10 @@ class FeaturePairs {
   explicit FeaturePairs(const Query& query) : primitives_(query) {
     const Integer& h = primitives_.separation();
     squared_separation_ = IntegerPolynomial({h * h});
-    if (query.kind == Kind::vertex_triangle) {
-      for (std::size_t i = 1; i < 4; ++i) {
-        add_vertices(0, i);
-        add_vertex_and_edge(0, i, i % 3 + 1);
-      }
-    } else {
-      for (std::size_t i = 0; i < 2; ++i) {
-        for (std::size_t j = 2; j < 4; ++j) add_vertices(i, j);
-        add_vertex_and_edge(i, 2, 3);
-        add_vertex_and_edge(i + 2, 0, 1);
-      }
-    }
+    const Topology& of = topology(query.kind);
+    for (const VertexPair gap : of.gaps) add_vertices(gap.from, gap.to);
+    for (const auto& pairs : {of.first_to_second, of.second_to_first})
+      for (const VertexAndEdge& pair : pairs) add_vertex_and_edge(pair.vertex, pair.from, pair.to);
     const IntegerPolynomial& area = primitives_.area();
     all.emplace_back(primitives_.F() * primitives_.F() - squared_separation_ * area, primitives_.weights(),
                      area);

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/sturm/primitives.hpp"
 #include "oracle/sturm/root.hpp"
 

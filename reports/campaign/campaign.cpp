@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "reports/text/text.hpp"
 

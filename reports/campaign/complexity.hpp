@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -9,7 +9,7 @@
 
 namespace nearmiss {
 
-/// The same failure of the shrunk query. It has no ratio, which belongs to the original query.
+/// The finding with its shrunk query in place of the original one. It has no ratio, which belongs to the original query.
 Finding of_shrunk(const Finding& finding);
 
 /// The case of a finding, with its truth if the finding implies one.

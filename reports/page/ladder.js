@@ -33,9 +33,9 @@ function drawLadder() {
   element("ladder-fits").textContent = fits.filter((fit) => fit.origin === "").map(fitText).join(" ") + " The paper predicts a power of ¼.";
   drawFits(fits.filter((fit) => fit.origin !== ""));
   fillTable(element("ladder"), [
-    text("subject", "subject"), { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) }, count("queries", "queries"),
-    count("collisions", "collisions"), count("missed", "false_negatives", true), count("false positives", "false_positives"),
-    number("farthest / B", "farthest"), number("claimed / B", "claimed"), count("beyond", "refuted_bounds", true), number("ns / query", "ns_per_query"),
+    measures.subject, { title: "ε", number: (r) => r.epsilon, text: (r) => power(r.epsilon) },
+    ...columnsOf("queries", "collisions", "false_negatives", "false_positives"), number("farthest / B", "farthest"), number("claimed / B", "claimed"),
+    ...columnsOf("refuted_bounds", "ns_per_query"),
   ], rungs, true);
   const hue = algorithmColor([...new Set(rungs.map((r) => r.algorithm))]);
   const x = { field: "epsilon", type: "quantitative", title: "machine epsilon ε", scale: { type: "log" }, axis: { format: ".0e", tickCount: 8 } };

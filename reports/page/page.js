@@ -38,8 +38,8 @@ function drawChangedTimes({ changed_times: times, compared_times: compared, camp
   if (times.length === 0) return undefined;
   const ns = (title, field) => ({ title, number: (r) => r[field], text: (r) => short(r[field]) });
   return fillTable(element("changed-times"), [
-    { title: "run time", text: (r) => (r.slower ? "slower" : "faster"), bad: (r) => r.slower }, text("subject", "subject"), text("kind", "kind"),
-    text("family", "family"), ns("ns before", "before_ns"), ns("ns expected", "expected_ns"), ns("ns now", "now_ns"), ns("now / expected", "ratio"),
+    { title: "run time", text: (r) => (r.slower ? "slower" : "faster"), bad: (r) => r.slower },
+    ...columnsOf("subject", "kind", "family"), ns("ns before", "before_ns"), ns("ns expected", "expected_ns"), ns("ns now", "now_ns"), ns("now / expected", "ratio"),
     { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
   ], times);
 }
@@ -79,8 +79,8 @@ function drawBaseline() {
     text: (r) => `${percent(r[when].rate)} (${percentRange(r[when].interval_95)}), ${integer(r[when].count)} of ${integer(r[when].total)}` });
   if (baseline.changed_rates.length > 0)
     fillTable(element("changed-rates"), [
-      { title: "rate", text: (r) => r.what, bad: (r) => r.worse }, text("subject", "subject"), text("kind", "kind"),
-      text("family", "family"), rate("before", "before"), rate("now", "now"),
+      { title: "rate", text: (r) => r.what, bad: (r) => r.worse },
+      ...columnsOf("subject", "kind", "family"), rate("before", "before"), rate("now", "now"),
       { title: "p", number: (r) => r.p, text: (r) => r.p.toExponential(1) },
     ], baseline.changed_rates);
   drawChangedTimes(baseline);
@@ -88,7 +88,7 @@ function drawBaseline() {
     text: (r) => `${form(r.before[field], r.before)} → ${form(r.now[field], r.now)}` });
   const marked = (x, counts) => fraction(x) + unitMark(counts);
   fillTable(element("before-and-now"), [
-    text("subject", "subject"), text("kind", "kind"), pair("queries", "queries"), pair("false negatives", "false_negatives"),
+    ...columnsOf("subject", "kind"), pair("queries", "queries"), pair("false negatives", "false_negatives"),
     pair("false positives", "false_positive_rate", percent), pair("largest distance / bound", "max_fp_distance_over_bound", marked),
     pair("ns / query", "ns_per_query"),
   ], baseline.subjects.filter(({ before }) => before));
@@ -139,18 +139,17 @@ function drawCounts() {
   show("counts-section");
   const largest = { ...number("largest dist.", "max_fp_distance_over_bound"), text: (r) => fraction(r.max_fp_distance_over_bound) + unitMark(r) };
   const columns = [
-    text("subject", "subject"), text("kind", "kind"), ...(byClass ? [text("class", "class")] : []), ...(byFamily ? [text("family", "family")] : []),
-    count("queries", "queries"), count("collisions", "collisions"), count("missed", "false_negatives", true),
+    ...columnsOf("subject", "kind", ...(byClass ? ["class"] : []), ...(byFamily ? ["family"] : []), "queries", "collisions", "false_negatives"),
     { title: "rate of misses below", number: (r) => r.false_negative_rate_upper_95 ?? -1,
       text: (r) => (r.false_negative_rate_upper_95 === null ? "–" : percent(r.false_negative_rate_upper_95)) },
-    count("false positives", "false_positives"),
+    measures.false_positives,
     { title: "rate (95 %)", number: (r) => r.false_positive_rate,
       text: (r) => percent(r.false_positive_rate) +
         (r.false_positive_rate_interval_95 === null ? "" : ` (${percentRange(r.false_positive_rate_interval_95)})`) },
-    range("median dist.", "median_fp_distance_over_bound"), range("99 % dist.", "q99_fp_distance_over_bound"),
+    ...columnsOf("median_fp_distance_over_bound", "q99_fp_distance_over_bound"),
     { ...largest, text: (r) => { const far = farthestOf(r); return far ? made("a", largest.text(r), { href: far.file }) : "–"; } },
-    count("beyond", "refuted_bounds", true), ...(rows.some((r) => r.times_promised > 0) ? [lateTimes] : []),
-    ...(rows.some(faults) ? [noAnswer] : []), number("ns / query", "ns_per_query"), timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
+    measures.refuted_bounds, ...(rows.some((r) => r.times_promised > 0) ? [lateTimes] : []),
+    ...(rows.some(faults) ? [noAnswer] : []), measures.ns_per_query, timing("mean ns", "mean_ns"), timing("median below", "median_ns"), timing("99 % below", "q99_ns"),
     { title: "timed singly", number: (r) => r.times.sampled, text: (r) => integer(r.times.sampled) },
   ];
   fillTable(element("counts"), columns, rows, true);
@@ -165,7 +164,7 @@ function drawSlowest() {
   if (rows.length === 0) return;
   show("slowest-section");
   fillTable(element("slowest"), [
-    text("subject", "subject"), text("kind", "kind"), count("ns", "ns"), text("from", "provenance"),
+    ...columnsOf("subject", "kind"), count("ns", "ns"), text("from", "provenance"),
     { title: "query", text: (r) => copyButton(r.query) },
   ], rows, true);
 }
@@ -181,9 +180,9 @@ function drawDeciders() {
   const over = (name) => (rows.some((r) => r.time_over[name])
     ? [{ title: `/ ${name}`, number: (r) => r.time_over[name] ?? -1, text: (r) => short(r.time_over[name]) }] : []);
   fillTable(element("deciders"), [
-    text("subject", "subject"), { title: "family", text: (r) => r.family || "all" }, count("queries", "queries"),
+    measures.subject, { title: "family", text: (r) => r.family || "all" }, measures.queries,
     share("its algorithm", "algorithm"), share("certified filter", "filter"), share("finer scalar", "finer"),
-    share("exact arithmetic", "exact"), number("ns / query", "ns_per_query"), ...over("wang"), ...over("exact"),
+    share("exact arithmetic", "exact"), measures.ns_per_query, ...over("wang"), ...over("exact"),
   ], rows, true);
 }
 
@@ -202,7 +201,7 @@ function drawOracle() {
   const stages = Object.keys(report.oracle.total.decided_by);
   const nearBounds = rows.some((row) => row.near_bounds > 0) ? [count("near bounds", "near_bounds")] : [];
   fillTable(element("oracle"), [
-    text("kind", "kind"), ...(byFamily ? [text("family", "family")] : []), count("queries", "queries"), count("collisions", "collisions"),
+    ...columnsOf("kind", ...(byFamily ? ["family"] : []), "queries", "collisions"),
     ...stages.map((stage) => count(stage, stage)), ...nearBounds, count("by all methods", "compared"),
     count("collisions among them", "compared_collisions"), count("with even roots", "missed_by_parity"),
   ], rows);
@@ -230,8 +229,8 @@ function drawEnvironments() {
   show("environments-section");
   fillTable(element("environments"), [
     text("CCD", "subject"), text("compiler", "compiler"), text("flags", "flags"), text("mode", "mode"),
-    count("queries", "queries"), count("collisions", "collisions"), count("missed", "missed", true),
-    count("false positives", "false_positives"), count("beyond", "refuted_bounds", true), count("no answer", "faults", true),
+    ...columnsOf("queries", "collisions"), count("missed", "missed", true), ...columnsOf("false_positives", "refuted_bounds"),
+    count("no answer", "faults", true),
     { ...text("guarantee", "verdict"), bad: (r) => r.missed + r.faults > 0 },
     { title: "first failure", text: (r) => r.first ?? "" },
   ], report.environments, true);
@@ -246,7 +245,7 @@ function drawTightness() {
   fillTable(element("tightness"), [
     text("tolerance or tests", "name"), { title: "value", text: (r) => meanings[r.of] },
     { title: "value", number: (r) => r.value ?? 0, text: (r) => (r.value === null ? "none found" : short(r.value)) },
-    count("queries", "queries"), { title: "from", text: (r) => r.provenance ?? "" },
+    measures.queries, { title: "from", text: (r) => r.provenance ?? "" },
   ], rows);
 }
 

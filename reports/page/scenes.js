@@ -44,15 +44,15 @@ function drawScenes() {
   const steps = byStep ? [count("step", "step")] : [];
   const share = (title, field, whole) => ({ title, number: (r) => r[field], text: (r) => `${integer(r[field])} (${percent(r[whole] ? r[field] / r[whole] : 0)})` });
   fillTable(element("scenes"), [
-    text("scene", "scene"), ...steps, text("kind", "kind"), count("all pairs", "all"), share("boxes apart", "boxes_apart", "all"),
+    text("scene", "scene"), ...steps, measures.kind, count("all pairs", "all"), share("boxes apart", "boxes_apart", "all"),
     share("share a vertex", "share_vertex", "all"), share("at rest", "at_rest", "all"), share("in translation", "in_translation", "all"),
     count("static collisions", "touching"), share("asked", "asked", "all"),
     { title: "search time", number: (r) => r.finding_ns, text: (r) => duration(1e-9 * r.finding_ns) },
   ], summed(all, by), true);
   const asked = summed(askedRows(), byStep ? ["scene", "step", "subject"] : ["scene", "subject"]);
   fillTable(element("scene-subjects"), [
-    text("scene", "scene"), ...steps, text("subject", "subject"), count("asked", "queries"), count("collisions", "collisions"),
-    count("missed", "false_negatives", true), count("false positives", "false_positives"),
+    text("scene", "scene"), ...steps, measures.subject, count("asked", "queries"),
+    ...columnsOf("collisions", "false_negatives", "false_positives"),
     { title: "rate", number: falsePositiveRate, text: (r) => percent(falsePositiveRate(r)) },
     { title: "farthest", number: (r) => r.farthest, text: (r) => fraction(r.farthest) + markOf(r.subject) },
     { title: "ns / query", number: (r) => r.time / r.queries, text: (r) => short(r.time / r.queries) },

@@ -146,8 +146,8 @@ function drawScorecard() {
 function drawVersions() {
   if (!report.versions) return;
   show("versions-section");
-  fillTable(element("versions"), [text("version", "after"), text("against", "before"), text("class", "class"), text("kind", "kind"),
-    count("fixed", "fixed"), count("broken", "broken", true), count("both fail", "both"), count("neither fails", "neither"), count("queries", "queries")],
+  fillTable(element("versions"), [text("version", "after"), text("against", "before"), ...columnsOf("class", "kind"),
+    count("fixed", "fixed"), count("broken", "broken", true), count("both fail", "both"), count("neither fails", "neither"), measures.queries],
   report.versions);
   const pairs = new Map(report.versions.map(({ before, after }) => [`${after} ${before}`, { before, after }]));
   for (const { before, after } of pairs.values()) {

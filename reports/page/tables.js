@@ -103,6 +103,16 @@ const count = (title, field, bad) => ({
 const number = (title, field) => ({ title, number: (r) => r[field] ?? -1, text: (r) => short(r[field]) });
 const text = (title, field) => ({ title, text: (r) => r[field] });
 
+/** The columns of keys and measures, by their names in report.json. */
+const measures = {
+  ...Object.fromEntries(["subject", "kind", "class", "family"].map((key) => [key, text(key, key)])),
+  queries: count("queries", "queries"), collisions: count("collisions", "collisions"), false_negatives: count("missed", "false_negatives", true),
+  false_positives: count("false positives", "false_positives"), refuted_bounds: count("beyond", "refuted_bounds", true),
+  median_fp_distance_over_bound: range("median dist.", "median_fp_distance_over_bound"), q99_fp_distance_over_bound: range("99 % dist.", "q99_fp_distance_over_bound"),
+  times_given: count("times", "times_given"), stuck: count("stuck", "stuck"), unknown: count("unknown", "unknown"), ns_per_query: number("ns / query", "ns_per_query"),
+};
+const columnsOf = (...keys) => keys.map((key) => measures[key]);
+
 /** A button that copies text. */
 function copyButton(content, title = "copy") {
   const button = made("button", title, { type: "button", class: "copy" });

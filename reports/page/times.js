@@ -71,9 +71,9 @@ function drawTimes() {
   const upperEnd = (title, field) => ifGiven({ title, number: (r) => r[field][1], text: (r) => short(r[field][1]) });
   const invalid = (r) => r.faults.invalid ?? 0;
   fillTable(element("times"), [
-    text("subject", "subject"), text("kind", "kind"), text("class", "class"), ...(byFamily ? [text("family", "family")] : []),
-    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, count("times", "times_given"), lateTimes, count("stuck", "stuck"),
-    { title: "invalid", number: invalid, text: (r) => integer(invalid(r)), bad: (r) => invalid(r) > 0 }, count("unknown", "unknown"),
+    ...columnsOf("subject", "kind", "class", ...(byFamily ? ["family"] : [])),
+    { title: "sort", text: (r) => sortsOfTime[r.time_sort] ?? "–" }, measures.times_given, lateTimes, measures.stuck,
+    { title: "invalid", number: invalid, text: (r) => integer(invalid(r)), bad: (r) => invalid(r) > 0 }, measures.unknown,
     upperEnd("early: median", "median_early"), upperEnd("99 %", "q99_early"), ifGiven(number("most", "max_early")),
     ifGiven(number("after t*", "max_after")), upperEnd("travelled / B", "q99_travelled"),
   ], rows, true);

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {

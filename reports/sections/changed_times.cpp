@@ -29,9 +29,7 @@ constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
 
 /// The key under which a subject as a whole is compared.
-CountsKey whole(const std::string& subject) {
-  return {subject, Kind::vertex_triangle, std::string(ChangedTime::all_families)};
-}
+CountsKey whole(const std::string& subject) { return {subject, {}, std::string(ChangedTime::all_families)}; }
 
 bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_families; }
 

@@ -2,11 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "corpus/query_text.hpp"
-#include "reports/statistics/confidence.hpp"
 
 namespace nearmiss {
 
@@ -74,66 +72,36 @@ void add_counters(ordered_json& json, const Owner& owner) {
   for_each_counter<Owner>([&](const auto& counter) { add_counter(json, owner, counter); });
 }
 
-/// The 95 % confidence interval of a rate; null unless the queries are a random sample.
-ordered_json interval_json(std::uint64_t count, std::uint64_t total, bool is_sample) {
-  if (!is_sample) return nullptr;
-  const ConfidenceInterval interval = clopper_pearson(count, total);
-  return ordered_json::array({interval.lo, interval.hi});
-}
-
-/// Adds the rates that are computed from this counter.
-void add_computed(ordered_json& json, const Counts& counts, std::uint64_t Counts::*counter, bool is_sample) {
-  if (counter == &Counts::false_negatives) {
-    json["false_negative_rate"] = counts.false_negative_rate();
-    json["false_negative_rate_upper_95"] = nullptr;
-    if (is_sample)
-      json["false_negative_rate_upper_95"] = clopper_pearson_upper(counts.false_negatives, counts.collisions);
-    json["false_negative_rate_interval_95"] =
-        interval_json(counts.false_negatives, counts.collisions, is_sample);
+/// A measure's value: null if there is none, and both ends of a range.
+struct AsJson {
+  ordered_json operator()(std::monostate /*nothing*/) const { return nullptr; }
+  ordered_json operator()(const Bin& range) const { return ordered_json::array({range.from, range.to}); }
+  template <class Simple>
+  ordered_json operator()(const Simple& value) const {
+    return value;
   }
-  if (counter == &Counts::false_positives) {
-    json["false_positive_rate"] = counts.false_positive_rate();
-    json["false_positive_rate_interval_95"] =
-        interval_json(counts.false_positives, counts.others(), is_sample);
-  }
-}
+};
 
-template <class Declared>
-constexpr bool stands_with_rates(const Declared& counter) {
-  if constexpr (requires { counter.shown; }) return counter.shown == Shown::with_rates;
-  return false;
+void add_measure(ordered_json& json, const Measure& shown, const CountsSum& sum) {
+  json[std::string(shown.key)] = std::visit(AsJson(), shown.value(sum));
 }
 
 }  // namespace
 
-ordered_json rates_json(const Counts& counts, bool is_sample) {
+void add_measures(ordered_json& json, const MeasureKeys& measures, const CountsSum& sum) {
+  for (const std::string_view key : measures) add_measure(json, measure(key), sum);
+}
+
+ordered_json rates_json(const CountsSum& sum) {
   ordered_json json;
-  for_each_counter<Counts>([&](const auto& counter) {
-    if (!stands_with_rates(counter)) return;
-    add_counter(json, counts, counter);
-    if constexpr (std::is_same_v<decltype(counter.member), std::uint64_t Counts::*>)
-      add_computed(json, counts, counter.member, is_sample);
-  });
-  const auto range = [](const Bin& bin) { return ordered_json{bin.from, bin.to}; };
-  json["median_fp_distance_over_bound"] = range(counts.ratio_quantile(0.5));
-  json["q99_fp_distance_over_bound"] = range(counts.ratio_quantile(0.99));
-  json["max_fp_distance_over_bound"] = counts.max_ratio();
-  json["bound_of_distances"] = name(counts.distance_unit());
-  json["unknown"] = counts.unknown();
-  json["time_sort"] = name(counts.time_sort());
-  json["median_early"] = range(counts.early_quantile(0.5));
-  json["q99_early"] = range(counts.early_quantile(0.99));
-  json["max_early"] = counts.max_early();
-  json["max_after"] = counts.max_after();
-  json["q99_travelled"] = range(counts.travelled.quantile(0.99));
-  json["ns_per_query"] = or_null(counts.times.ns_per_query());
+  for (const Measure& each : rate_measures()) add_measure(json, each, sum);
   return json;
 }
 
-ordered_json counts_json(const Counts& counts, bool is_sample) {
-  ordered_json json = rates_json(counts, is_sample);
+ordered_json counts_json(const CountsSum& sum) {
+  ordered_json json = rates_json(sum);
   for_each_counter<Counts>([&](const auto& counter) {
-    if (!stands_with_rates(counter)) add_counter(json, counts, counter);
+    if (!json.contains(std::string(counter.json_key))) add_counter(json, sum.counts, counter);
   });
   return json;
 }

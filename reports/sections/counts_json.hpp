@@ -1,22 +1,24 @@
-// Counters as JSON.
+// Counters and measures as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "reports/statistics/statistics.hpp"
+#include "reports/sections/measures.hpp"
 
 namespace nearmiss {
 
 /// A number, or null if there is none.
 nlohmann::ordered_json or_null(const std::optional<double>& number);
 
-/// The counters that are Shown::with_rates, the rates with their confidence bounds, how far away false positives are,
-/// whose bound that is a fraction of, and the time per query. Confidence bounds are null unless all queries are random.
-nlohmann::ordered_json rates_json(const Counts& counts, bool is_sample);
+/// Adds measures of a sum under their keys.
+void add_measures(nlohmann::ordered_json& json, const MeasureKeys& measures, const CountsSum& sum);
 
-/// rates_json, and all other counters.
-nlohmann::ordered_json counts_json(const Counts& counts, bool is_sample);
+/// The measures of every sum: rate_measures().
+nlohmann::ordered_json rates_json(const CountsSum& sum);
+
+/// rates_json, and the other counters.
+nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/funnel_table.hpp"
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/sums.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
@@ -59,12 +59,11 @@ std::optional<double> time_over(const Statistics& statistics, const std::string&
   return ns && ns_of_other ? std::optional(*ns / *ns_of_other) : std::nullopt;
 }
 
-DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family) {
+/// A row of a subject's family, or of all its families if that is "". `sum` is over the row's queries.
+DeciderRow row(const Statistics& statistics, const std::string& subject, const std::string& family,
+               const CountsSum& sum) {
   const auto shown = [&](const CountsKey& key) { return family.empty() || row_family(key.family) == family; };
-  Counts sum;
-  for (const auto& [key, counts] : statistics.counts)
-    if (key.subject == subject && shown(key)) sum.merge(counts);
-  DeciderRow result{subject, family, deciders(sum), sum.times.ns_per_query(), {}};
+  DeciderRow result{subject, family, deciders(sum.counts), sum.counts.times.ns_per_query(), {}};
   for (const std::string reference : references)
     if (const auto ratio = time_over(statistics, subject, reference, shown))
       result.time_over[reference] = *ratio;
@@ -78,15 +77,14 @@ std::uint64_t DeciderRow::all() const {
 }
 
 std::vector<DeciderRow> decider_rows(const Statistics& statistics) {
-  std::map<std::string, std::set<std::string>> families;
-  for (const auto& each : statistics.counts)
-    families[each.first.subject].insert(row_family(each.first.family));
+  const auto by_family = sums_by(
+      statistics, [](const CountsKey& key) { return std::pair(key.subject, row_family(key.family)); });
   std::vector<DeciderRow> rows;
-  for (const auto& [subject, names] : families) {
-    DeciderRow all = row(statistics, subject, "");
-    if (!ask_others(all.queries)) continue;
-    rows.push_back(std::move(all));
-    for (const std::string& family : names) rows.push_back(row(statistics, subject, family));
+  for (const auto& [subject, all] : sums_by(statistics, &CountsKey::subject)) {
+    if (!ask_others(deciders(all.counts))) continue;
+    rows.push_back(row(statistics, subject, "", all));
+    for (const auto& [key, sum] : by_family)
+      if (key.first == subject) rows.push_back(row(statistics, subject, key.second, sum));
   }
   return rows;
 }

@@ -34,7 +34,7 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
     const auto& [step, kind] = key;
     ScenePairs& scene = scenes[scene_of(step)];
     scene.funnels[number(kind)].merge(funnel);
-    if (kind == Kind::vertex_triangle) ++scene.steps;
+    if (kind == kinds.front()) ++scene.steps;
   }
   for (const auto& [key, counts] : statistics.counts)
     if (statistics.funnels.contains({key.family, key.kind}))

@@ -12,8 +12,8 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/scalar_name.hpp"
-#include "ccd/tight_tolerances.hpp"
+#include "ccd/query/scalar_name.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/statistics/confidence.hpp"
 #include "reports/statistics/family.hpp"
@@ -64,26 +64,21 @@ LadderPlace place_of(const std::string& subject) {
   return place;
 }
 
+nlohmann::ordered_json place_json(const LadderPlace& place) {
+  return {{"algorithm", place.algorithm},
+          {"scalar", place.scalar},
+          {"epsilon", std::exp2(place.epsilon_exponent)}};
+}
+
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only) {
-  std::map<std::string, Rung> by_subject;
-  for (const auto& [key, counts] : statistics.counts) {
-    const auto [algorithm, scalar] = split_scalar(key.subject);
-    const auto exponent = epsilon_exponent_of(scalar);
-    if (!exponent || std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) continue;
-    if (key.subject.find('@') != std::string::npos) continue;  // a given B, not each pair's own
-    if (!only.empty() && origin(key.family) != only) continue;
-    Rung& rung = by_subject[key.subject];
-    rung.subject = key.subject;
-    rung.algorithm = algorithm;
-    rung.scalar = scalar.empty() ? "double" : scalar;
-    rung.epsilon_exponent = *exponent;
-    rung.sum.add(key.family, counts);
-  }
+  std::map<std::string, CountsSum> by_subject;
+  for (const auto& [key, counts] : statistics.counts)
+    if (only.empty() || origin(key.family) == only) by_subject[key.subject].add(key.family, counts);
   std::vector<Rung> all;
-  for (auto& [subject, rung] : by_subject) {
-    rung.claimed = claimed_distance(rung.algorithm, rung.epsilon_exponent);
-    all.push_back(std::move(rung));
-  }
+  for (auto& [subject, sum] : by_subject)
+    if (LadderPlace place = place_of(subject);
+        std::find(algorithms.begin(), algorithms.end(), place.algorithm) != algorithms.end())
+      all.push_back({std::move(place), subject, std::move(sum)});
   std::stable_sort(all.begin(), all.end(),
                    [](const Rung& a, const Rung& b) { return a.epsilon_exponent > b.epsilon_exponent; });
   return all;
@@ -169,13 +164,11 @@ std::optional<nlohmann::ordered_json> ladder_json(const Statistics& statistics) 
   nlohmann::ordered_json json;
   json["rungs"] = nlohmann::ordered_json::array();
   for (const Rung& rung : all) {
-    json["rungs"].push_back({{"subject", rung.subject},
-                             {"algorithm", rung.algorithm},
-                             {"scalar", rung.scalar},
-                             {"epsilon", std::exp2(rung.epsilon_exponent)},
-                             {"claimed", rung.claimed},
-                             {"farthest", rung.farthest()}});
-    json["rungs"].back().update(rates_json(rung.sum.counts, rung.sum.is_sample));
+    nlohmann::ordered_json row{{"subject", rung.subject}};
+    row.update(place_json(rung));
+    row.update({{"claimed", rung.claimed()}, {"farthest", rung.farthest()}});
+    row.update(rates_json(rung.sum));
+    json["rungs"].push_back(std::move(row));
   }
   json["fits"] = nlohmann::ordered_json::array();
   for (const Fit& line : fits(statistics))
@@ -198,11 +191,11 @@ std::string ladder_table(const Statistics& statistics) {
   std::vector<std::vector<std::string>> rows{
       {"subject", "epsilon", "queries", "missed", "false pos.", "farthest / B", "claimed / B", "ns/query"}};
   for (const Rung& rung : all) {
-    const Counts& counts = rung.sum.counts;
-    rows.push_back({rung.subject, fmt::format("2^{}", rung.epsilon_exponent), with_separators(counts.queries),
-                    with_separators(counts.false_negatives), with_separators(counts.false_positives),
-                    fmt::format("{:.3g}", rung.farthest()), fmt::format("{:.3g}", rung.claimed),
-                    whole_ns(counts.times.ns_per_query())});
+    auto cells = row_of({rung.subject, fmt::format("2^{}", rung.epsilon_exponent)},
+                        {"queries", "false_negatives", "false_positives"}, rung.sum);
+    cells.push_back(fmt::format("{:.3g}", rung.farthest()));
+    cells.push_back(fmt::format("{:.3g}", rung.claimed()));
+    rows.push_back(row_of(std::move(cells), {"ns_per_query"}, rung.sum));
   }
   std::string text = "\n" + columns(rows, 1);
   for (const Fit& line : fits(statistics))

@@ -11,19 +11,6 @@
 
 namespace nearmiss {
 
-/// A subject of the ladder; distances in units of B.
-struct Rung {
-  std::string subject, algorithm, scalar;
-  int epsilon_exponent = 0;
-  double claimed = 0;  ///< the distance bound
-  CountsSum sum;       ///< over all families and kinds
-
-  /// Farthest distance divided by claimed distance; 0 without false positives.
-  [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
-  /// Distance of the farthest false positive; 0 without false positives.
-  [[nodiscard]] double farthest() const { return part() * claimed; }
-};
-
 /// A subject's place on a ladder. For a subject that is not on a ladder, the algorithm is the subject itself.
 struct LadderPlace {
   std::string algorithm, scalar;  ///< the algorithm includes its bound if one is given: "wang@0.5"
@@ -34,6 +21,22 @@ struct LadderPlace {
 };
 
 LadderPlace place_of(const std::string& subject);
+
+/// "algorithm", "scalar" and "epsilon".
+nlohmann::ordered_json place_json(const LadderPlace& place);
+
+/// A subject of the ladder; distances in units of B.
+struct Rung : LadderPlace {
+  std::string subject;
+  CountsSum sum;  ///< over all families and kinds
+
+  /// The distance bound.
+  [[nodiscard]] double claimed() const { return *unit; }
+  /// Farthest distance divided by claimed distance; 0 without false positives.
+  [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
+  /// Distance of the farthest false positive; 0 without false positives.
+  [[nodiscard]] double farthest() const { return part() * claimed(); }
+};
 
 /// The rungs of wang and wang-tight over the scalars in the statistics, by ascending precision. Counts the
 /// queries of one origin (family.hpp), or of all origins if `origin` is "".

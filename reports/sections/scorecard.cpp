@@ -1,40 +1,24 @@
 #include "reports/sections/scorecard.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "reports/campaign/complexity.hpp"
 #include "reports/sections/counts_json.hpp"
 #include "reports/sections/ladder.hpp"
 #include "reports/sections/verdicts.hpp"
 #include "reports/statistics/family_class.hpp"
+#include "reports/statistics/sums.hpp"
 
 namespace nearmiss {
 
 using nlohmann::ordered_json;
 
 namespace {
-
-/// A subject's counters over both kinds.
-struct OfSubject {
-  CountsSum all;
-  std::map<QueryClass, CountsSum> by_class;
-};
-
-std::map<std::string, OfSubject> by_subject(const Statistics& statistics) {
-  std::map<std::string, OfSubject> subjects;
-  for (const auto& [key, counts] : statistics.counts) {
-    OfSubject& subject = subjects[key.subject];
-    subject.all.add(key.family, counts);
-    subject.by_class[class_of(key.family)].add(key.family, counts);
-  }
-  return subjects;
-}
 
 /// The numbers of a subject's ways to fail, rates and run times that have changed.
 ordered_json changes_of(const std::string& subject, const Changes& since) {
@@ -59,14 +43,6 @@ ordered_json changes_of(const std::string& subject, const Changes& since) {
       {"faster", times(false)},
       {"absent", std::find(since.absent_subjects.begin(), since.absent_subjects.end(), subject) !=
                      since.absent_subjects.end()}};
-}
-
-/// The number of queries without an answer, by reason.
-ordered_json faults_of(const Counts& counts) {
-  ordered_json json = ordered_json::object();
-  for (std::size_t i = 1; i < fault_count; ++i)
-    if (counts.faults[i] != 0) json[std::string(fault_names[i])] = counts.faults[i];
-  return json;
 }
 
 ordered_json names_of(const Failures& failures) {
@@ -94,27 +70,24 @@ ordered_json index_of_simplest(const std::string& subject, const std::vector<Sho
 
 ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                             const std::optional<Changes>& since, const Failures& failing) {
-  const auto subjects = by_subject(statistics);
+  const auto by_subject = sums_by(statistics, &CountsKey::subject);
+  const auto by_class =
+      sums_by(statistics, [](const CountsKey& key) { return std::pair(key.subject, class_of(key.family)); });
   ordered_json json = ordered_json::array();
   for (const SubjectVerdict& each : subject_verdicts(statistics, failing)) {
-    const LadderPlace place = place_of(each.subject);
-    const auto& [all, by_class] = subjects.at(each.subject);
+    const CountsSum& all = by_subject.at(each.subject);
     ordered_json row{{"subject", each.subject},
                      {"clean", each.clean},
                      {"failures", names_of(each.failures)},
-                     {"text", each.text},
-                     {"algorithm", place.algorithm},
-                     {"scalar", place.scalar},
-                     {"epsilon", std::exp2(place.epsilon_exponent)},
-                     {"counts", rates_json(all.counts, all.is_sample)},
-                     {"faults", faults_of(all.counts)},
-                     {"times",
-                      {{"median_ns", or_null(all.counts.times.each.quantile(0.5))},
-                       {"q99_ns", or_null(all.counts.times.each.quantile(0.99))}}},
-                     {"classes", ordered_json::object()},
-                     {"finding", index_of_simplest(each.subject, findings)}};
-    for (const auto& [of, sum] : by_class)
-      row["classes"][std::string(name(of))] = rates_json(sum.counts, sum.is_sample);
+                     {"text", each.text}};
+    row.update(place_json(place_of(each.subject)));
+    row["counts"] = rates_json(all);
+    row["faults"] = counts_json(all).at("faults");
+    add_measures(row["times"], {"median_ns", "q99_ns"}, all);
+    row["classes"] = ordered_json::object();
+    for (const auto& [key, sum] : by_class)
+      if (key.first == each.subject) row["classes"][std::string(name(key.second))] = rates_json(sum);
+    row["finding"] = index_of_simplest(each.subject, findings);
     if (since) row["since"] = changes_of(each.subject, *since);
     json.push_back(std::move(row));
   }

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <vector>
 
-#include "corpus/query_text.hpp"
-#include "reports/sections/class_table.hpp"
 #include "reports/sections/common_factors_table.hpp"
-#include "reports/sections/time_table.hpp"
+#include "reports/sections/measures.hpp"
 #include "reports/sections/verdicts.hpp"
 #include "reports/sections/version_table.hpp"
-#include "reports/statistics/confidence.hpp"
+#include "reports/statistics/family_class.hpp"
 #include "reports/text/text.hpp"
 
 namespace nearmiss {
@@ -26,12 +26,6 @@ std::string meaning(const Extreme& extreme) {
                      extreme.of == Extreme::Of::accepting_tolerance ? "<=" : ">=", extreme.value);
 }
 
-/// The upper confidence bound of the rate of misses, if the queries are a random sample.
-std::string rate_below(const CountsSum& sum) {
-  if (!sum.is_sample) return "-";
-  return fmt::format("{:.2g}", clopper_pearson_upper(sum.counts.false_negatives, sum.counts.collisions));
-}
-
 std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
   std::vector<std::vector<std::string>> rows{{"tolerance or tests", "result", "queries", "from"}};
   for (const auto& [name, each] : extremes)
@@ -40,19 +34,24 @@ std::string extremes_table(const std::map<std::string, Extreme>& extremes) {
 }
 
 std::string counts_table(const Statistics& statistics) {
-  std::vector<std::vector<std::string>> rows{{"subject", "kind", "queries", "collisions", "false neg.",
-                                              "rate below*", "late", "false pos.", "max dist/bound",
-                                              "ns/query"}};
-  for (const auto& [key, sum] : statistics.by_subject_and_kind()) {
-    const Counts& counts = sum.counts;
-    rows.push_back({key.subject, std::string(short_name(key.kind)), with_separators(counts.queries),
-                    with_separators(counts.collisions), with_separators(counts.false_negatives),
-                    rate_below(sum), late_times(counts), with_separators(counts.false_positives),
-                    marked_fraction_of_bound(counts.max_ratio(), counts.distance_unit()),
-                    whole_ns(counts.times.ns_per_query())});
-  }
-  return columns(rows, 2);
+  const auto cells = [](const CountsKey& key) {
+    return std::vector{key.subject, std::string(short_name(key.kind))};
+  };
+  return table(statistics.by_subject_and_kind(), {"subject", "kind"}, cells,
+               {"queries", "collisions", "false_negatives", "false_negative_rate_upper_95", "late",
+                "false_positives", "max_fp_distance_over_bound", "ns_per_query"},
+               2);
 }
+
+std::vector<std::string> cells_of(const ClassKey& key) {
+  return {key.subject, std::string(short_name(key.kind)), std::string(name(key.of))};
+}
+
+constexpr const char* footnote_on_times =
+    "early: t* - time, where t* is the exact earliest time, of times that are not after t*; late: something "
+    "happens before a time\nthat is to be a lower bound; stuck: the time is 0, and t* is not; invalid: a "
+    "time "
+    "that is none, or a collision without the time that\nis promised\n";
 
 /// Explains the mark of distances that are not fractions of a claim; "" if there are none.
 std::string footnote_on_units(const Statistics& statistics) {
@@ -81,19 +80,40 @@ constexpr const char* footnotes =
     "(Clopper-Pearson)\nns/query: without waiting for a processor, less that of an empty subject; the "
     "median over batches of each family\n";
 
+/// A table and an empty line; "" without a table.
+std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
+
 }  // namespace
 
+std::string time_table(const Statistics& statistics) {
+  auto sums = by_class(statistics);
+  std::erase_if(sums, [](const auto& each) {
+    const Counts& counts = each.second.counts;
+    return counts.times_given == 0 && counts.faults[static_cast<std::size_t>(Fault::invalid)] == 0;
+  });
+  if (sums.empty()) return "";
+  return table(sums, {"subject", "kind", "class"}, cells_of,
+               {"time_sort", "times_given", "late", "stuck", "invalid", "unknown", "median_early",
+                "q99_early", "max_early", "max_after"},
+               4) +
+         footnote_on_times;
+}
+
+std::string class_table(const Statistics& statistics) {
+  const auto sums = by_class(statistics);
+  std::set<QueryClass> classes;
+  for (const auto& [key, sum] : sums) classes.insert(key.of);
+  if (classes.size() < 2) return "";
+  return table(sums, {"subject", "kind", "class"}, cells_of,
+               {"queries", "collisions", "false_negatives", "late", "false_positives", "ns_per_query"}, 3);
+}
+
 std::string summary_table(const Statistics& statistics, const Failures& failing) {
-  std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
+  const std::string extremes = statistics.extremes.empty() ? "" : extremes_table(statistics.extremes);
   if (statistics.counts.empty() && oracle_complaint(statistics).empty()) return extremes;
-  std::string classes = class_table(statistics);
-  if (!classes.empty()) classes += "\n";
-  std::string times = time_table(statistics);
-  if (!times.empty()) times += "\n";
-  std::string common = common_factors_lines(statistics);
-  if (!common.empty()) common += "\n";
-  return verdict_lines(statistics, failing) + version_lines(statistics) + "\n" + counts_table(statistics) +
-         "\n" + times + classes + common + oracle_lines(statistics) + extremes + footnotes +
+  return verdict_lines(statistics, failing) + version_lines(statistics) + "\n" +
+         spaced(counts_table(statistics)) + spaced(time_table(statistics)) + spaced(class_table(statistics)) +
+         spaced(common_factors_lines(statistics)) + oracle_lines(statistics) + extremes + footnotes +
          footnote_on_units(statistics);
 }
 

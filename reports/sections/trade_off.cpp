@@ -1,7 +1,6 @@
 #include "reports/sections/trade_off.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -48,14 +47,14 @@ Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>&
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   const auto asked = asked_subjects(statistics);
   const Subjects subjects = most_comparable(asked);
-  std::map<std::string, Counts> all;
+  std::map<std::string, CountsSum> all;
   std::map<std::string, CountsSum> timed;
   for (const auto& [key, counts] : statistics.counts) {
     const auto family = asked.find({key.kind, key.family});
     if (family == asked.end() || !subjects.contains(key.subject) ||
         !std::includes(family->second.begin(), family->second.end(), subjects.begin(), subjects.end()))
       continue;
-    all[key.subject].merge(counts);
+    all[key.subject].add(key.family, counts);
     if (is_timed(counts)) timed[key.subject].add(key.family, counts);
   }
   std::vector<TradeOff> trade_offs;
@@ -90,17 +89,6 @@ bool has_ladder(const std::vector<TradeOff>& all) {
   return std::any_of(scalars.begin(), scalars.end(), [](const auto& each) { return each.second.size() > 2; });
 }
 
-/// The times of all families; the quantiles are those of timed families, as rates are.
-void add_times(nlohmann::ordered_json& subject, const TradeOff& each) {
-  const auto range = [](const Bin& bin) { return nlohmann::ordered_json{bin.from, bin.to}; };
-  subject["times_given"] = each.all.times_given;
-  subject["times_promised"] = each.all.times_promised;
-  subject["late"] = each.all.late;
-  subject["median_time_error"] = range(each.timed.counts.time_error_quantile(0.5));
-  subject["q99_time_error"] = range(each.timed.counts.time_error_quantile(0.99));
-  subject["max_time_error"] = each.all.max_time_error();
-}
-
 /// The front of the subjects whose times are lower bounds.
 std::vector<std::string> front_by_earliness(std::vector<TradeOff> all) {
   std::erase_if(all,
@@ -122,23 +110,27 @@ nlohmann::ordered_json trade_offs_json(const Statistics& statistics) {
   const auto all = trade_offs(statistics);
   nlohmann::ordered_json json;
   json["subjects"] = nlohmann::ordered_json::object();
+  const MeasureKeys of_all{"collisions",
+                           "false_negatives",
+                           "max_fp_distance_over_bound",
+                           "bound_of_distances",
+                           "times_given",
+                           "times_promised",
+                           "late"};
   for (const TradeOff& each : all) {
-    auto& subject = json["subjects"][each.subject] = rates_json(each.timed.counts, each.timed.is_sample);
-    subject["collisions"] = each.all.collisions;
-    subject["false_negatives"] = each.all.false_negatives;
-    subject["max_fp_distance_over_bound"] = each.all.max_ratio();
-    subject["bound_of_distances"] = name(each.all.distance_unit());
-    add_times(subject, each);
+    auto& subject = json["subjects"][each.subject] = rates_json(each.timed);
+    add_measures(subject, of_all, each.all);
+    add_measures(subject, {"median_time_error", "q99_time_error"}, each.timed);
+    add_measures(subject, {"max_time_error"}, each.all);
     subject["sound"] = each.sound();
-    subject["algorithm"] = each.place.algorithm;
-    subject["scalar"] = each.place.scalar;
-    subject["epsilon"] = std::exp2(each.place.epsilon_exponent);
+    subject.update(place_json(each.place));
     subject["farthest_over_B"] = or_null(each.farthest());
   }
   json["left_out"] = nlohmann::ordered_json::array();
   for (const std::string& subject : timed_subjects(statistics))
     if (!json["subjects"].contains(subject)) json["left_out"].push_back(subject);
-  json["front_by_distance"] = pareto_front(all, [](const TradeOff& each) { return each.all.max_ratio(); });
+  json["front_by_distance"] =
+      pareto_front(all, [](const TradeOff& each) { return each.all.counts.max_ratio(); });
   json["front_by_rate"] =
       pareto_front(all, [](const TradeOff& each) { return each.timed.counts.false_positive_rate(); });
   json["front_by_earliness"] = front_by_earliness(all);

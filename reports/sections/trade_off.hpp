@@ -18,18 +18,18 @@ struct TradeOff {
   /// The sum over timed families. Rates are computed from it too, because the rates of a directed search are
   /// meaningless.
   CountsSum timed;
-  Counts all;
+  CountsSum all;
   LadderPlace place;
 
   /// Distance of the subject's farthest false positive in units of B; nothing if the unit is not known.
   [[nodiscard]] std::optional<double> farthest() const {
-    if (all.false_positives == 0) return 0;
-    return place.unit ? std::optional(all.max_ratio() * *place.unit) : std::nullopt;
+    if (all.counts.false_positives == 0) return 0;
+    return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
   /// Whether the subject may be on a front: it answered every query, even if it could not tell, and failed in no other way.
   [[nodiscard]] bool sound() const {
-    Failures failures = failures_of(subject, all);
+    Failures failures = failures_of(subject, all.counts);
     failures.erase(FailureKind::unknown);
     return failures.empty();
   }

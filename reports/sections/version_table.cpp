@@ -20,18 +20,18 @@ namespace nearmiss {
 namespace {
 
 /// What is shown of two versions.
-struct Measure {
+struct VersionMeasure {
   std::string_view key;   ///< in report.json
   std::string_view text;  ///< behind the number; "" if the terminal does not show it
   std::uint64_t (*value)(const VersionCounts&);
 };
 
 constexpr std::array measures{
-    Measure{"fixed", "fixed", [](const VersionCounts& counts) { return counts.fixed; }},
-    Measure{"broken", "broken", [](const VersionCounts& counts) { return counts.broken; }},
-    Measure{"both", "both fail", [](const VersionCounts& counts) { return counts.both; }},
-    Measure{"neither", "", [](const VersionCounts& counts) { return counts.neither; }},
-    Measure{"queries", "", [](const VersionCounts& counts) { return counts.queries(); }},
+    VersionMeasure{"fixed", "fixed", [](const VersionCounts& counts) { return counts.fixed; }},
+    VersionMeasure{"broken", "broken", [](const VersionCounts& counts) { return counts.broken; }},
+    VersionMeasure{"both", "both fail", [](const VersionCounts& counts) { return counts.both; }},
+    VersionMeasure{"neither", "", [](const VersionCounts& counts) { return counts.neither; }},
+    VersionMeasure{"queries", "", [](const VersionCounts& counts) { return counts.queries(); }},
 };
 
 using Versions = std::pair<std::string, std::string>;  // before and after
@@ -48,7 +48,7 @@ std::map<Versions, Parts> by_class_and_kind(const VersionTable& table) {
 /// "12 fixed, 3 broken"
 std::string in_words(const VersionCounts& counts, bool shows_zeros) {
   std::vector<std::string> words;
-  for (const Measure& each : measures)
+  for (const VersionMeasure& each : measures)
     if (const std::uint64_t value = each.value(counts); !each.text.empty() && (value != 0 || shows_zeros))
       words.push_back(fmt::format("{} {}", with_separators(value), each.text));
   return fmt::format("{}", fmt::join(words, ", "));
@@ -98,7 +98,7 @@ nlohmann::ordered_json versions_json(const Statistics& statistics) {
                       {"after", versions.second},
                       {"kind", short_name(part.second)},
                       {"class", name(part.first)}});
-      for (const Measure& each : measures) json.back()[std::string(each.key)] = each.value(counts);
+      for (const VersionMeasure& each : measures) json.back()[std::string(each.key)] = each.value(counts);
     }
   return json;
 }

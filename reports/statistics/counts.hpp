@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "oracle/filter/filter.hpp"
 #include "reports/statistics/counter.hpp"
 #include "reports/statistics/distance_unit.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

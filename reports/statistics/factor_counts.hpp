@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/statistics/counter.hpp"
 
 namespace nearmiss {

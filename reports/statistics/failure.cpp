@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reports/statistics/sums.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -158,10 +160,9 @@ Failures failures_of(const std::string& subject, const Counts& counts) {
 }
 
 std::map<std::string, Failures> failures_by_subject(const Statistics& statistics) {
-  std::map<std::string, Counts> by_subject;
-  for (const auto& [key, counts] : statistics.counts) by_subject[key.subject].merge(counts);
   std::map<std::string, Failures> failures;
-  for (const auto& [subject, counts] : by_subject) failures[subject] = failures_of(subject, counts);
+  for (const auto& [subject, sum] : sums_by(statistics, &CountsKey::subject))
+    failures[subject] = failures_of(subject, sum.counts);
   if (statistics.oracle_disagreements > 0) failures[""].insert(FailureKind::oracle_disagreement);
   if (statistics.mismatches_with_recorded_truth > 0) failures[""].insert(FailureKind::wrong_truth);
   return failures;

@@ -7,16 +7,14 @@ namespace nearmiss {
 bool is_random(std::string_view family) { return !family.ends_with('/') && !family.starts_with("scene:"); }
 
 std::string shown_family(std::string_view family) {
-  const std::string_view separation = family.substr(std::min(family.rfind('~'), family.size()));
-  for (const std::string_view search :
-       {miss_search_family, far_search_family, late_search_family, early_search_family})
-    if (family.starts_with(search))
-      return std::string(search.substr(0, search.size() - 1)).append(separation);
-  return std::string(family);
+  const FamilyName name(family);
+  if (name.search.empty()) return std::string(family);
+  std::string shown(name.search);
+  return name.separation.empty() ? shown : shown.append("~").append(name.separation);
 }
 
 std::string_view origin(std::string_view family) {
-  return shown_family(family) == family ? family : "directed search";
+  return FamilyName(family).search.empty() ? family : "directed search";
 }
 
 Statistics by_shown_family(const Statistics& statistics) {

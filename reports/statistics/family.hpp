@@ -1,19 +1,13 @@
-// Names of families, and what they mean.
+// Families in reports: which are samples, and which are shown as one.
 #pragma once
 
 #include <string>
 #include <string_view>
 
+#include "reports/statistics/family_name.hpp"
 #include "reports/statistics/statistics.hpp"
 
 namespace nearmiss {
-
-/// Prefixes of the families of directed searches; the name of the subject that the search is for follows, and ~SEPARATION if
-/// the queries have one.
-inline constexpr std::string_view miss_search_family = "search-miss-";
-inline constexpr std::string_view far_search_family = "search-far-";
-inline constexpr std::string_view late_search_family = "search-late-";
-inline constexpr std::string_view early_search_family = "search-early-";
 
 /// Whether a family's queries are drawn at random. Cases and scenes are not.
 bool is_random(std::string_view family);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/statistics/family_name.hpp"
+#include "reports/statistics/sums.hpp"
+
 namespace nearmiss {
 
 namespace {
@@ -61,17 +64,16 @@ bool contains(const std::array<std::string_view, size>& names, std::string_view 
 }  // namespace
 
 QueryClass class_of(std::string_view family) {
-  const std::string_view base = family.substr(0, family.find_first_of("@~"));
+  const std::string_view base = FamilyName(family).base;
   if (family.starts_with("scene:") || contains(ordinary, base)) return QueryClass::ordinary;
   if (contains(degenerate, base)) return QueryClass::degenerate;
   return contains(extreme, base) ? QueryClass::extreme : QueryClass::unclassified;
 }
 
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics) {
-  std::map<ClassKey, CountsSum> sums;
-  for (const auto& [key, each] : statistics.counts)
-    sums[{key.subject, key.kind, class_of(key.family)}].add(key.family, each);
-  return sums;
+  return sums_by(statistics, [](const CountsKey& key) {
+    return ClassKey{key.subject, key.kind, class_of(key.family)};
+  });
 }
 
 }  // namespace nearmiss

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/statistics/query_class.hpp"
 
 namespace nearmiss {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "reports/statistics/family.hpp"
+#include "reports/statistics/sums.hpp"
 
 namespace nearmiss {
 
@@ -25,9 +26,7 @@ void Statistics::merge(const Statistics& other) {
 }
 
 std::map<CountsKey, CountsSum> Statistics::by_subject_and_kind() const {
-  std::map<CountsKey, CountsSum> sums;
-  for (const auto& [key, each] : counts) sums[{key.subject, key.kind, ""}].add(key.family, each);
-  return sums;
+  return sums_by(*this, [](const CountsKey& key) { return CountsKey{key.subject, key.kind, ""}; });
 }
 
 OracleCounts Statistics::oracle_total() const {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/statistics/counts.hpp"
 #include "reports/statistics/extreme.hpp"
 #include "reports/statistics/factor_counts.hpp"

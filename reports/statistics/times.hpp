@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/query.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "reports/statistics/counter.hpp"
 
 namespace nearmiss {

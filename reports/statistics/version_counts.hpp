@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "reports/statistics/counter.hpp"
 
 namespace nearmiss {

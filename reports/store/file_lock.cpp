@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 
 namespace nearmiss {

@@ -8,7 +8,7 @@
 #include <map>
 #include <string_view>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "reports/store/campaign_tables.hpp"
 #include "reports/store/file_lock.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "reports/store/values.hpp"
 
 namespace nearmiss {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "reports/campaign/campaign.hpp"
 

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <optional>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/basic.hpp"
 #include "ccd/nearmiss_subject.h"
-#include "ccd/wang.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/wang/basic.hpp"
+#include "ccd/wang/wang.hpp"
 
 #define NEARMISS_QUOTED(x) #x
 #define NEARMISS_TEXT(x) NEARMISS_QUOTED(x)

@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/error.hpp"
-#include "ccd/stopwatch.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/stopwatch.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/families/families.hpp"

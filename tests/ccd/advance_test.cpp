@@ -1,12 +1,12 @@
 // Conservative advancement on queries whose distances and times are known.
-#include "ccd/advance.hpp"
+#include "ccd/wang/advance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

@@ -1,9 +1,10 @@
 // Arithmetic that is not plain is detected, named and undone.
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ccd/wang.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "ccd/wang/wang.hpp"
 #include "tests/arithmetic_modes.hpp"
 
 namespace nearmiss {

@@ -1,11 +1,12 @@
 // The culling of vertex-edge tests at its exact bounds, with exact numbers.
-#include "ccd/ve_culling.hpp"
+#include "ccd/wang/ve_culling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "ccd/steps.hpp"
+#include "ccd/wang/loosened.hpp"
+#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -123,14 +124,7 @@ TEST(Frame, IsNotNeededWhereNothingLeavesTheRange) {
 
 // B = (E + W)(1 + 64 ε): a triangle whose edges are within 1, and a relative velocity of 2.
 TEST(PairBound, HasAMarginOf64Epsilon) {
-  Query query{.kind = Kind::vertex_triangle};
-  query.set_start(0, {0.25, 0.25, 1});
-  query.set_end(0, {0.25, 0.25, -1});
-  for (const auto set : {&Query::set_start, &Query::set_end}) {
-    (query.*set)(2, {1, 0, 0});
-    (query.*set)(3, {0, 1, 0});
-  }
-  const auto pair = make_pair<Kind::vertex_triangle, double>(query);
+  const auto pair = make_pair<Kind::vertex_triangle, double>(testing::falling_vertex(0.25, 0.25, 1, -1));
   EXPECT_EQ(pair.E, 1);
   EXPECT_EQ(pair.W, 2);
   EXPECT_EQ(pair.B, 3 * (1 + 64 * eps));

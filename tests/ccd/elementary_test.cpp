@@ -1,5 +1,5 @@
 // Elementary functions agree with those of the mathematical library.
-#include "ccd/elementary.hpp"
+#include "ccd/wang/elementary.hpp"
 
 #include <gtest/gtest.h>
 

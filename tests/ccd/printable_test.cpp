@@ -1,5 +1,5 @@
 // Text from elsewhere is valid UTF-8 without control characters.
-#include "ccd/printable.hpp"
+#include "ccd/query/printable.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "ccd/cubic.hpp"
-#include "ccd/quadratic.hpp"
+#include "ccd/wang/cubic.hpp"
+#include "ccd/wang/quadratic.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss {

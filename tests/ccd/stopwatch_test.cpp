@@ -1,5 +1,5 @@
 // How long work takes: its computing time, or, if it waits, the time that passes.
-#include "ccd/stopwatch.hpp"
+#include "ccd/subjects/stopwatch.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -1,5 +1,5 @@
 // VV and VE report everything within their thresholds, and nothing farther away than the bound.
-#include "ccd/vertex_edge.hpp"
+#include "ccd/wang/vertex_edge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,43 +2,24 @@
 #include "corpus/readers.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <vector>
 
-#include "ccd/error.hpp"
 #include "corpus/query_text.hpp"
 #include "tests/queries.hpp"
+#include "tests/refused.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
 
-/// Gives each test its own folder, and removes it at the end.
-class Files : public ::testing::Test {
- protected:
-  Files() { fs::create_directories(folder_); }
-  ~Files() override { fs::remove_all(folder_); }
-
-  std::string write(const std::string& name, const std::string& text) {
-    const fs::path file = folder_ / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream(file) << text;
-    return file.string();
-  }
-  [[nodiscard]] std::string folder() const { return folder_.string(); }
-
- private:
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
-};
+class Files : public testing::TemporaryFolder {};
 
 std::vector<Case> read_all(const fs::path& path) {
   std::vector<Case> cases;
@@ -47,7 +28,7 @@ std::vector<Case> read_all(const fs::path& path) {
 }
 
 void expect_error(const fs::path& path, const std::string& message) {
-  EXPECT_THAT([&] { (void)read_all(path); }, ThrowsMessage<Error>(HasSubstr(message)));
+  EXPECT_REFUSED(read_all(path), message);
 }
 
 TEST(Numbers, AreReadExactly) {
@@ -76,8 +57,8 @@ TEST(QueryLine, RoundTripsExtremes) {
 }
 
 TEST(QueryLine, CountsItsNumbers) {
-  EXPECT_THAT([] { (void)parse_line(Kind::edge_edge, "1 2 3", "file.ee:7"); },
-              ThrowsMessage<Error>("file.ee:7: found 3 numbers, expected 24, or 25 with a separation"));
+  EXPECT_ERROR(parse_line(Kind::edge_edge, "1 2 3", "file.ee:7"),
+               "file.ee:7: found 3 numbers, expected 24, or 25 with a separation");
 }
 
 TEST(QueryLine, HasItsSeparationLast) {
@@ -88,11 +69,10 @@ TEST(QueryLine, HasItsSeparationLast) {
   EXPECT_EQ(to_line(apart), to_line(query) + " 0x1.8p-2");
   for (const std::string& line : {to_line(apart), to_readable(apart)})
     EXPECT_EQ(parse_line(query.kind, line, "here"), apart) << line;
-  EXPECT_THAT(
-      [&] { (void)parse_line(query.kind, to_line(query) + " -0.5", "here"); },
-      ThrowsMessage<Error>("here: found the separation -0.5, expected a number that is not negative"));
-  EXPECT_THAT([&] { (void)parse_line(query.kind, to_line(query) + " 1 2", "here"); },
-              ThrowsMessage<Error>("here: found 26 numbers, expected 24, or 25 with a separation"));
+  EXPECT_ERROR(parse_line(query.kind, to_line(query) + " -0.5", "here"),
+               "here: found the separation -0.5, expected a number that is not negative");
+  EXPECT_ERROR(parse_line(query.kind, to_line(query) + " 1 2", "here"),
+               "here: found 26 numbers, expected 24, or 25 with a separation");
 }
 
 TEST(CaseFile, RoundTrips) {
@@ -110,25 +90,21 @@ TEST(CaseFile, RoundTrips) {
   EXPECT_EQ(back.name, "x.case");
 }
 
-TEST(CaseFile, MayHaveEmptyLines) {
-  Case each;
-  each.query = testing::falling_edge(0.1, -1);
-  std::istringstream lines(to_text(each));
-  std::string text = "\n";
-  for (std::string line; std::getline(lines, line);) text += line + "\n \n";
-  std::istringstream in(text);
-  EXPECT_EQ(parse_case(in, "x.case").query, each.query);
-}
-
-TEST(CaseFile, MayHaveIndentedLines) {
-  Case each;
-  each.why = "first\nsecond";
-  each.query = testing::falling_edge(0.1, -1);
+/// The case that is read from a case's text with other words around each line.
+Case read_with(const Case& each, const std::string& before, const std::string& behind) {
   std::istringstream lines(to_text(each));
   std::string text;
-  for (std::string line; std::getline(lines, line);) text += "  " + line + "\n";
+  for (std::string line; std::getline(lines, line);) text += before + line + behind;
   std::istringstream in(text);
-  const Case back = parse_case(in, "x.case");
+  return parse_case(in, "x.case");
+}
+
+TEST(CaseFile, MayHaveEmptyAndIndentedLines) {
+  Case each;
+  each.query = testing::falling_edge(0.1, -1);
+  EXPECT_EQ(read_with(each, "\n", "\n \n").query, each.query);
+  each.why = "first\nsecond";
+  const Case back = read_with(each, "  ", "\n");
   EXPECT_EQ(back.why, each.why);
   EXPECT_EQ(back.query, each.query);
 }
@@ -145,8 +121,8 @@ TEST(CaseFile, KeepsEmptyLinesOfTheReason) {
 TEST_F(Files, ReadsTheCaseThatWasWritten) {
   Case each;
   each.query = testing::falling_edge(1, -1);
-  write_case(each, folder() + "/a.case");
-  EXPECT_EQ(read_all(folder()).at(0).query, each.query);
+  write_case(each, file("a.case"));
+  EXPECT_EQ(read_all(file("")).at(0).query, each.query);
 }
 
 TEST_F(Files, NamesTheLineOfABadCase) {
@@ -177,7 +153,7 @@ TEST_F(Files, AByteOrderMarkIsSkipped) {
   each.query = testing::falling_edge(1, -1);
   const std::string line = to_line(each.query);
   EXPECT_EQ(read_all(write("a.ee", mark + line + "\n")).at(0).query, each.query);
-  EXPECT_EQ(read_all(write("b.ee", mark + "# comment\n" + line + "\n")).at(0).name, folder() + "/b.ee:2");
+  EXPECT_EQ(read_all(write("b.ee", mark + "# comment\n" + line + "\n")).at(0).name, file("b.ee:2").string());
   EXPECT_EQ(read_all(write("a.case", mark + to_text(each))).at(0).query, each.query);
   each.why = "a reason";
   EXPECT_EQ(read_all(write("b.case", mark + to_text(each))).at(0).why, "a reason");
@@ -217,9 +193,9 @@ TEST_F(Files, RefusesUnreadableFilesAndFolders) {
   expect_error(write("empty.vt", ""), "empty file");
   expect_error(write("comments.vt", "# nothing\n"), "found no query");
   expect_error(write("mesh.obj", "v 0 0 0\n"), "unknown kind of file");
-  expect_error(folder() + "/missing.case", "cannot be read");
-  fs::create_directories(folder() + "/sub");
-  expect_error(folder() + "/sub", "found no case");
+  expect_error(file("missing.case"), "cannot be read");
+  fs::create_directories(file("sub"));
+  expect_error(file("sub"), "found no case");
 }
 
 TEST_F(Files, ReadsAFolderInOrderAndIgnoresOtherFiles) {
@@ -227,7 +203,7 @@ TEST_F(Files, ReadsAFolderInOrderAndIgnoresOtherFiles) {
   write("b/second.ee", line);
   write("a/first.vt", line);
   write("a/README.md", "text");
-  const auto cases = read_all(folder());
+  const auto cases = read_all(file(""));
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_THAT(cases[0].name, HasSubstr("first.vt:1"));
   EXPECT_THAT(cases[1].name, HasSubstr("second.ee:1"));

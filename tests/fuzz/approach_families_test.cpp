@@ -1,7 +1,6 @@
 // The families with separations of their own keep their promises, exactly.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -13,12 +12,15 @@
 #include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {
-
 namespace {
 
+using testing::at;
 using testing::at_rest;
 using testing::count_of_400;
+using testing::expect_count;
+using testing::expect_more;
 using testing::first_queries;
+using testing::first_time;
 using testing::longest_edge;
 using Closest = ApproachFeatures::Closest;
 
@@ -30,15 +32,6 @@ void expect_above_before_and_below_after(const Query& query, double time) {
   EXPECT_FALSE(by_sturm.makes_late(time));
   EXPECT_TRUE(by_sturm.is_before(after));
   EXPECT_TRUE(by_sturm.makes_late(after));
-}
-
-std::string at(const char* family, int x) { return std::string(family) + "@" + std::to_string(x); }
-
-/// The time at which the distance is first at most h, which must be a double.
-double first_time(const Query& query) {
-  const auto [lo, hi] = earliest_time(query)->enclosure();
-  EXPECT_EQ(lo, hi);
-  return lo;
 }
 
 bool is_tie(const Query& query, double separation) {
@@ -80,8 +73,6 @@ TEST(SeparationFamilies, ReachTheSeparationBetweenFeaturesOfEveryDimension) {
             << family << ' ' << short_name(kind) << ' ' << static_cast<int>(closest);
 }
 
-// --- near-separation ------------------------------------------------------------------------------------
-
 TEST(NearSeparation, TheSeparationIsOneOfTheDoublesNextToTheDistance) {
   for (const Query& query : first_queries("near-separation@-54", 60)) {
     const double distance = minimum_distance(query, 0).hi;
@@ -100,61 +91,48 @@ TEST(NearSeparation, TheSeparationDiffersAsTheParameterSays) {
     }
 }
 
-// --- tied-separation ------------------------------------------------------------------------------------
-
 TEST(TiedSeparation, HalfAreTiesAndTheOthersAreTiesBeforeTheSeparationIsMoved) {
-  for (const int x : {1, 64}) {
-    int ties = 0;
-    for (const Query& query : first_queries(at("tied-separation", x), 400)) {
+  for (const int x : {1, 64})
+    expect_count(at("tied-separation", x), 160, 240, [x](const Query& query) {
       const double h = query.separation;
       if (is_tie(query, h)) {
-        ++ties;
         SturmTimes by_sturm(query);
         EXPECT_TRUE(by_sturm.is_before(SturmApproach::step_is_over));
         EXPECT_FALSE(by_sturm.makes_late(SturmApproach::step_is_over));
-      } else {
-        EXPECT_NE(is_tie(query, moved_by_ulps(h, x)), is_tie(query, moved_by_ulps(h, -x)));
+        return true;
       }
-    }
-    EXPECT_GT(ties, 160);
-    EXPECT_LT(ties, 240);
-  }
+      EXPECT_NE(is_tie(query, moved_by_ulps(h, x)), is_tie(query, moved_by_ulps(h, -x)));
+      return false;
+    });
 }
 
 TEST(TiedSeparation, TheDistanceIsReachedAtTheStartInsideAndAtTheEnd) {
   using Time = ContactFeatures::Time;
   for (const Time time : {Time::start, Time::inside, Time::end})
-    EXPECT_GT(count_of_400("tied-separation",
-                           [&](const Query& query) {
-                             const auto features = approach_features(query);
-                             return features && features->touches && features->time == time;
-                           }),
-              20)
-        << static_cast<int>(time);
+    expect_more("tied-separation", 20, [&](const Query& query) {
+      const auto features = approach_features(query);
+      return features && features->touches && features->time == time;
+    });
 }
 
 TEST(TiedSeparation, PrimitivesRestOrSlide) {
   const auto rests = [](const Query& query) { return at_rest(query, 0) == query; };
-  EXPECT_GT(count_of_400("tied-separation", rests), 10);
-  const auto keeps_the_distance = [&](const Query& query) {
+  expect_more("tied-separation", 10, rests);
+  expect_more("tied-separation", 15, [&](const Query& query) {  // these keep the distance
     const double h = query.separation;
     return !rests(query) && is_tie(at_rest(query, 0), h) && is_tie(at_rest(query, 1), h);
-  };
-  EXPECT_GT(count_of_400("tied-separation", keeps_the_distance), 15);
+  });
 }
 
 TEST(TiedSeparation, SomeTouchAtOneTimeInside) {
-  const auto touches_once = [](const Query& query) {
+  expect_more("tied-separation", 20, [](const Query& query) {
     if (!decide_exactly(query).is_tie) return false;
     const Enclosure first = earliest_time(query)->enclosure();
     const Enclosure last = earliest_time(testing::reversed(query))->enclosure();
     return 0 < first.lo && first.lo < 1 && first.lo == first.hi &&
            last == Enclosure{1 - first.lo, 1 - first.lo};
-  };
-  EXPECT_GT(count_of_400("tied-separation", touches_once), 20);
+  });
 }
-
-// --- reached-separation and slow-approach ---------------------------------------------------------------
 
 TEST(ReachedSeparation, TheTimeHasTheBinaryPlacesOfTheParameter) {
   for (const int x : {1, 32})
@@ -163,10 +141,8 @@ TEST(ReachedSeparation, TheTimeHasTheBinaryPlacesOfTheParameter) {
 }
 
 TEST(ReachedSeparation, TheDistanceIsAboveHBeforeAndBelowHAfter) {
-  for (const Query& query : first_queries("reached-separation", 200)) {
-    const double time = first_time(query);
-    expect_above_before_and_below_after(query, time);
-  }
+  for (const Query& query : first_queries("reached-separation", 200))
+    expect_above_before_and_below_after(query, first_time(query));
 }
 
 TEST(SlowApproach, TheDistanceFallsToHInsideTheStep) {
@@ -187,8 +163,6 @@ TEST(SlowApproach, TheDistanceStartsAsNearHAsTheParameterSays) {
       EXPECT_FALSE(distance_exceeds(start, query.separation + off));
     }
 }
-
-// --- changed-features -----------------------------------------------------------------------------------
 
 /// The closest features at a time.
 Closest closest_at(const Query& query, double time) {
@@ -211,8 +185,6 @@ TEST(ChangedFeatures, MostChangeToFeaturesOfAnotherDimensionShortlyBefore) {
   EXPECT_GT(changed, 160);
 }
 
-// --- starts-near-separation -----------------------------------------------------------------------------
-
 TEST(StartsNearSeparation, TheDistanceAtTheStartIsHOrDiffersAsTheParameterSays) {
   for (const int x : {-40, -1}) {
     int ties[3] = {0, 0, 0};
@@ -232,14 +204,11 @@ TEST(StartsNearSeparation, TheDistanceAtTheStartIsHOrDiffersAsTheParameterSays) 
 }
 
 TEST(StartsNearSeparation, WhatStartsBelowHappensAtOnce) {
-  const int at_once = count_of_400("starts-near-separation", [](const Query& query) {
-    const bool is_below = decide_exactly(at_rest(query, 0)).collision;
-    if (is_below) {
-      EXPECT_EQ(first_time(query), 0);
-    }
-    return is_below;
+  expect_more("starts-near-separation", 100, [](const Query& query) {
+    if (!decide_exactly(at_rest(query, 0)).collision) return false;
+    EXPECT_EQ(first_time(query), 0);
+    return true;
   });
-  EXPECT_GT(at_once, 100);
 }
 
 TEST(StartsNearSeparation, WhatStartsAtHEitherPartsOrComesNearer) {
@@ -254,17 +223,12 @@ TEST(StartsNearSeparation, WhatStartsAtHEitherPartsOrComesNearer) {
   EXPECT_GT(comes_nearer, 30);
 }
 
-// --- sized-separation -----------------------------------------------------------------------------------
-
 TEST(SizedSeparation, TheParameterIsTheRatioToTheSizeOfThePrimitives) {
   for (const int x : {-15, -3, 3, 12})
-    EXPECT_GT(count_of_400(at("sized-separation", x),
-                           [&](const Query& query) {
-                             const double ratio = query.separation / longest_edge(query, 0) / power_of_ten(x);
-                             return 1.0 / 4 < ratio && ratio < 8;
-                           }),
-              390)
-        << x;
+    expect_more(at("sized-separation", x), 390, [&](const Query& query) {
+      const double ratio = query.separation / longest_edge(query, 0) / power_of_ten(x);
+      return 1.0 / 4 < ratio && ratio < 8;
+    });
 }
 
 TEST(SizedSeparation, HasCollisionsTiesAndMissesOfEverySize) {

@@ -4,27 +4,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
-#include "fuzz/families/families.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss::certified {
 namespace {
 
-std::vector<Query> queries_of(const char* family, std::uint64_t count) {
-  std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(make_query(find_family(family), 20, i));
-  return queries;
-}
+using testing::first_queries;
+
+constexpr std::uint64_t seed = 20;
 
 TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
   int apart = 0;
   for (const char* family :
        {"planted-ulp", "grazing", "parallel", "sliver", "stiff", "aspect", "offset", "scale",
         "near-parallel-edges", "needle", "static-pair", "rigid", "end-contact", "even-roots", "triple-root"})
-    for (const Query& query : queries_of(family, 200)) {
+    for (const Query& query : first_queries(family, 200, seed)) {
       if (collides(query)) continue;
       ++apart;
       // Below 2^-300 of the differences, no precision is required.
@@ -36,7 +33,7 @@ TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
 }
 
 TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
-  for (const Query& query : queries_of("planted", 100)) {
+  for (const Query& query : first_queries("planted", 100, seed)) {
     const Approach approach =
         closest_approach(VertexDifferences(query), [](double upper) { return 0.5 * upper; });
     EXPECT_FALSE(approach.enough);
@@ -48,7 +45,7 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
 TEST(DistanceInUnits, LiesInOneBin) {
   const auto decade = [](double hi) { return hi < 1e-16 ? 0 : std::pow(10, std::floor(std::log10(hi))); };
   int resolved = 0;
-  for (const Query& query : queries_of("end-contact", 400)) {
+  for (const Query& query : first_queries("end-contact", 400, seed)) {
     if (collides(query)) continue;
     const Enclosure distance = minimum_distance(query);
     const Enclosure ratio = distance_in_units(query, 0x1p-9, decade);

@@ -2,12 +2,11 @@
 #include "fuzz/studies/audit.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string_view>
 #include <vector>
 
-#include "ccd/motion.hpp"
+#include "ccd/wang/motion.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/queries.hpp"
 

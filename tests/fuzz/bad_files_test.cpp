@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "tests/fuzz/mesh_files.hpp"
 
@@ -158,15 +157,13 @@ TEST_F(BadFilesTest, BadObjIsNamedWithItsLine) {
 
 // --- files that were cut ----------------------------------------------------------------------------------
 
-using Parse = Mesh (*)(std::istream&, const std::string&);
+using Parse = Mesh (*)(std::string_view, const std::string&);
 
 /// Expects that the text is refused after a cut anywhere, except within the last bytes, where the rest may be
 /// a complete file.
 void expect_refused_when_cut(Parse parse, const std::string& text, std::size_t last) {
-  for (std::size_t size = 0; size + last < text.size(); ++size) {
-    std::istringstream in(text.substr(0, size));
-    EXPECT_THROW(parse(in, "cut"), Error) << size << " bytes of " << text;
-  }
+  for (std::size_t size = 0; size + last < text.size(); ++size)
+    EXPECT_THROW(parse(text.substr(0, size), "cut"), Error) << size << " bytes of " << text;
 }
 
 // Text may lack its last newline, and the name of a solid. Any other cut is noticed.
@@ -185,9 +182,8 @@ TEST(CutFileTest, ACutFileIsRefused) {
 TEST(CutFileTest, ACutObjIsRefusedOrASmallerMesh) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nl 4 1\n";
   for (std::size_t size = 0; size < text.size(); ++size) {
-    std::istringstream in(text.substr(0, size));
     try {
-      const Mesh mesh = parse_obj(in, "cut");
+      const Mesh mesh = parse_obj(text.substr(0, size), "cut");
       EXPECT_EQ(mesh.points.size(), std::min<std::size_t>(4, (size + 2) / 8)) << size;
       EXPECT_LE(mesh.triangles.size(), 2);
     } catch (const Error&) {  // refused

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/scenes/built_in/formulas.hpp"
 #include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"

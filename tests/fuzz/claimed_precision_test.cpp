@@ -23,13 +23,9 @@ TEST(ClaimedPrecision, TheCheapestWithinTheThicknessIsTaken) {
 
 TEST(ClaimedPrecision, IsTheLargestBoundOfAllPairs) {
   const MovingMesh mesh = tetrahedra(1);
-  const Scene scene{.name = "tetrahedra",
-                    .frames = 2,
-                    .mesh = {mesh.start, mesh.triangles, {}},
-                    .points = [&](std::size_t) { return mesh.end; }};
   Subjects subjects;
   subjects.push_back(make_subject("wang"));
-  const auto found = claimed_precisions(scene, LeaveOut::all, subjects, never);
+  const auto found = claimed_precisions(scene_of(mesh), LeaveOut::all, subjects, never);
   double largest = 0;
   follow_plan(
       Plan(mesh, LeaveOut::all),

@@ -1,13 +1,15 @@
-// Single queries on both sides of every border between classes (fuzz/families/README.md).
+// Single queries on both sides of every border between classes, and the class of every family (fuzz/families/README.md).
 #include "fuzz/families/classify.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <vector>
 
+#include "reports/statistics/family_class.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 
@@ -236,6 +238,24 @@ TEST(Classify, DependsNeitherOnTheOrderOfVerticesNorOnThePowerOfTwoInTheUnit) {
       }
     }
 }
+
+TEST(FamilyClass, IsTheLastOneToWhichATenthOfTheQueriesBelong) {
+  for (const Family& family : all_families()) {
+    std::array<int, 4> of_class{};
+    for (const Query& query : testing::first_queries(family.name, 400, 5))
+      ++of_class[static_cast<std::size_t>(classify(query))];
+    const auto [ordinary, degenerate, extreme, unclassified] = of_class;
+    std::cout << family.name << ": " << extreme << " of 400 are extreme, " << degenerate << " degenerate\n";
+    const QueryClass deserved = extreme >= 40      ? QueryClass::extreme
+                                : degenerate >= 40 ? QueryClass::degenerate
+                                                   : QueryClass::ordinary;
+    EXPECT_EQ(name(class_of(family.name)), name(deserved))
+        << family.name << ": " << extreme << " extreme, " << degenerate << " degenerate";
+    EXPECT_EQ(unclassified, 0) << family.name;
+  }
+}
+
+TEST(FamilyClass, OfAMeshIsOrdinary) { EXPECT_EQ(class_of("mesh"), QueryClass::ordinary); }
 
 }  // namespace
 }  // namespace nearmiss

@@ -1,6 +1,5 @@
 // Whatever a plug-in does to nearmiss, each query gets an answer or a fault, and nothing of the plug-in stays.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <stdlib.h>
 
@@ -13,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/signatures.hpp"
-#include "tests/fuzz/copied_plugin.hpp"
+#include "tests/plugins.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
@@ -28,9 +27,6 @@ using testing::chosen;
 using testing::CopiedPlugin;
 using testing::plugin;
 using testing::queries;
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 struct Intrusion {
   std::string name;
@@ -121,28 +117,28 @@ TEST(Isolation, DoesNotDependOnTheSignalsOfItsParent) {
   EXPECT_EQ(verdict.fault_code, SIGSEGV);
 }
 
-class LaterProcess : public testing::TemporaryFolder, public ::testing::WithParamInterface<const char*> {};
+/// The environment names a file to which a plug-in leaves a mark.
+class Marking : public testing::TemporaryFolder {
+ protected:
+  Marking() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }
+  ~Marking() override { unsetenv("NEARMISS_MARK"); }
+};
+
+class LaterProcess : public Marking, public ::testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, LaterProcess, ::testing::Values("leaves_later", "renamed_later"));
 
 TEST_P(LaterProcess, ThatCannotBeUsedIsAFaultOfTheLaterQueries) {
-  setenv("NEARMISS_MARK", file("mark").c_str(), 1);
   const auto subject = make_isolated_plugin(plugin(GetParam()));
   const auto asked = queries();
   const auto verdicts = answers_of(*subject, asked);
-  unsetenv("NEARMISS_MARK");
   for (std::size_t i = 0; i < asked.size(); ++i)
     EXPECT_EQ(verdicts[i].fault, i < chosen ? Fault::none : i == chosen ? Fault::crash : Fault::load) << i;
-  EXPECT_THAT(subject->fault_text(verdicts.back()), HasSubstr(std::string(GetParam()) + ".so: the plug-in "));
+  EXPECT_THAT(subject->fault_text(verdicts.back()),
+              ::testing::HasSubstr(std::string(GetParam()) + ".so: the plug-in "));
   EXPECT_EQ(answers_of(*subject, asked).front().fault, Fault::load);
 }
 
-class Closing : public testing::TemporaryFolder {
- protected:
-  Closing() { setenv("NEARMISS_MARK", file("mark").c_str(), 1); }
-  ~Closing() override { unsetenv("NEARMISS_MARK"); }
-};
-
-TEST_F(Closing, IsTheEndOfADetector) {
+TEST_F(Marking, ClosingIsTheEndOfADetector) {
   {
     const auto subject = make_isolated_plugin(plugin("closes"), {.leaving = std::chrono::minutes(1)});
     for (const Verdict& verdict : answers_of(*subject, queries())) EXPECT_TRUE(verdict.hit);
@@ -151,7 +147,7 @@ TEST_F(Closing, IsTheEndOfADetector) {
   EXPECT_TRUE(std::filesystem::exists(file("mark")));
 }
 
-TEST_F(Closing, ThatNeverReturnsIsEnded) {
+TEST(Isolation, ClosingThatNeverReturnsIsEnded) {
   const CopiedPlugin copied("closes_never");
   EXPECT_TRUE(make_isolated_plugin(copied.path())->decide(queries().front()).hit);
   EXPECT_EQ(copied.processes(), 0);
@@ -173,8 +169,19 @@ TEST(Isolation, MayStartSomeProcesses) {
   EXPECT_TRUE(subject->decide(queries().front()).hit);
 }
 
-TEST(Throwing, IsAFaultWithItsText) {
-  const auto subject = make_isolated_plugin(plugin("throwing"));
+class Throwing : public ::testing::Test {
+ protected:
+  const std::unique_ptr<Subject> subject = make_isolated_plugin(plugin("throwing"));
+};
+
+/// One of the queries, with another first coordinate.
+Query query_at(double x) {
+  Query query = queries().front();
+  query.x[0] = x;
+  return query;
+}
+
+TEST_F(Throwing, IsAFaultWithItsText) {
   const auto asked = queries();
   const auto verdicts = answers_of(*subject, asked);
   for (std::size_t i = 0; i < asked.size(); ++i)
@@ -185,8 +192,7 @@ TEST(Throwing, IsAFaultWithItsText) {
             "vt exception no root in [#, #] ?[#m");
 }
 
-TEST(Throwing, ManyExceptionsAreAFaultEach) {
-  const auto subject = make_isolated_plugin(plugin("throwing"));
+TEST_F(Throwing, ManyExceptionsAreAFaultEach) {
   auto asked = queries();
   for (std::size_t i = 0; i < asked.size(); i += 2) asked[i].x[0] = 0.95;
   std::vector<Verdict> verdicts(asked.size());
@@ -195,28 +201,20 @@ TEST(Throwing, ManyExceptionsAreAFaultEach) {
     EXPECT_EQ(verdicts[i].fault, asked[i].x[0] > 0.9 ? Fault::exception : Fault::none) << i;
 }
 
-TEST(Throwing, ACrashAfterAnExceptionIsACrash) {
-  const auto subject = make_isolated_plugin(plugin("throwing"));
-  Query query = queries().front();
-  query.x[0] = 0.95;
-  EXPECT_EQ(subject->decide(query).fault, Fault::exception);
-  query.x[0] = -2;
-  EXPECT_EQ(subject->decide(query).fault, Fault::crash);
+TEST_F(Throwing, ACrashAfterAnExceptionIsACrash) {
+  EXPECT_EQ(subject->decide(query_at(0.95)).fault, Fault::exception);
+  EXPECT_EQ(subject->decide(query_at(-2)).fault, Fault::crash);
 }
 
-TEST(Throwing, WithoutATextIsAFaultToo) {
-  const auto subject = make_isolated_plugin(plugin("throwing"));
-  Query query = queries().front();
-  query.x[0] = 0.5;
-  const Verdict verdict = subject->decide(query);
+TEST_F(Throwing, WithoutATextIsAFaultToo) {
+  const Verdict verdict = subject->decide(query_at(0.5));
   EXPECT_EQ(verdict.fault, Fault::exception);
   EXPECT_EQ(subject->fault_text(verdict), "std::exception");
 }
 
-TEST(Throwing, WhileItIsLoadedIsSaid) {
-  EXPECT_THAT(
-      [] { make_isolated_plugin(plugin("throwing_while_loaded")); },
-      ThrowsMessage<Error>(HasSubstr("the plug-in threw an exception: no licence while it was loaded")));
+TEST(Isolation, AnExceptionWhileThePluginIsLoadedIsSaid) {
+  EXPECT_REFUSED(make_isolated_plugin(plugin("throwing_while_loaded")),
+                 "the plug-in threw an exception: no licence while it was loaded");
 }
 
 /// A description that an honest worker could write.
@@ -260,8 +258,8 @@ TEST(Isolation, AContractThatIsNoneAndNamesThatAreNoneAreRefused) {
 }
 
 TEST(Isolation, ANameThatIsNoneIsRefused) {
-  EXPECT_THAT([] { make_isolated_plugin(plugin("bad_name")); },
-              ThrowsMessage<Error>(HasSubstr("found a name with a control character, or that is no UTF-8")));
+  EXPECT_REFUSED(make_isolated_plugin(plugin("bad_name")),
+                 "found a name with a control character, or that is no UTF-8");
 }
 
 }  // namespace

@@ -4,12 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/trial.hpp"
-#include "oracle/contract.hpp"
-#include "tests/queries.hpp"
+#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/plugins.hpp"
 
 namespace nearmiss {
 namespace {
@@ -17,23 +18,13 @@ namespace {
 using testing::falling_vertex;
 
 /// Misses everything, notes what it is asked, and takes a contract for granted.
-class Noting final : public Subject {
- public:
-  Noting(const Contract& contract, std::vector<Query>& asked) : contract_(contract), asked_(asked) {}
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    asked_.push_back(query);
-    return {};
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-  [[nodiscard]] Contract contract() const override { return contract_; }
-
- private:
-  std::string name_ = "noting";
-  Contract contract_;
-  std::vector<Query>& asked_;
-};
+std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
+  const auto note = [&](const Query& query) {
+    asked.push_back(query);
+    return Verdict{};
+  };
+  return std::make_unique<testing::MadeUpSubject>("noting", note, testing::Claims{.contract = contract});
+}
 
 constexpr Contract apart{.apart_at_start = true};
 
@@ -47,7 +38,7 @@ Batch batch() {
 
 TEST(ContractedSubject, IsNotAskedQueriesBeyondItsContract) {
   std::vector<Query> asked;
-  const Subjects subjects = keep_contract(std::make_unique<Noting>(apart, asked), false);
+  const Subjects subjects = keep_contract(noting(apart, asked), false);
   ASSERT_EQ(subjects.size(), 1U);
   const TrialResult result = hold_trial(subjects, batch());
   for (const Query& query : asked) EXPECT_TRUE(keeps_contract(query, apart));
@@ -61,7 +52,7 @@ TEST(ContractedSubject, IsNotAskedQueriesBeyondItsContract) {
 
 TEST(ContractedSubject, QueriesBeyondTheContractAreCountedApart) {
   std::vector<Query> asked;
-  const Subjects subjects = keep_contract(std::make_unique<Noting>(apart, asked), true);
+  const Subjects subjects = keep_contract(noting(apart, asked), true);
   ASSERT_EQ(subjects.size(), 2U);
   const TrialResult result = hold_trial(subjects, batch());
   const auto counts = [&](const std::string& subject) {
@@ -74,7 +65,7 @@ TEST(ContractedSubject, QueriesBeyondTheContractAreCountedApart) {
 
 TEST(ContractedSubject, ShrinkingStaysOnTheSameSideOfTheContract) {
   std::vector<Query> asked;
-  const Subjects sides = keep_contract(std::make_unique<Noting>(apart, asked), true);
+  const Subjects sides = keep_contract(noting(apart, asked), true);
   for (const bool keeps : {true, false}) {
     const Subject& subject = *sides[keeps ? 0 : 1];
     const Query query = falling_vertex(0.3, 0.21, keeps ? 0.7 : 0, -0.4);
@@ -91,15 +82,20 @@ TEST(ContractedSubject, ShrinkingStaysOnTheSameSideOfTheContract) {
 
 TEST(ContractedSubject, IsTheSubjectItselfIfThereIsNoContract) {
   std::vector<Query> asked;
-  auto noting = std::make_unique<Noting>(Contract{}, asked);
-  const Subject* const subject = noting.get();
-  const Subjects subjects = keep_contract(std::move(noting), true);
+  auto without = noting({}, asked);
+  const Subject* const subject = without.get();
+  const Subjects subjects = keep_contract(std::move(without), true);
   ASSERT_EQ(subjects.size(), 1U);
   EXPECT_EQ(subjects.front().get(), subject);
 }
 
+/// Both sides of the contract of a plug-in that rounds.
+Subjects sides_of_plugin() {
+  return keep_contract(make_any_subject(testing::plugin("several") + ":narrow-apart"), true);
+}
+
 TEST(ContractedSubject, ItsContractIsAboutTheRoundedQuery) {
-  const Subjects sides = keep_contract(make_any_subject(NEARMISS_PLUGINS "/several.so:narrow-apart"), true);
+  const Subjects sides = sides_of_plugin();
   ASSERT_EQ(sides.size(), 2U);
   const Query query = falling_vertex(0.25, 0.25, 1e-60, -1);  // 0 as a float
   EXPECT_EQ(sides[0]->decide(query).fault, Fault::contract);
@@ -107,8 +103,7 @@ TEST(ContractedSubject, ItsContractIsAboutTheRoundedQuery) {
 }
 
 TEST(ContractedSubject, IsStillAPlugin) {
-  const Subjects sides = keep_contract(make_any_subject(NEARMISS_PLUGINS "/several.so:narrow-apart"), true);
-  for (const auto& side : sides) {
+  for (const auto& side : sides_of_plugin()) {
     EXPECT_TRUE(plugin_identity(*side));
     ASSERT_NE(plugin_info(*side), nullptr);
     EXPECT_EQ(plugin_info(*side)->name, "narrow-apart");

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "corpus/readers.hpp"
 #include "fuzz/subjects/defects.hpp"
 #include "oracle/distance.hpp"

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "fuzz/families/families.hpp"
@@ -55,10 +53,7 @@ TEST_P(EarliestTimes, AreComparedAsBySturmSequences) {
 }
 
 /// A vertex that falls through a triangle, which it reaches at t = 3/8.
-Query falling() {
-  return testing::make_query(Kind::vertex_triangle, {{0.25, 0.25, 3}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                             {{0.25, 0.25, -5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-}
+Query falling() { return testing::falling_vertex(0.25, 0.25, 3, -5); }
 
 TEST(EarliestTime, IsNotBeforeItself) {
   auto time = *earliest_time(falling());

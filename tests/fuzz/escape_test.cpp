@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
-#include "tests/fuzz/copied_plugin.hpp"
+#include "tests/plugins.hpp"
 
 namespace nearmiss {
 namespace {

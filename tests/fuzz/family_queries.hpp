@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
+#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
@@ -39,11 +40,34 @@ int count_of_400(std::string_view name, const Property& has_property) {
   return count;
 }
 
-/// The first queries of a family, with seed 1.
-inline std::vector<Query> first_queries(std::string_view name, std::uint64_t count) {
+/// Expects that more than `above` and less than `below` of 400 queries of a family have a property (count_of_400).
+template <class Property>
+void expect_count(std::string_view name, int above, int below, const Property& has_property) {
+  const int count = count_of_400(name, has_property);
+  EXPECT_GT(count, above) << name;
+  EXPECT_LT(count, below) << name;
+}
+
+/// Expects that more than `above` of 400 queries of a family have a property (count_of_400).
+template <class Property>
+void expect_more(std::string_view name, int above, const Property& has_property) {
+  EXPECT_GT(count_of_400(name, has_property), above) << name;
+}
+
+/// Expects that 400 queries of a family have a property (count_of_400).
+template <class Property>
+void expect_all(std::string_view name, const Property& has_property) {
+  EXPECT_EQ(count_of_400(name, has_property), 400) << name;
+}
+
+/// The name of a family whose parameter has a value: "aspect@8".
+inline std::string at(const std::string& family, int x) { return family + "@" + std::to_string(x); }
+
+/// The first queries of a family.
+inline std::vector<Query> first_queries(std::string_view name, std::uint64_t count, std::uint64_t seed = 1) {
   const Family family = find_family(name);
   std::vector<Query> queries;
-  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(nearmiss::make_query(family, 1, i));
+  for (std::uint64_t i = 0; i < count; ++i) queries.push_back(nearmiss::make_query(family, seed, i));
   return queries;
 }
 
@@ -67,6 +91,13 @@ inline double longest_edge(const Query& query, int time) {
   return longest;
 }
 
+/// The shortest of the edges at t = 0 or t = 1.
+inline double shortest_edge(const Query& query, int time) {
+  double shortest = longest_edge(query, time);
+  for (const auto& edge : edges(query, time)) shortest = std::min(shortest, edge.norm());
+  return shortest;
+}
+
 /// The primitives at rest in their positions at a time, which are exact for t = 0 and t = 1, and rounded otherwise.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
@@ -80,6 +111,13 @@ inline Query at_rest(Query query, double time) {
 inline Query reversed(Query query) {
   std::rotate(query.x.begin(), query.x.begin() + 12, query.x.end());
   return query;
+}
+
+/// The earliest time at which the distance is at most h, which must be a double.
+inline double first_time(const Query& query) {
+  const auto [lo, hi] = earliest_time(query)->enclosure();
+  EXPECT_EQ(lo, hi);
+  return lo;
 }
 
 }  // namespace nearmiss::testing

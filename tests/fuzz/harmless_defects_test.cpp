@@ -1,4 +1,4 @@
-// Defects of tolerances that no hunt can find, since the constraints of ccd/constraints.hpp hold in spite of them.
+// Defects of tolerances that no hunt can find, since the constraints of ccd/wang/bounds/constraints.hpp hold in spite of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "ccd/constraints.hpp"
+#include "ccd/wang/bounds/constraints.hpp"
 #include "fuzz/subjects/defects.hpp"
 
 namespace nearmiss {

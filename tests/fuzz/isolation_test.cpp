@@ -1,6 +1,5 @@
 // Plug-ins in worker processes. Whatever they do, every other query is answered.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sched.h>
 
 #include <bit>
@@ -10,8 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/error.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/parallel.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
@@ -20,7 +18,7 @@
 #include "fuzz/trial/signatures.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "tests/fuzz/family_queries.hpp"
-#include "tests/queries.hpp"
+#include "tests/plugins.hpp"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -31,14 +29,9 @@
 namespace nearmiss {
 namespace {
 
+using testing::answers_of;
 using testing::first_queries;
-
-using ::testing::Each;
-using ::testing::Ge;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
-
-std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+using testing::plugin;
 
 /// Whether tests/plugin/misbehaving.c misbehaves on a query.
 bool is_chosen(const Query& query) {
@@ -136,7 +129,7 @@ TEST(Isolation, TimeCountsEvenIfTheWorkerIsDoneBeforeNearmissRunsAgain) {
       nanoseconds.push_back(subject->decide_timed(queries, verdicts).nanoseconds);
     }
   }).join();
-  EXPECT_THAT(nanoseconds, Each(Ge(50 * 9'000U)));
+  EXPECT_THAT(nanoseconds, ::testing::Each(::testing::Ge(50 * 9'000U)));
 }
 
 // A process that dies at any moment leaves only answers that the plug-in gave.
@@ -201,18 +194,13 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
   // Each of 12 queries takes an eighth of a second, together more than the limit.
   const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
-  const auto queries = one_batch(12);
-  std::vector<Verdict> verdicts(queries.size());
-  subject->decide(queries, verdicts);
-  for (const Verdict& verdict : verdicts) EXPECT_EQ(verdict.fault, Fault::none);
+  for (const Verdict& verdict : answers_of(*subject, one_batch(12))) EXPECT_EQ(verdict.fault, Fault::none);
 }
 
 #ifndef NEARMISS_SANITIZER_ENDS_A_PROCESS_OUT_OF_MEMORY
 TEST(Isolation, ACrashAfterARefusedAllocationIsACrash) {
   const auto subject = make_isolated_plugin(plugin("recovers"), limits_for(Fault::crash));
-  const auto queries = one_batch(4);
-  std::vector<Verdict> verdicts(queries.size());
-  subject->decide(queries, verdicts);
+  const auto verdicts = answers_of(*subject, one_batch(4));
   for (std::size_t i = 0; i < verdicts.size(); ++i)
     EXPECT_EQ(verdicts[i].fault, i % 2 == 0 ? Fault::none : Fault::crash) << i;
 }
@@ -231,11 +219,9 @@ TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
 TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
   Subjects subjects;
   subjects.push_back(make_isolated_plugin(plugin("crash")));
-  Batch batch;
-  batch.family = "uniform";
-  for (std::uint64_t i = 0; i < 2000; i += 2)
-    batch.queries.push_back(make_query(find_family("uniform"), 1, i));
-  batch.provenance = [](std::size_t i) { return std::to_string(i); };
+  const Batch batch{.family = "uniform", .queries = one_batch(1000), .provenance = [](std::size_t i) {
+                      return std::to_string(i);
+                    }};
   const TrialResult result = hold_trial(subjects, batch);
   const Counts& counts = result.statistics.counts.begin()->second;
   EXPECT_EQ(counts.queries, 1000);
@@ -252,20 +238,11 @@ TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
   EXPECT_EQ(Judge(*subjects.front()).failure(shrunk), (Failure{finding.what, finding.signature}));
 }
 
-TEST(Isolation, WhatCannotBeLoadedIsRefused) {
-  EXPECT_THAT([] { make_isolated_plugin("./none.so"); },
-              ThrowsMessage<Error>(HasSubstr("none.so: cannot load")));
-  EXPECT_THAT([] { make_isolated_plugin(plugin("version_1")); },
-              ThrowsMessage<Error>(HasSubstr("found version 1 of the plug-in interface, expected 2")));
-}
-
 TEST(Isolation, WhatThePluginPrintsIsLost) {
   const auto subject = make_isolated_plugin(plugin("print"));
-  const auto queries = first_queries("uniform", 600);
-  std::vector<Verdict> verdicts(queries.size());
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  subject->decide(queries, verdicts);
+  answers_of(*subject, first_queries("uniform", 600));
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }

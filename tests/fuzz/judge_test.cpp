@@ -6,7 +6,7 @@
 #include <chrono>
 #include <limits>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
@@ -15,38 +15,33 @@
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/campaign/complexity.hpp"
-#include "tests/queries.hpp"
+#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/plugins.hpp"
 
 namespace nearmiss {
 namespace {
 
 using testing::falling_vertex;
+using testing::MadeUpSubject;
+using testing::plugin;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A subject that reports everything and claims one bound. It refuses a vertex that starts at z = 0.
-class Alarmist final : public Subject {
- public:
-  explicit Alarmist(double bound) : bound_(bound) {}
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Verdict decide(const Query& query) const override {
+MadeUpSubject alarmist(double bound) {
+  const auto report = [](const Query& query) {
     if (query.x[2] == 0) throw Error("alarmist: refused");
-    return {true, Stage::vv, 0};
-  }
-  using Subject::decide;
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
-
- private:
-  std::string name_ = "alarmist";
-  double bound_;
-};
+    return Verdict{true, Stage::vv, 0};
+  };
+  return {"alarmist", report, {.bound = bound}};
+}
 
 const Query hit = falling_vertex(0.25, 0.25, 1, -1);
 const Query stops_above = falling_vertex(0.25, 0.25, 2, 1);  // 1 above the triangle
 
 std::optional<Failure> failure_with_bound(double bound, const Query& query) {
-  return Judge(Alarmist(bound)).failure(query);
+  return Judge(alarmist(bound)).failure(query);
 }
 
 TEST(Judge, AReportBeyondTheClaimedBoundFailsAndNoOther) {
@@ -57,20 +52,9 @@ TEST(Judge, AReportBeyondTheClaimedBoundFailsAndNoOther) {
   EXPECT_EQ(failure_with_bound(0, hit), std::nullopt);
 }
 
-/// A subject that never can tell, and claims the bound 0 nevertheless.
-class Undecided final : public Subject {
- public:
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {true, Stage::unknown, 0}; }
-  using Subject::decide;
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-
- private:
-  std::string name_ = "undecided";
-};
-
+// The subject claims the bound 0 nevertheless.
 TEST(Judge, ASubjectThatCannotTellClaimsNoBound) {
-  const Undecided subject;
+  const MadeUpSubject subject("undecided", [](const Query&) { return Verdict{true, Stage::unknown, 0}; });
   EXPECT_EQ(Judge(subject).failure(stops_above), std::nullopt);
   Truth truth(stops_above);
   const Outcome outcome = Judge(subject).judge(subject.decide(stops_above), truth);
@@ -106,33 +90,23 @@ TEST(Judge, NothingFailsWhereSubjectAndOracleAreRight) {
 }
 
 TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
-  EXPECT_EQ(Judge(Alarmist(0.5)).unit(stops_above), 0.5);
-  const auto plugin = make_isolated_plugin(NEARMISS_PLUGINS "/always.so");
-  EXPECT_EQ(Judge(*plugin).unit(stops_above), make_subject("wang")->distance_bound(stops_above));
-  EXPECT_EQ(Judge(*plugin).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
+  const MadeUpSubject claims = alarmist(0.5);
+  EXPECT_EQ(Judge(claims).unit(stops_above), 0.5);
+  const auto always = make_isolated_plugin(plugin("always"));
+  EXPECT_EQ(Judge(*always).unit(stops_above), make_subject("wang")->distance_bound(stops_above));
+  EXPECT_EQ(Judge(*always).failure(stops_above), std::nullopt);  // nothing is claimed, nothing is refuted
   Truth truth(stops_above);
-  EXPECT_TRUE(Judge(*plugin).judge(plugin->decide(stops_above), truth).measured_by_wang);
-  const Alarmist claims(0.5);
+  EXPECT_TRUE(Judge(*always).judge(always->decide(stops_above), truth).measured_by_wang);
   EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth).measured_by_wang);
 }
 
 /// The error of a subject's time for a vertex that touches its triangle at t = 1/2.
 std::optional<TimeError> error_of_time(TimeSort sort, double time) {
-  class Timed final : public Subject {
-   public:
-    Timed(TimeSort sort, double time) : sort_(sort), time_(time) {}
-    [[nodiscard]] const std::string& name() const override { return name_; }
-    [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {true, Stage::vv, time_}; }
-    using Subject::decide;
-    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return infinity; }
-    [[nodiscard]] TimeSort time_sort() const override { return sort_; }
-
-   private:
-    std::string name_ = "timed";
-    TimeSort sort_;
-    double time_;
-  };
-  const Timed subject(sort, time);
+  const MadeUpSubject subject("timed",
+                              [=](const Query&) {
+                                return Verdict{true, Stage::vv, time};
+                              },
+                              {.bound = infinity, .time_sort = sort});
   Truth truth(hit);
   return Judge(subject).judge(subject.decide(hit), truth).time;
 }
@@ -157,29 +131,13 @@ TEST(Judge, JudgesASubjectThatRoundsByTheRoundedQuery) {
   Query rounded = query;
   rounded.x[14] = 0;
   EXPECT_TRUE(collides(rounded));
-
-  class Rounding final : public Subject {
-   public:
-    [[nodiscard]] const std::string& name() const override { return name_; }
-    [[nodiscard]] Verdict decide(const Query& /*query*/) const override { return {}; }
-    using Subject::decide;
-    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-    [[nodiscard]] bool rounds() const override { return true; }
-    [[nodiscard]] Query rounded(const Query& query) const override {
-      Query result = query;
-      for (double& x : result.x) x = static_cast<float>(x);
-      return result;
-    }
-
-   private:
-    std::string name_ = "rounding";
-  };
-  EXPECT_EQ(Judge(Rounding()).failure(query),
+  const MadeUpSubject rounding("rounding", [](const Query&) { return Verdict{}; }, {.rounds = true});
+  EXPECT_EQ(Judge(rounding).failure(query),
             (Failure{Finding::What::false_negative, contact_signature(rounded)}));
 }
 
 TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
-  const Alarmist subject(0.125);
+  const MadeUpSubject subject = alarmist(0.125);
   const Finding finding{
       Finding::What::refuted_bound, "alarmist", "", stops_above, "", 0, "vt vv", stops_above};
   const Query shrunk = shrunk_query(finding, &subject);
@@ -194,7 +152,7 @@ class BadBound : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
   Subjects subjects;
-  subjects.push_back(make_isolated_plugin(std::string(NEARMISS_PLUGINS "/") + GetParam() + ".so"));
+  subjects.push_back(make_isolated_plugin(plugin(GetParam())));
   Batch batch{.family = "uniform"};
   for (std::uint64_t i = 0; i < 200; i += 2)
     batch.queries.push_back(make_query(find_family("uniform"), 1, i));
@@ -214,19 +172,18 @@ TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
 INSTANTIATE_TEST_SUITE_P(All, BadBound, ::testing::Values("bound_nan", "bound_negative"));
 
 TEST(Judge, AProcessThatEndsWhileItGivesABoundIsACrash) {
-  const auto plugin = make_isolated_plugin(NEARMISS_PLUGINS "/bound_abort.so");
-  EXPECT_EQ(Judge(*plugin).failure(stops_above), (Failure{Finding::What::fault, "vt crash ABRT"}));
-  EXPECT_EQ(Judge(*plugin).failure(hit), std::nullopt);
+  const auto subject = make_isolated_plugin(plugin("bound_abort"));
+  EXPECT_EQ(Judge(*subject).failure(stops_above), (Failure{Finding::What::fault, "vt crash ABRT"}));
+  EXPECT_EQ(Judge(*subject).failure(hit), std::nullopt);
 }
 
 TEST(Judge, ABoundThatTakesTooLongIsLate) {
-  const auto plugin =
-      make_isolated_plugin(NEARMISS_PLUGINS "/bound_hang.so", {.time = std::chrono::milliseconds(20)});
+  const auto subject = make_isolated_plugin(plugin("bound_hang"), {.time = std::chrono::milliseconds(20)});
   const Failure late{Finding::What::fault, "vt time"};
-  EXPECT_EQ(Judge(*plugin).failure(stops_above), late);
+  EXPECT_EQ(Judge(*subject).failure(stops_above), late);
   // Shrinking gives up after a few such queries.
   const Finding finding{late.what, "always", "f", stops_above, "f:1:0", 0, late.signature, stops_above};
-  EXPECT_EQ(Judge(*plugin).failure(shrunk_query(finding, plugin.get())), late);
+  EXPECT_EQ(Judge(*subject).failure(shrunk_query(finding, subject.get())), late);
 }
 
 TEST(Signature, OfTheOracleSaysWhichMethodsDisagree) {

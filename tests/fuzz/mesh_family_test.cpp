@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/scenes/candidates.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"

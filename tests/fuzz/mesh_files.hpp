@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/meshes/formats.hpp"
 #include "tests/temporary_folder.hpp"
 

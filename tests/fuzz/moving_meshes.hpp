@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "fuzz/meshes/mesh.hpp"
 #include "fuzz/random.hpp"
+#include "fuzz/scenes/scene.hpp"
 
 namespace nearmiss {
 
@@ -51,6 +51,13 @@ inline MovingMesh grids(int n) {
       }
   }
   return make_moving_mesh(std::move(mesh), std::move(end));
+}
+
+/// The scene "grids" of one step, which is that of the mesh. The mesh must outlive it.
+inline Scene scene_of(const MovingMesh& mesh) {
+  return {.name = "grids",
+          .mesh = {mesh.start, mesh.triangles, mesh.edges},
+          .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
 }
 
 }  // namespace nearmiss

@@ -1,14 +1,16 @@
 // Subjects that exceed their time limit again and again are set aside.
-#include "fuzz/trial/patience.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <string>
 
+#include "fuzz/scenes/scene_trial.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/trial/campaign.hpp"
+#include "fuzz/trial/trial_stream.hpp"
+#include "tests/fuzz/moving_meshes.hpp"
 
 namespace nearmiss {
 namespace {
@@ -33,6 +35,9 @@ class Late final : public Subject {
   std::function<bool(const Query&)> is_chosen_;
 };
 
+/// Chooses every 20th query or so.
+bool is_late(const Query& query) { return std::fmod(1e4 * std::abs(query.x[2]), 1) < 0.05; }
+
 std::uint64_t faults(const Counts& counts, Fault fault) {
   return counts.faults[static_cast<std::size_t>(fault)];
 }
@@ -45,8 +50,8 @@ CampaignPlan plan_of(int jobs) {
   return plan;
 }
 
-/// The statistics of wang and of a subject that is late in every 20th query or so; without times. A stop is requested
-/// when that subject has been asked so often.
+/// The statistics of a campaign of wang and of a subject that is late; without times. A stop is requested when
+/// that subject has been asked `stop_after` queries.
 Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   std::atomic<bool> requested{false};
   std::atomic<std::uint64_t> asked{0};
@@ -54,7 +59,7 @@ Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   subjects.push_back(make_subject("wang"));
   subjects.push_back(std::make_unique<Late>([&](const Query& query) {
     if (++asked == stop_after) requested = true;
-    return std::fmod(1e4 * query.x[0], 1) < 0.05;
+    return is_late(query);
   }));
   Statistics statistics;
   run_campaign(
@@ -71,7 +76,7 @@ Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
 TEST(Patience, EndsAfterAFewQueriesOfAFamilyAndKind) {
   for (const auto& [key, counts] : run(plan_of(2)).counts) {
     EXPECT_EQ(counts.queries, 1000) << key.family;
-    EXPECT_EQ(faults(counts, Fault::time), key.subject == "late" ? Patience::most_late : 0) << key.family;
+    EXPECT_EQ(faults(counts, Fault::time), key.subject == "late" ? most_slow : 0) << key.family;
     EXPECT_EQ(faults(counts, Fault::not_asked) > 500, key.subject == "late") << key.family;
     EXPECT_EQ(is_set_aside(counts), key.subject == "late") << key.family;
   }
@@ -80,6 +85,53 @@ TEST(Patience, EndsAfterAFewQueriesOfAFamilyAndKind) {
 TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
   const Statistics one = run(plan_of(1));
   for (int i = 0; i < 5; ++i) EXPECT_EQ(run(plan_of(4)), one);
+}
+
+/// The results of trials of a subject that is late; without times.
+TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
+  Subjects subjects;
+  subjects.push_back(std::make_unique<Late>(is_late));
+  TrialResult sum;
+  Trials trials(subjects, {}, jobs, Stop::never(), 0,
+                [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  hold(trials);
+  trials.finish();
+  for (auto& [key, counts] : sum.statistics.counts) counts.times = {};
+  for (auto& [key, funnel] : sum.statistics.funnels) funnel.finding_ns = funnel.deciding_ns = 0;
+  return sum;
+}
+
+/// Expects that the subject is set aside after the same queries, with any number of threads.
+void expect_the_same_with_any_number_of_threads(const std::function<void(Trials&)>& hold) {
+  const TrialResult one = results_of(1, hold);
+  for (const auto& [key, counts] : one.statistics.counts) {
+    EXPECT_EQ(faults(counts, Fault::time), most_slow);
+    EXPECT_GT(faults(counts, Fault::not_asked), counts.queries / 2);
+  }
+  EXPECT_EQ(one.statistics.counts.size(), 2U);
+  for (int i = 0; i < 5; ++i) {
+    const TrialResult four = results_of(4, hold);
+    EXPECT_EQ(four.statistics, one.statistics);
+    EXPECT_EQ(four.findings, one.findings);
+  }
+}
+
+TEST(Patience, InAReplayDoesNotDependOnTheNumberOfThreads) {
+  const Family uniform = find_family("uniform");
+  expect_the_same_with_any_number_of_threads([&](Trials& trials) {
+    TrialStream stream(trials);
+    for (std::uint64_t i = 0; i < 8000; ++i)
+      stream.add("replayed", make_query(uniform, 1, i), std::nullopt, [i] { return std::to_string(i); });
+    stream.finish();
+  });
+}
+
+TEST(Patience, InASceneDoesNotDependOnTheNumberOfThreads) {
+  const MovingMesh mesh = grids(12);
+  const Scene scene = scene_of(mesh);
+  expect_the_same_with_any_number_of_threads([&](Trials& trials) {
+    SceneTrial(scene, LeaveOut::all, trials).hold(0, mesh, [](double /*part*/) {});
+  });
 }
 
 TEST(Patience, IsThatOfTheWholeCampaignAfterAResume) {
@@ -108,7 +160,7 @@ TEST(Patience, NotAskingIsNoFailure) {
         return true;
       },
       Stop::never());
-  EXPECT_EQ(seen, 4 * Patience::most_late);
+  EXPECT_EQ(seen, 4 * most_slow);
   EXPECT_LT(asked, 1000);  // its queries over the time limit are not shrunk
 }
 

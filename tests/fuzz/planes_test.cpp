@@ -1,9 +1,10 @@
 // The plane tests of the judge and of the accused, which were written independently, agree on every family.
 #include <gtest/gtest.h>
 
-#include "ccd/plane_culling.hpp"
+#include "ccd/wang/plane_culling.hpp"
 #include "fuzz/families/families.hpp"
 #include "oracle/filter/planes.hpp"
+#include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -11,10 +12,8 @@ namespace {
 template <Kind kind>
 void expect_same(const Query& query, const std::string& provenance) {
   const auto x = coordinates(query);
-  EXPECT_EQ(certified::separated_across_axes<kind>(x), detail::separated_across_axis<kind>(x, AllSteps{}))
-      << provenance;
-  EXPECT_EQ(certified::separated_across_diagonals<kind>(x),
-            detail::separated_across_diagonal<kind>(x, AllSteps{}))
+  EXPECT_EQ(certified::separated_across_axes<kind>(x), detail::separated_across_axis<kind>(x)) << provenance;
+  EXPECT_EQ(certified::separated_across_diagonals<kind>(x), detail::separated_across_diagonal<kind>(x))
       << provenance;
 }
 
@@ -33,21 +32,12 @@ TEST(Planes, AreThoseOfTheAccusedOnEveryFamily) {
   }
 }
 
-/// A vertex that moves from one height to another, above a triangle at rest in the plane z = 0.
-Query above(double height, double later) {
-  Query query{.kind = Kind::vertex_triangle};
-  query.x[2] = height;
-  query.x[14] = later;
-  for (const std::size_t time : {0U, 12U}) query.x[time + 6] = query.x[time + 10] = 1;
-  return query;
-}
-
 TEST(Planes, TouchingIsNotSeparate) {
-  const Query touching = above(0, 1);
+  const Query touching = testing::falling_vertex(0, 0, 0, 1);
   EXPECT_FALSE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(touching)));
-  const Query apart = above(0x1p-1074, 1);
+  const Query apart = testing::falling_vertex(0, 0, 0x1p-1074, 1);
   EXPECT_TRUE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(apart)));
-  const Query through = above(1, -1);
+  const Query through = testing::falling_vertex(0, 0, 1, -1);
   EXPECT_FALSE(certified::separated_across_axes<Kind::vertex_triangle>(coordinates(through)));
 }
 

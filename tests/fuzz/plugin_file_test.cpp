@@ -2,31 +2,26 @@
 #include "fuzz/subjects/isolation/plugin_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <link.h>
 
 #include <cstring>
 
-#include "ccd/error.hpp"
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "reports/sha256.hpp"
-#include "tests/queries.hpp"
+#include "tests/plugins.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
 using isolation::gnu_build_id;
-using isolation::PluginChanged;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
+using testing::plugin;
 
 namespace fs = std::filesystem;
 
 class PluginFileTest : public testing::TemporaryFolder {
  protected:
-  static fs::path plugin(const std::string& name) { return fs::path(NEARMISS_PLUGINS) / (name + ".so"); }
-
   /// Replaces p.so by a built plug-in, with a new inode.
   void replace(const std::string& name) const {
     fs::copy_file(plugin(name), file("new"));
@@ -39,6 +34,20 @@ class PluginFileTest : public testing::TemporaryFolder {
   }
 
   [[nodiscard]] std::unique_ptr<Subject> make() const { return make_isolated_plugin(file("p.so").string()); }
+
+  /// Expects that an answer is refused with these words, because the plug-in changed.
+  template <class Ask>
+  static void expect_changed(const Ask& ask, const std::string& words) {
+    EXPECT_THAT(ask, ::testing::ThrowsMessage<isolation::PluginChanged>(::testing::HasSubstr(words)));
+  }
+
+  void expect_no_verdict(const Subject& subject, const std::string& words) const {
+    expect_changed([&] { (void)subject.decide(query); }, words);
+  }
+
+  void expect_no_bound(const Subject& subject, const std::string& words) const {
+    expect_changed([&] { (void)subject.ask_bound(query); }, words);
+  }
 
   const Query query = testing::falling_edge(1, -1);
 };
@@ -61,16 +70,15 @@ TEST_F(PluginFileTest, ThatWasReplacedIsNotAskedAgain) {
   replace("never");
   const std::string expected = "p.so: the plug-in was changed while it was on trial: found sha256 " +
                                sha256_hex(read("p.so")) + ", expected the file with sha256 ";
-  for (int i = 0; i < 2; ++i)
-    EXPECT_THAT([&] { (void)subject->decide(query); }, ThrowsMessage<PluginChanged>(HasSubstr(expected)));
-  EXPECT_THAT([&] { (void)subject->ask_bound(query); }, ThrowsMessage<PluginChanged>(HasSubstr(expected)));
+  for (int i = 0; i < 2; ++i) expect_no_verdict(*subject, expected);
+  expect_no_bound(*subject, expected);
 }
 
 TEST_F(PluginFileTest, ThatWasOverwrittenIsNotAskedAgain) {
   replace("always");
   const auto subject = make();
   overwrite("never");
-  EXPECT_THAT([&] { (void)subject->decide(query); }, ThrowsMessage<PluginChanged>(HasSubstr("found sha256")));
+  expect_no_verdict(*subject, "found sha256");
 }
 
 // The plug-in ends its process at each query, so that each query loads the file again.
@@ -80,8 +88,7 @@ TEST_F(PluginFileTest, ThatWasReplacedIsNotLoadedAfterACrash) {
   EXPECT_EQ(subject->ask_bound(query).fault, Fault::crash);
   for (const char* other : {"always", "no_function", "throwing_while_loaded"}) {
     replace(other);
-    EXPECT_THAT([&] { (void)subject->ask_bound(query); },
-                ThrowsMessage<PluginChanged>(HasSubstr("found sha256")));
+    expect_no_bound(*subject, "found sha256");
   }
 }
 
@@ -89,8 +96,7 @@ TEST_F(PluginFileTest, ThatWasRemovedIsNotAskedAgain) {
   replace("always");
   const auto subject = make();
   fs::remove(file("p.so"));
-  EXPECT_THAT([&] { (void)subject->decide(query); },
-              ThrowsMessage<PluginChanged>(HasSubstr("found no such file")));
+  expect_no_verdict(*subject, "found no such file");
 }
 
 TEST_F(PluginFileTest, WithTheSameBytesIsTheSame) {
@@ -104,23 +110,20 @@ TEST_F(PluginFileTest, WithTheSameBytesIsTheSame) {
 
 TEST_F(PluginFileTest, LoadsLibrariesBesideIt) {
   replace("finds_beside");
-  EXPECT_THAT([&] { (void)make(); }, ThrowsMessage<Error>(HasSubstr("libbeside.so")));
-  fs::copy_file(plugin("finds_beside").parent_path() / "libbeside.so", file("libbeside.so"));
+  EXPECT_REFUSED(make(), "libbeside.so");
+  fs::copy_file(plugin("libbeside"), file("libbeside.so"));
   EXPECT_TRUE(make()->decide(query).hit);
 }
 
 TEST_F(PluginFileTest, MustBeARegularFile) {
   fs::create_directory(file("p.so"));
-  EXPECT_THAT([&] { (void)make(); },
-              ThrowsMessage<Error>(HasSubstr("p.so: cannot load the plug-in: found no regular file")));
+  EXPECT_REFUSED(make(), "p.so: cannot load the plug-in: found no regular file");
 }
 
 TEST_F(PluginFileTest, HasAtMostTwoGibibytes) {
   replace("always");
   fs::resize_file(file("p.so"), (std::uintmax_t{1} << 31) + 1);
-  EXPECT_THAT(
-      [&] { (void)make(); },
-      ThrowsMessage<Error>(HasSubstr("found 2147483649 bytes, expected a shared object of at most 2 GiB")));
+  EXPECT_REFUSED(make(), "found 2147483649 bytes, expected a shared object of at most 2 GiB");
 }
 
 /// An ELF file with these notes in its only segment.

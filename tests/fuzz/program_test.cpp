@@ -1,19 +1,18 @@
 // Detectors that are programs (fuzz/subjects/PROGRAMS.md).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
-#include "ccd/error.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/plugins.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
+using testing::answers_of;
 
 class ProgramTest : public testing::TemporaryFolder {
  protected:
@@ -46,29 +45,31 @@ while header := sys.stdin.buffer.read(24):
     return plugin_identity(*make_any_subject("pipe:" NEARMISS_PYTHON " '" + file + " p.py'"))->sha256;
   }
 
-  /// The verdict about the last of three queries.
-  [[nodiscard]] static Verdict last_verdict(const std::string& name, std::string* text = nullptr) {
-    const auto subject = make_any_subject(name, std::nullopt, {.time = std::chrono::milliseconds(200)});
+  /// Expects a fault with a code and a text about the last of three queries, at which the program does something.
+  void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
+    const auto subject =
+        make_any_subject(program(then), std::nullopt, {.time = std::chrono::milliseconds(200)});
     std::vector<Query> queries(3);
     queries.back().x[0] = 1;
-    std::vector<Verdict> verdicts(queries.size());
-    subject->decide(queries, verdicts);
-    EXPECT_EQ(verdicts[0].fault, Fault::none);
-    EXPECT_EQ(verdicts[1].fault, Fault::none);
-    if (text != nullptr) *text = subject->fault_text(verdicts.back());
-    return verdicts.back();
+    const auto verdicts = answers_of(*subject, queries);
+    EXPECT_EQ(verdicts[0].fault, Fault::none) << then;
+    EXPECT_EQ(verdicts[1].fault, Fault::none) << then;
+    EXPECT_EQ(verdicts[2].fault, fault) << then;
+    if (fault == Fault::crash) {
+      EXPECT_EQ(verdicts[2].fault_code, code) << then;
+    }
+    EXPECT_EQ(subject->fault_text(verdicts[2]), text) << then;
   }
 };
 
 TEST_F(ProgramTest, TheExampleAnswersAsTheSharedObjectDoes) {
   const auto program = make_any_subject("pipe:" NEARMISS_PYTHON " " NEARMISS_EXAMPLES "/example.py");
-  const auto object = make_any_subject(NEARMISS_PLUGINS "/example.so");
+  const auto object = make_any_subject(testing::plugin("example"));
   EXPECT_EQ(program->name(), "boxes-numpy");
   const auto queries = testing::first_queries("planted", 3000);
   std::vector<Verdict> of_program(queries.size());
-  std::vector<Verdict> of_object(queries.size());
   EXPECT_EQ(program->decide_timed(queries, of_program).queries, queries.size());
-  object->decide(queries, of_object);
+  const auto of_object = answers_of(*object, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_EQ(of_program[i].hit, of_object[i].hit) << i;
 }
 
@@ -96,31 +97,25 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 }
 
 TEST_F(ProgramTest, ThatEndsIsACrashOfTheQuery) {
-  const Verdict exit = last_verdict(program("if rows[-1][0] == 1: sys.exit(3)"));
-  EXPECT_EQ(exit.fault, Fault::crash);
-  EXPECT_EQ(exit.fault_code, -3);
-  const Verdict crash = last_verdict(program("if rows[-1][0] == 1: os.kill(os.getpid(), signal.SIGSEGV)"));
-  EXPECT_EQ(crash.fault, Fault::crash);
-  EXPECT_EQ(crash.fault_code, SIGSEGV);
+  expect_fault("if rows[-1][0] == 1: sys.exit(3)", Fault::crash, -3);
+  expect_fault("if rows[-1][0] == 1: os.kill(os.getpid(), signal.SIGSEGV)", Fault::crash, SIGSEGV);
+  // A child that it leaves behind changes nothing.
+  expect_fault("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)", Fault::crash, -5);
 }
 
 TEST_F(ProgramTest, AnExceptionIsKnownByItsText) {
-  std::string text;
-  EXPECT_EQ(last_verdict(program("if rows[-1][0] == 1: raise ValueError('no root')"), &text).fault,
-            Fault::exception);
-  EXPECT_EQ(text, "ValueError: no root");
+  expect_fault("if rows[-1][0] == 1: raise ValueError('no root')", Fault::exception, 0,
+               "ValueError: no root");
 }
 
 TEST_F(ProgramTest, ThatTakesTooLongIsLate) {
-  for (const char* way : {"if rows[-1][0] == 1: time.sleep(1000)", "while rows[-1][0] == 1: pass"})
-    EXPECT_EQ(last_verdict(program(way)).fault, Fault::time) << way;
+  expect_fault("if rows[-1][0] == 1: time.sleep(1000)", Fault::time);
+  expect_fault("while rows[-1][0] == 1: pass", Fault::time);
 }
 
 TEST_F(ProgramTest, AnAnswerThatIsNoneIsInvalid) {
-  for (const char* answer : {"0.5", "3", "1e300", "float('nan')"})
-    EXPECT_EQ(last_verdict(program(std::string("if rows[-1][0] == 1: answers[-2] = ") + answer)).fault,
-              Fault::invalid)
-        << answer;
+  for (const std::string answer : {"0.5", "3", "1e300", "float('nan')"})
+    expect_fault("if rows[-1][0] == 1: answers[-2] = " + answer, Fault::invalid);
 }
 
 // Otherwise the answers to later questions would be those to earlier ones.
@@ -130,18 +125,9 @@ TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
        {program("answers += [0, 0] * (not 'asked' in globals()); asked = True"), program("answers += [0]"),
         program("pass", "\\n')\n" + numbers + "\nsay('")}) {
     const auto subject = make_any_subject(name);
-    const std::vector<Query> queries(5);
-    std::vector<Verdict> verdicts(queries.size());
-    subject->decide(queries, verdicts);
-    for (const Verdict& verdict : verdicts) EXPECT_EQ(verdict.fault, Fault::protocol) << name;
+    for (const Verdict& verdict : answers_of(*subject, std::vector<Query>(5)))
+      EXPECT_EQ(verdict.fault, Fault::protocol) << name;
   }
-}
-
-TEST_F(ProgramTest, ThatLeavesAChildBehindEnds) {
-  const Verdict exit =
-      last_verdict(program("if rows[-1][0] == 1: subprocess.Popen(['sleep', '1000']); os._exit(5)"));
-  EXPECT_EQ(exit.fault, Fault::crash);
-  EXPECT_EQ(exit.fault_code, -5);
 }
 
 TEST_F(ProgramTest, MayDoSomethingWhenItsInputEnds) {
@@ -155,32 +141,30 @@ TEST_F(ProgramTest, MayDoSomethingWhenItsInputEnds) {
 TEST_F(ProgramTest, ThatSaysNothingIsRefusedAfterTheTimeForLoading) {
   const std::chrono::seconds loading(2);
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_THAT([&] { make_any_subject("pipe:cat", std::nullopt, {.loading = loading}); },
-              ThrowsMessage<Error>(HasSubstr("pipe:cat: the plug-in takes longer than 2 s to load")));
+  EXPECT_REFUSED(make_any_subject("pipe:cat", std::nullopt, {.loading = loading}),
+                 "pipe:cat: the plug-in takes longer than 2 s to load");
   EXPECT_LT(std::chrono::steady_clock::now() - start, 10 * loading);
 }
 
 TEST_F(ProgramTest, ThatIsNoneIsRefused) {
-  const auto refused = [&](const std::string& name, const std::string& why) {
-    EXPECT_THAT([&] { make_any_subject(name); }, ThrowsMessage<Error>(HasSubstr(why))) << name;
-  };
-  refused(command("say('nearmiss 1\\n\\n')"), "found 'nearmiss 1', expected 'nearmiss 2'");
-  refused(command("say('nearmiss 2\\nname p\\n\\n')"), "'p' with no known kind of queries");
-  refused(command("say('nearmiss 2\\nkinds vt\\n\\n')"), "a detector without a name");
-  refused(command("say('nearmiss 2\\nname p\\nkinds xy\\n\\n')"),
-          "found 'xy', expected one of vt, ee, vt ee");
-  refused(command("say('nearmiss 2\\nname p\\ngrid 0.x\\n\\n')"), "found '0.x', expected a number");
-  refused(command("say('nearmiss 2\\nname p\\nbits 24.9\\n\\n')"), "found '24.9', expected a whole number");
-  refused(command("say('nearmiss 2\\nname p\\nbatch 1e30\\n\\n')"), "found '1e30', expected a whole number");
-  refused(command("say('nearmiss 2\\nname p\\nbatch inf\\n\\n')"), "found 'inf', expected a whole number");
-  refused(command("say('nearmiss 2\\nnames p\\n\\n')"), "found the line 'names'");
-  refused(command("say('nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n\\n')"),
-          "found 'p' with limits of lengths that no length meets, or that are not finite");
-  refused(command("say('nearmiss 2\\nname a/p\\nkinds vt\\n\\n')"),
-          "found the name 'a/p' with ':', '=', '/' or ','");
-  refused(command("import no_such_module"), "No module named 'no_such_module'");
-  refused("pipe:no-such-command", "no-such-command: not found");
-  refused("pipe:", "pipe: found no command");
+  const std::pair<const char*, const char*> descriptions[]{
+      {"nearmiss 1\\n", "found 'nearmiss 1', expected 'nearmiss 2'"},
+      {"nearmiss 2\\nname p\\n", "'p' with no known kind of queries"},
+      {"nearmiss 2\\nkinds vt\\n", "a detector without a name"},
+      {"nearmiss 2\\nname p\\nkinds xy\\n", "found 'xy', expected one of vt, ee, vt ee"},
+      {"nearmiss 2\\nname p\\ngrid 0.x\\n", "found '0.x', expected a number"},
+      {"nearmiss 2\\nname p\\nbits 24.9\\n", "found '24.9', expected a whole number"},
+      {"nearmiss 2\\nname p\\nbatch 1e30\\n", "found '1e30', expected a whole number"},
+      {"nearmiss 2\\nname p\\nbatch inf\\n", "found 'inf', expected a whole number"},
+      {"nearmiss 2\\nnames p\\n", "found the line 'names'"},
+      {"nearmiss 2\\nname p\\nkinds vt\\nlongest inf\\n",
+       "found 'p' with limits of lengths that no length meets, or that are not finite"},
+      {"nearmiss 2\\nname a/p\\nkinds vt\\n", "found the name 'a/p' with ':', '=', '/' or ','"}};
+  for (const auto& each : descriptions)
+    EXPECT_REFUSED(make_any_subject(command("say('" + std::string(each.first) + "\\n')")), each.second);
+  EXPECT_REFUSED(make_any_subject(command("import no_such_module")), "No module named 'no_such_module'");
+  EXPECT_REFUSED(make_any_subject("pipe:no-such-command"), "no-such-command: not found");
+  EXPECT_REFUSED(make_any_subject("pipe:"), "pipe: found no command");
 }
 
 TEST_F(ProgramTest, IsIdentifiedByAllFilesOfItsCommand) {
@@ -195,8 +179,7 @@ TEST_F(ProgramTest, ThatIsChangedIsNoticed) {
   const auto subject = make_any_subject(name);
   EXPECT_TRUE(subject->decide(Query{}).hit);
   write("p.py", "changed");
-  EXPECT_THAT([&] { (void)subject->decide(Query{}); },
-              ThrowsMessage<Error>(HasSubstr("p.py: the plug-in was changed")));
+  EXPECT_REFUSED(subject->decide(Query{}), "p.py: the plug-in was changed");
 }
 
 }  // namespace

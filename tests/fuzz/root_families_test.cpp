@@ -1,7 +1,6 @@
 // The families whose roots of F are hard to find keep their promises.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <iostream>
 
 #include "fuzz/families/contacts.hpp"
@@ -23,18 +22,28 @@ int count_of_200(std::string_view family, Kind kind, const Property& has_propert
   return count_of_400(family, [&](const Query& query) { return query.kind == kind && has_property(query); });
 }
 
-TEST(EndContact, IsExactlyAtAnEndOfTheStep) {
+/// Expects that more than `above` of 200 queries of each kind have a property.
+template <class Property>
+void expect_more_of_each_kind(std::string_view family, int above, const Property& has_property) {
   for (const Kind kind : kinds)
-    for (const int time : {0, 1})
-      EXPECT_GT(count_of_200("end-contact@0", kind,
-                             [&](const Query& query) { return collides_exactly(at_rest(query, time)); }),
-                70)
-          << short_name(kind) << ' ' << time;
-  EXPECT_EQ(count_of_400("end-contact@0",
-                         [](const Query& query) {
-                           return collides_exactly(at_rest(query, 0)) || collides_exactly(at_rest(query, 1));
-                         }),
-            400);
+    EXPECT_GT(count_of_200(family, kind, has_property), above) << family << ' ' << short_name(kind);
+}
+
+/// Whether F has one root, of this multiplicity.
+auto has_one_root(int multiplicity) {
+  return [=](const Query& query) {
+    const RootCount roots = count_roots(query);
+    return roots.distinct == 1 && roots.with_multiplicity == multiplicity;
+  };
+}
+
+TEST(EndContact, IsExactlyAtAnEndOfTheStep) {
+  const auto touches_at = [](int time) {
+    return [=](const Query& query) { return collides_exactly(at_rest(query, time)); };
+  };
+  for (const int time : {0, 1}) expect_more_of_each_kind("end-contact@0", 70, touches_at(time));
+  testing::expect_all("end-contact@0",
+                      [&](const Query& query) { return touches_at(0)(query) || touches_at(1)(query); });
 }
 
 TEST(EndContact, OneCoordinateIsMovedByTheParameter) {
@@ -56,11 +65,8 @@ TEST(EndContact, OneCoordinateIsMovedByTheParameter) {
 
 // One query in four turns back before contact. In some queries, contact is outside of the primitives.
 TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
-  for (const Kind kind : kinds)
-    for (const char* family : {"even-roots@-16", "even-roots@-8", "even-roots@-2"})
-      EXPECT_GT(
-          count_of_200(family, kind, [](const Query& query) { return count_roots(query).distinct == 2; }), 15)
-          << family << ' ' << short_name(kind);
+  for (const char* family : {"even-roots@-16", "even-roots@-8", "even-roots@-2"})
+    expect_more_of_each_kind(family, 15, [](const Query& query) { return count_roots(query).distinct == 2; });
 }
 
 TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
@@ -78,36 +84,18 @@ TEST(EvenRoots, TheTimeBetweenTheContactsIsTheParameter) {
   }
 }
 
-TEST(EvenRoots, SomeAreDouble) {
-  for (const Kind kind : kinds) {
-    const auto is_double = [](const Query& query) {
-      const RootCount roots = count_roots(query);
-      return roots.distinct == 1 && roots.with_multiplicity == 2;
-    };
-    EXPECT_GT(count_of_200("even-roots@-2", kind, is_double), 2) << short_name(kind);
-  }
-}
+TEST(EvenRoots, SomeAreDouble) { expect_more_of_each_kind("even-roots@-2", 2, has_one_root(2)); }
 
 // One query in eight has an exact triple root, if its numbers are exact.
 TEST(TripleRoot, ThePrimitivesMeetInATripleRoot) {
-  for (const Kind kind : kinds)
-    for (const char* family : {"triple-root@-16", "triple-root@0"}) {
-      const auto is_triple = [](const Query& query) {
-        const RootCount roots = count_roots(query);
-        return roots.distinct == 1 && roots.with_multiplicity == 3;
-      };
-      EXPECT_GT(count_of_200(family, kind, is_triple), 2) << family << ' ' << short_name(kind);
-    }
+  for (const char* family : {"triple-root@-16", "triple-root@0"})
+    expect_more_of_each_kind(family, 2, has_one_root(3));
 }
 
 TEST(TripleRoot, ThePrimitivesNearlyMeetHoweverFarTheRootsAre) {
-  for (const Kind kind : kinds)
-    EXPECT_GT(count_of_200("triple-root@-16", kind,
-                           [](const Query& query) {
-                             return minimum_distance(query).hi <= 1e-12 * testing::largest_coordinate(query);
-                           }),
-              120)
-        << short_name(kind);
+  expect_more_of_each_kind("triple-root@-16", 120, [](const Query& query) {
+    return minimum_distance(query).hi <= 1e-12 * testing::largest_coordinate(query);
+  });
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {

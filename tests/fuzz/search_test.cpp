@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
+#include "tests/fuzz/made_up_subject.hpp"
 
 namespace nearmiss {
 namespace {
@@ -71,20 +72,12 @@ TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {
 }
 
 TEST(MissSearch, PassesTheErrorsOfASubjectOn) {
-  class Failing final : public Subject {
-   public:
-    [[nodiscard]] const std::string& name() const override { return name_; }
-    [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
-      if (++asked_ == 100) throw Error("that is all");
-      return {.hit = true, .stage = Stage::unspecified};
-    }
-    [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 1; }
-
-   private:
-    std::string name_ = "failing";
-    mutable int asked_ = 0;
+  int asked = 0;
+  const auto fail_at_last = [&](const Query&) {
+    if (++asked == 100) throw Error("that is all");
+    return Verdict{.hit = true, .stage = Stage::unspecified};
   };
-  const Failing subject;
+  const testing::MadeUpSubject subject("failing", fail_at_last, {.bound = 1});
   EXPECT_THROW(search(miss_search(subject), 0), Error);
 }
 

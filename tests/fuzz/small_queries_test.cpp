@@ -17,6 +17,7 @@
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fuzz/made_up_subject.hpp"
 
 namespace nearmiss {
 namespace {
@@ -127,24 +128,8 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
   }
 }
 
-/// Reports nothing, and counts the queries about which it is asked. It may be late.
-class Blind final : public Subject {
- public:
-  explicit Blind(Fault fault = Fault::none) : fault_(fault) {}
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
-    ++asked;
-    return {.fault = fault_};
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-
-  mutable std::atomic<std::size_t> asked = 0;
-
- private:
-  std::string name_ = "blind";
-  Fault fault_;
-};
+/// Reports nothing.
+const testing::MadeUpSubject blind("blind", [](const Query&) { return Verdict{}; });
 
 Finding missed(Kind kind) {
   Finding finding{
@@ -155,7 +140,6 @@ Finding missed(Kind kind) {
 }
 
 TEST(SmallQueries, GiveTheSimplestFailureOfEachKindAndClass) {
-  const Blind blind;
   const Judge judge(blind);
   for (const Kind kind : kinds) {
     const SmallFailures failures(blind, kind, false, [] {});
@@ -178,19 +162,21 @@ TEST(SmallQueries, GiveTheSimplestFailureOfEachKindAndClass) {
 }
 
 TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
-  const Blind crashing(Fault::crash);
+  std::atomic<std::size_t> asked = 0;
+  const testing::MadeUpSubject crashing("blind", [&](const Query&) {
+    ++asked;
+    return Verdict{.fault = Fault::crash};
+  });
   EXPECT_EQ(shrunk_query(missed(Kind::edge_edge), &crashing, Stop::never(), limits_in_campaign),
             missed(Kind::edge_edge).query);
-  EXPECT_EQ(crashing.asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
+  EXPECT_EQ(asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
 }
 
 TEST(SmallQueries, AreLeftAfterARequest) {
-  const Blind blind;
   EXPECT_THROW(SmallFailures(blind, Kind::edge_edge, false, [] { throw Stopped(); }), Stopped);
 }
 
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
-  const Blind blind;
   const Judge judge(blind);
   const Subject* const pointer = &blind;
   const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), {});

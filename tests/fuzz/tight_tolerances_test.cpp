@@ -1,5 +1,5 @@
 // The tolerances that solve the paper's constraints.
-#include "ccd/tight_tolerances.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
 
 #include <CGAL/Interval_nt.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <nlopt.hpp>
 #include <vector>
 
-#include "ccd/wang.hpp"
+#include "ccd/wang/wang.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/studies/audit.hpp"
 #include "oracle/oracle.hpp"
@@ -189,8 +189,8 @@ int misses(std::uint64_t queries) {
       for (double& c : query.x) c = static_cast<double>(static_cast<T>(c));
       if (!is_finite(query) || !collides(query)) continue;
       const bool hit = query.kind == Kind::vertex_triangle
-                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightSteps>(query).hit
-                           : wang<Kind::edge_edge, T, WangOptions{}, TightSteps>(query).hit;
+                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightTolerances>(query).hit
+                           : wang<Kind::edge_edge, T, WangOptions{}, TightTolerances>(query).hit;
       if (!hit) ++count;
     }
   }

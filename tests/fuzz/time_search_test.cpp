@@ -1,42 +1,32 @@
 // Tests the directed search for late and early times, and all searches with a separation.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <memory>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/search/search.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fuzz/made_up_subject.hpp"
 
 namespace nearmiss {
 namespace {
 
-/// The oracle with another answer.
-class Altered final : public Subject {
- public:
-  using Answer = std::function<Verdict(const Query&, const Verdict&)>;
+using testing::MadeUpSubject;
 
-  explicit Altered(Answer answer, double bound = HUGE_VAL) : answer_(std::move(answer)), bound_(bound) {}
-
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    return answer_(query, exact_->decide(query));
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return bound_; }
-  [[nodiscard]] bool claims_bound() const override { return std::isfinite(bound_); }
-  [[nodiscard]] bool takes_separation() const override { return true; }
-  [[nodiscard]] TimeSort time_sort() const override { return TimeSort::lower_bound; }
-
- private:
-  std::string name_ = "altered";
-  std::unique_ptr<Subject> exact_ = make_any_subject("exact");
-  Answer answer_;
-  double bound_;
-};
+/// The oracle with another answer, which altered(query, verdict) makes of its own.
+template <class Answer>
+MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
+  const std::shared_ptr<Subject> exact = make_any_subject("exact");
+  return {"altered",
+          [=](const Query& query) { return alter(query, exact->decide(query)); },
+          {.bound = bound,
+           .claims_bound = std::isfinite(bound),
+           .time_sort = TimeSort::lower_bound,
+           .takes_separation = true}};
+}
 
 /// How far a collision is from a small region: that of times next to 0.4 and last edges as long as 0.77 at t = 0.
 double off(const Query& query, double time) {
@@ -46,8 +36,8 @@ double off(const Query& query, double time) {
 constexpr double region = 0x1p-10;
 
 /// Its times are late in the region alone, by at most 0.1 * region.
-Altered late_in_a_region() {
-  return Altered([](const Query& query, Verdict verdict) {
+MadeUpSubject late_in_a_region() {
+  return altered([](const Query& query, Verdict verdict) {
     if (verdict.hit) verdict.time += 0.1 * (region - off(query, verdict.time)) * std::min(verdict.time, 1.0);
     verdict.time = std::max(verdict.time, 0.0);
     return verdict;
@@ -55,8 +45,8 @@ Altered late_in_a_region() {
 }
 
 /// Its times are 1e-3 early, and earlier in the region.
-Altered early_in_a_region() {
-  return Altered([](const Query& query, Verdict verdict) {
+MadeUpSubject early_in_a_region() {
+  return altered([](const Query& query, Verdict verdict) {
     const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);
     verdict.time = std::max(verdict.time - 1e-3 * (1 / (1 + off(query, verdict.time))) - 0.2 * inside, 0.0);
     return verdict;
@@ -95,13 +85,13 @@ int late_ones(const Subject& subject, const Family& family, std::uint64_t querie
 }
 
 TEST(LateSearch, FindsTimesThatAreLateInASmallRegionAlone) {
-  const Altered subject = late_in_a_region();
+  const MadeUpSubject subject = late_in_a_region();
   EXPECT_EQ(late_ones(subject, find_family("uniform-end"), 5000), 0);
   EXPECT_GE(late_ones(subject, late_search(subject), 10), 3);
 }
 
 TEST(LateSearch, GoesOnToTheLatest) {
-  const Altered subject = late_in_a_region();
+  const MadeUpSubject subject = late_in_a_region();
   constexpr double latest = 0.1 * region * 0.4;
   const double found = largest(subject, late_search(subject), 10, 1);
   EXPECT_GT(found, 0.9 * latest);
@@ -109,19 +99,19 @@ TEST(LateSearch, GoesOnToTheLatest) {
 }
 
 TEST(LateSearch, FindsThemForASeparationToo) {
-  const Altered subject = late_in_a_region();
-  EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), "drawn"), 10), 3);
-  EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), "0.0625"), 10), 3);
+  const MadeUpSubject subject = late_in_a_region();
+  for (const char* separation : {"drawn", "0.0625"})
+    EXPECT_GE(late_ones(subject, late_search(subject, Stop::never(), separation), 10), 3) << separation;
 }
 
 TEST(LateSearch, FindsNoneIfThereIsNone) {
   const auto exact = make_any_subject("exact");
-  EXPECT_EQ(late_ones(*exact, late_search(*exact), 6), 0);
-  EXPECT_EQ(late_ones(*exact, late_search(*exact, Stop::never(), "drawn"), 6), 0);
+  for (const char* separation : {"", "drawn"})
+    EXPECT_EQ(late_ones(*exact, late_search(*exact, Stop::never(), separation), 6), 0) << separation;
 }
 
 TEST(LateSearch, ShowsCollisionsOfASubjectThatMissesMost) {
-  const Altered subject([](const Query& query, const Verdict& verdict) {
+  const MadeUpSubject subject = altered([](const Query& query, const Verdict& verdict) {
     return query.x[0] < query.x[3] ? verdict : Verdict{};
   });
   for (std::uint64_t i = 0; i < 6; ++i)
@@ -129,14 +119,14 @@ TEST(LateSearch, ShowsCollisionsOfASubjectThatMissesMost) {
 }
 
 TEST(EarlySearch, FindsTheEarliestTimes) {
-  const Altered subject = early_in_a_region();
+  const MadeUpSubject subject = early_in_a_region();
   EXPECT_LT(largest(subject, find_family("uniform-end"), 5000, -1), 0.01);
   EXPECT_GT(largest(subject, early_search(subject), 10, -1), 0.19);
   EXPECT_GT(largest(subject, early_search(subject, Stop::never(), "drawn"), 10, -1), 0.19);
 }
 
 TEST(TimeSearches, GiveQueriesWithTheirSeparation) {
-  const Altered subject = late_in_a_region();
+  const MadeUpSubject subject = late_in_a_region();
   for (const Family& family : searches(subject, Stop::never(), "0.375")) {
     EXPECT_TRUE(family.has_separation) << family.name;
     EXPECT_EQ(make_query(family, 1, 0).separation, 0.375) << family.name;
@@ -165,12 +155,12 @@ TEST(TimeSearches, AreMadeForSubjectsThatGiveTimes) {
   EXPECT_THAT(names(*make_any_subject("exact"), "drawn"),
               ::testing::ElementsAre("search-miss-exact~drawn", "search-far-exact~drawn",
                                      "search-late-exact~drawn", "search-early-exact~drawn"));
-  EXPECT_THROW(names(*make_any_subject("exact"), "0"), nearmiss::Error);
-  EXPECT_THROW(names(*make_any_subject("exact"), "near"), nearmiss::Error);
+  for (const char* none : {"0", "near"})
+    EXPECT_THROW(names(*make_any_subject("exact"), none), nearmiss::Error) << none;
 }
 
 TEST(TimeSearches, ArePureFunctions) {
-  const Altered subject = late_in_a_region();
+  const MadeUpSubject subject = late_in_a_region();
   for (const char* separation : {"", "drawn"})
     for (const Family& family : searches(subject, Stop::never(), separation))
       EXPECT_EQ(make_query(family, 1, 1), make_query(family, 1, 1)) << family.name;
@@ -178,7 +168,7 @@ TEST(TimeSearches, ArePureFunctions) {
 
 /// Misses collisions that do not come nearer than 0.999 h.
 TEST(MissSearch, FindsMissesNextToTheSeparation) {
-  const Altered subject([](const Query& query, const Verdict& verdict) {
+  const MadeUpSubject subject = altered([](const Query& query, const Verdict& verdict) {
     const bool near = query.separation > 0 && distance_exceeds(query, 0.999 * query.separation);
     return near ? Verdict{} : verdict;
   });
@@ -192,7 +182,7 @@ TEST(MissSearch, FindsMissesNextToTheSeparation) {
 
 /// Reports what comes within h + 1e-3, and claims a bound of half of that.
 TEST(FarSearch, RefutesBoundsBeyondTheSeparation) {
-  const Altered subject(
+  const MadeUpSubject subject = altered(
       [](const Query& query, Verdict verdict) {
         verdict.hit = !distance_exceeds(query, query.separation + 1e-3);
         return verdict;

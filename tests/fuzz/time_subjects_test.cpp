@@ -1,15 +1,14 @@
 // The subjects of ccd/ that give times, on all families.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <string>
 
-#include "fuzz/families/families.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/trial.hpp"
 #include "oracle/earliest_time.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fuzz/family_queries.hpp"
 
 namespace nearmiss {
 namespace {
@@ -39,19 +38,14 @@ std::uint64_t cases(const Family& family, std::uint64_t usual) {
   return family.block_cases < 25 ? usual / 10 : usual;
 }
 
-std::string test_name(const ::testing::TestParamInfo<Family>& each) {
-  std::string name = each.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
 class TimesOf : public ::testing::TestWithParam<Family> {};
 INSTANTIATE_TEST_SUITE_P(AllFamilies, TimesOf,
-                         ::testing::ValuesIn(all_families().begin(), all_families().end()), test_name);
+                         ::testing::ValuesIn(all_families().begin(), all_families().end()),
+                         testing::name_of_test);
 
 class TimesOfContact : public TimesOf {};
 INSTANTIATE_TEST_SUITE_P(FamiliesOfContact, TimesOfContact,
-                         ::testing::ValuesIn(families().begin(), families().end()), test_name);
+                         ::testing::ValuesIn(families().begin(), families().end()), testing::name_of_test);
 
 TEST_P(TimesOfContact, WangTimeMissesNothingAndIsNeverLate) {
   for (const Counts& counts : counts_of("wang-time", GetParam(), cases(GetParam(), 1000)))

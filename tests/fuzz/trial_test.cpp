@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/trial_stream.hpp"
 #include "reports/campaign/campaign.hpp"
@@ -205,8 +205,9 @@ TEST(Trial, ComparesAllMethodsIfTheBatchAsksForIt) {
 TEST(TrialStream, DecidesEverythingInOrder) {
   const Subjects subjects = one(std::make_unique<Told>("never", false, infinity));
   TrialResult sum;
-  SiftedTrials trials(subjects, {}, 2, Stop::never());
-  TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  Trials trials(subjects, {}, 2, Stop::never(), 0,
+                [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  TrialStream stream(trials);
   constexpr int count = 12345;
   for (int i = 0; i < count; ++i)
     stream.add("f", falling_vertex(0.25, 0.25, 1, i % 1000 == 0 ? -1 : 0.5), std::nullopt,
@@ -225,8 +226,8 @@ TEST(TrialStream, DecidesNothingAfterARequestToStop) {
   const std::atomic<bool> requested{true};
   const Stop stop(requested);
   TrialResult sum;
-  SiftedTrials trials(subjects, {}, 2, stop);
-  TrialStream stream(trials, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  Trials trials(subjects, {}, 2, stop, 0, [&](TrialResult&& result) { sum.merge(std::move(result)); });
+  TrialStream stream(trials);
   EXPECT_FALSE(stream.add("f", falling_vertex(0.25, 0.25, 1, -1), std::nullopt, [] { return ""; }));
   stream.finish();
   EXPECT_TRUE(sum.statistics.counts.empty());

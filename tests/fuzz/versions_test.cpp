@@ -2,26 +2,23 @@
 #include "fuzz/trial/versions.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
-#include "tests/fuzz/copied_plugin.hpp"
+#include "tests/plugins.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::plugin;
-using ::testing::ThrowsMessage;
 
 Subjects made_of(const std::vector<std::string>& texts) {
   Subjects made;
@@ -69,15 +66,12 @@ TEST_F(SubjectFiles, WhoseNamesAreNoneFollowThatOfTheDetector) {
 TEST_F(SubjectFiles, WithEqualNamesAreRefusedUnlessTheyAreRenamed) {
   const std::string a = copied("v1", "a/mine.so");
   const std::string b = copied("v2", "b/mine.so");
-  EXPECT_THAT(
-      [&] {
-        names_of({a, b});
-      },
-      ThrowsMessage<Error>("found two subjects named 'always', expected different names, such as NAME=" + b));
+  EXPECT_ERROR(names_of({a, b}),
+               "found two subjects named 'always', expected different names, such as NAME=" + b);
   EXPECT_THAT(names_of({a, "new=" + b}), ElementsAre("always", "new"));
-  EXPECT_THAT([&] { names_of({a, a}); }, ThrowsMessage<Error>(HasSubstr("two subjects named 'always'")));
-  EXPECT_THAT([&] { names_of({"x=" + a, "x=" + a}); }, ThrowsMessage<Error>(HasSubstr("named 'x'")));
-  EXPECT_THAT([&] { names_of({"wang", "wang"}); }, ThrowsMessage<Error>(HasSubstr("such as NAME=wang")));
+  EXPECT_REFUSED(names_of({a, a}), "two subjects named 'always'");
+  EXPECT_REFUSED(names_of({"x=" + a, "x=" + a}), "named 'x'");
+  EXPECT_REFUSED(names_of({"wang", "wang"}), "such as NAME=wang");
   EXPECT_THAT(names_of({"x=" + a, "y=" + a, "wang", "z=wang@0.5"}), ElementsAre("x", "y", "wang", "z@0.5"));
 }
 
@@ -88,9 +82,7 @@ TEST(SubjectNames, ComeBeforeTheFirstOfColonSlashAndEqualsSign) {
     EXPECT_EQ(SubjectText::parse(none).subject, none);
   }
   for (const char* bad : {"=./v.so", "1=./v.so", "a b=wang", "wang@2=wang"})
-    EXPECT_THAT([&] { SubjectText::parse(bad); },
-                ThrowsMessage<Error>(HasSubstr("expected NAME=SUBJECT with a name of letters")))
-        << bad;
+    EXPECT_REFUSED(SubjectText::parse(bad), "expected NAME=SUBJECT with a name of letters") << bad;
 }
 
 TEST(SubjectNames, CanBeGivenToAllSubjects) {
@@ -101,8 +93,8 @@ TEST(SubjectNames, CanBeGivenToAllSubjects) {
   EXPECT_EQ(subject->name(), "new");
   EXPECT_EQ(text_of(*subject), program);
   EXPECT_EQ(text_of(*make_any_subject("new=wang@0.5")), "new=wang@0.5");
-  EXPECT_THAT([] { make_any_subjects("new=" + plugin("several")); },
-              ThrowsMessage<Error>(HasSubstr("found several detectors, expected one of told")));
+  EXPECT_REFUSED(make_any_subjects("new=" + plugin("several")),
+                 "found several detectors, expected one of told");
 }
 
 TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {

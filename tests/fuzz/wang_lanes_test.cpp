@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
-#include "ccd/subject.hpp"
-#include "ccd/wang_batch.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "ccd/wang/wang_batch.hpp"
 #include "tests/fuzz/family_queries.hpp"
 #include "tests/queries.hpp"
 

@@ -1,20 +1,16 @@
 // Families of contact whose queries get a separation, by the names NAME~H and NAME~drawn.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
 #include "fuzz/families/contacts.hpp"
 #include "fuzz/families/families.hpp"
+#include "tests/refused.hpp"
 
 namespace nearmiss {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 TEST(WithSeparation, ANumberIsTheSeparationOfEveryQuery) {
   for (const char* family : {"uniform", "aspect", "aspect@8"})
@@ -96,21 +92,20 @@ TEST(WithSeparation, ASweepNamesTheValueBeforeTheSeparation) {
 }
 
 TEST(WithSeparation, BadSeparationsAreNamed) {
-  const auto expect_refused = [](const std::string& name, const std::string& words) {
-    EXPECT_THAT([&] { find_family(name); }, ThrowsMessage<Error>(HasSubstr(words)));
-  };
-  expect_refused("uniform~0",
+  EXPECT_REFUSED(find_family("uniform~0"),
                  "family 'uniform~0': found the separation 0, expected a positive number or drawn");
-  expect_refused("uniform~-1", "family 'uniform~-1': found the separation -1, expected ");
-  expect_refused("uniform~inf", "family 'uniform~inf': found 'inf', expected ");
-  expect_refused("uniform~", "family 'uniform~': found '', expected ");
-  expect_refused("uniform~1~1", "family 'uniform~1~1': found '1~1', expected ");
-  expect_refused("aspect~drawn@8", "family 'aspect~drawn@8': found 'drawn@8', expected ");
-  expect_refused("aspect@17~1", "found the family 'aspect@17', expected a number from 0 to 16 behind the @");
-  expect_refused("uniforms~1", "unknown family 'uniforms', expected one of uniform, ");
+  EXPECT_REFUSED(find_family("uniform~-1"), "family 'uniform~-1': found the separation -1, expected ");
+  EXPECT_REFUSED(find_family("uniform~inf"), "family 'uniform~inf': found 'inf', expected ");
+  EXPECT_REFUSED(find_family("uniform~"), "family 'uniform~': found '', expected ");
+  EXPECT_REFUSED(find_family("uniform~1~1"), "family 'uniform~1~1': found '1~1', expected ");
+  EXPECT_REFUSED(find_family("aspect~drawn@8"), "family 'aspect~drawn@8': found 'drawn@8', expected ");
+  EXPECT_REFUSED(find_family("aspect@17~1"),
+                 "found the family 'aspect@17', expected a number from 0 to 16 behind the @");
+  EXPECT_REFUSED(find_family("uniforms~1"), "unknown family 'uniforms', expected one of uniform, ");
   for (const Family& family : separation_families())
-    expect_refused(family.name + "~1", "family '" + family.name +
-                                           "~1': found a separation, expected none: the family has its own");
+    EXPECT_REFUSED(
+        find_family(family.name + "~1"),
+        "family '" + family.name + "~1': found a separation, expected none: the family has its own");
 }
 
 }  // namespace

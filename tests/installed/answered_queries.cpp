@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ccd/interface/queries.h"
+#include "ccd/query/queries.h"
 #include "fuzz/families/families.hpp"
 #include "fuzz/subjects/built_in.hpp"
 #include "oracle/distance.hpp"

@@ -16,7 +16,7 @@ int main() {
       .kind = Kind::vertex_triangle,
       .x = {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0}};
   const bool hit = nearmiss::wang<Kind::vertex_triangle, double, nearmiss::WangOptions{}>(query).hit;
-  const auto tolerances = nearmiss::AllSteps::tolerances(1.0);
+  const auto tolerances = nearmiss::paper_tolerances(1.0);
   const double bound = nearmiss::distance_bound_of(tolerances, nearmiss::pair_bound(query));
   const bool agree = nearmiss::wang(Kind::vertex_triangle, query.x) == nearmiss::Answer::collision &&
                      bound == nearmiss::wang_bound(Kind::vertex_triangle, query.x);

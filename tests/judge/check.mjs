@@ -1,20 +1,23 @@
-// Checks that every defect of the list applies to the current sources, and changes them.
+// Checks that every defect of the lists, of the oracle and of ccd/, applies to the current sources, and changes them.
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { source } from './copy.mjs';
-import { applied, readDefects } from './list.mjs';
+import { applied, filesOf, readDefects } from './list.mjs';
 
 /** The fault of a defect, or nothing. */
 function complaint(defect) {
-  const text = readFileSync(path.join(source, defect.file), 'utf8');
-  try {
-    return applied(defect, text) === text ? `${defect.name}: changes nothing` : undefined;
-  } catch (error) {
-    return error.message;
+  for (const file of filesOf(defect)) {
+    const text = readFileSync(path.join(source, file), 'utf8');
+    try {
+      if (applied(defect, file, text) === text) return `${defect.name}: changes nothing`;
+    } catch (error) {
+      return error.message;
+    }
   }
+  return undefined;
 }
 
-const defects = readDefects();
+const defects = [...readDefects(), ...readDefects(path.join(source, 'fuzz/subjects/defects'), 'ccd/wang')];
 const complaints = defects.map(complaint).filter(Boolean);
 for (const each of complaints) console.error(each);
 console.log(`${defects.length - complaints.length} of ${defects.length} defects apply`);

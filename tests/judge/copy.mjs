@@ -2,7 +2,7 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { applied, here } from './list.mjs';
+import { applied, filesOf, here } from './list.mjs';
 
 export const source = path.resolve(here, '../..');
 
@@ -30,6 +30,9 @@ export function run(command, args, { cwd, env = {}, seconds = 1800 }) {
   });
 }
 
+/** The folders that a defect may alter: the oracle, and what makes a subject of it. */
+export const alterable = ['oracle', 'fuzz'];
+
 /** One copy, with a build folder of its own. */
 export class Copy {
   constructor(folder) {
@@ -39,14 +42,14 @@ export class Copy {
 
   /** Makes the copy, or restores its oracle; configures the build once. */
   async prepare() {
-    mkdirSync(path.join(this.folder, 'oracle'), { recursive: true });
+    for (const folder of alterable) mkdirSync(path.join(this.folder, folder), { recursive: true });
     for (const name of readdirSync(source)) {
       const link = path.join(this.folder, name);
-      if (['.git', 'build', 'oracle'].includes(name) || existsSync(link)) continue;
+      if (['.git', 'build', ...alterable].includes(name) || existsSync(link)) continue;
       symlinkSync(path.join(source, name), link);
     }
-    const names = filesBelow(source, 'oracle');
-    for (const name of filesBelow(this.folder, 'oracle'))
+    const names = alterable.flatMap((folder) => filesBelow(source, folder));
+    for (const name of alterable.flatMap((folder) => filesBelow(this.folder, folder)))
       if (!names.includes(name)) rmSync(path.join(this.folder, name));
     for (const name of names) this.#write(name, readFileSync(path.join(source, name), 'utf8'));
     if (existsSync(path.join(this.build, 'build.ninja'))) return;
@@ -57,13 +60,13 @@ export class Copy {
 
   /** Alters the oracle, calls `work`, and takes the defect back. */
   async with(defect, work) {
-    const original = readFileSync(path.join(source, defect.file), 'utf8');
-    this.#write(defect.file, applied(defect, original));
+    const originals = filesOf(defect).map((file) => [file, readFileSync(path.join(source, file), 'utf8')]);
+    for (const [file, text] of originals) this.#write(file, applied(defect, file, text));
     this.altered = true;
     try {
       return await work();
     } finally {
-      this.#write(defect.file, original);
+      for (const [file, text] of originals) this.#write(file, text);
     }
   }
 

@@ -1,7 +1,10 @@
-// The list of defects, defects/*.txt: reads it, and applies a defect to the text of a file.
+// The lists of defects: reads them, and applies a defect to the text of a file.
 //
 //   NAME in FILE (2 of 3): the error that the edit makes
 //   - the text to find, once in the file, or at the second of three places; any blanks and line ends match
+//   + the text that replaces it
+//   and in FILE
+//   - the text to find in one more place
 //   + the text that replaces it
 //   = for a defect that nothing finds: why it changes no answer, or what would find it
 import { readdirSync, readFileSync } from 'node:fs';
@@ -10,37 +13,37 @@ import { fileURLToPath } from 'node:url';
 
 export const here = path.dirname(fileURLToPath(import.meta.url));
 
-const heading = /^(\S+) in (\S+?\.[ch]pp)(?: \((\d+) of (\d+)\))?: (.+)$/;
+const heading = /^(\S+) in (\S+?\.[ch]pp)(?: \((\d+) of (\d+)\))?(?:: (.+))?$/;
 
-function parseDefect(lines, group) {
-  const match = heading.exec(lines[0]);
-  if (!match) throw new Error(`found '${lines[0]}', expected 'NAME in FILE: ABOUT'`);
-  const behind = (sign) => lines.slice(1).filter((line) => line[0] === sign).map((line) => line.slice(1).trim());
-  const strange = lines.slice(1).find((line) => !'-+='.includes(line[0]));
-  if (strange) throw new Error(`${match[1]}: found '${strange}', expected a line that starts with -, + or =`);
-  return {
-    name: match[1],
-    file: `oracle/${match[2]}`,
-    occurrence: Number(match[3] ?? 1),
-    occurrences: Number(match[4] ?? 1),
-    about: match[5],
-    group,
-    before: behind('-').join(' '),
-    after: behind('+').join('\n'),
-    reason: behind('=').join(' '),
-  };
+function parseDefect(lines, group, sources) {
+  const [, name, , , , about] = heading.exec(lines[0]) ?? [];
+  if (!about) throw new Error(`found '${lines[0]}', expected 'NAME in FILE: ABOUT'`);
+  const places = [];
+  const reason = [];
+  for (const line of lines) {
+    const [, first, file, occurrence = 1, occurrences = 1] = heading.exec(line) ?? [];
+    const sign = line[0];
+    if (line === lines[0] || first === 'and')
+      places.push({ file: file.startsWith('fuzz/') ? file : `${sources}/${file}`, occurrence: Number(occurrence), occurrences: Number(occurrences), before: '', after: '' });
+    else if (sign === '-') places.at(-1).before = `${places.at(-1).before} ${line.slice(1)}`.trim();
+    else if (sign === '+') places.at(-1).after = `${places.at(-1).after}\n${line.slice(1).trim()}`.trim();
+    else if (sign === '=') reason.push(line.slice(1).trim());
+    else throw new Error(`${name}: found '${line}', expected a line that starts with -, + or =`);
+  }
+  return { name, about, group, places, reason: reason.join(' ') };
 }
 
-/** All defects, in the order of the list. */
-export function readDefects(folder = path.join(here, 'defects')) {
+/** All defects of the lists in a folder, in order, in files of the folder `sources`, or of fuzz/, if their names begin with that. */
+export function readDefects(folder = path.join(here, 'defects'), sources = 'oracle') {
   const defects = [];
   let group = '';
-  const text = readdirSync(folder).sort().map((name) => readFileSync(path.join(folder, name), 'utf8')).join('\n\n');
+  const lists = readdirSync(folder).filter((name) => name.endsWith('.txt')).sort();
+  const text = lists.map((name) => readFileSync(path.join(folder, name), 'utf8')).join('\n\n');
   for (const block of text.split(/\n\s*\n/)) {
     const lines = block.split('\n').filter((line) => line.trim() !== '' && !line.startsWith('#'));
     const title = /^== (.+) ==$/.exec(lines[0] ?? '');
     if (title) group = title[1];
-    else if (lines.length > 0) defects.push(parseDefect(lines, group));
+    else if (lines.length > 0) defects.push(parseDefect(lines, group, sources));
   }
   const names = new Set();
   for (const { name } of defects) {
@@ -50,13 +53,23 @@ export function readDefects(folder = path.join(here, 'defects')) {
   return defects;
 }
 
-/** The text of a file with the defect; blanks and line ends between words of `before` match any others. */
-export function applied(defect, text) {
-  const words = defect.before.split(/\s+/).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
-  const places = [...text.matchAll(new RegExp(words.join('\\s+'), 'g'))];
-  if (places.length !== defect.occurrences)
+/** A place with its offset and length in the text; blanks and line ends between words of `before` match any others. */
+function found(name, place, text) {
+  const words = place.before.split(/\s+/).map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
+  const matches = [...text.matchAll(new RegExp(words.join('\\s+'), 'g'))];
+  if (matches.length !== place.occurrences)
     throw new Error(
-      `${defect.name}: '${defect.before}' occurs ${places.length} times in ${defect.file}, expected ${defect.occurrences}`);
-  const { index, 0: found } = places[defect.occurrence - 1];
-  return text.slice(0, index) + defect.after + text.slice(index + found.length);
+      `${name}: '${place.before}' occurs ${matches.length} times in ${place.file}, expected ${place.occurrences}`);
+  const { index, 0: { length } } = matches[place.occurrence - 1];
+  return { ...place, index, length };
 }
+
+/** The text of a file with the defect. */
+export function applied({ name, places }, file, text) {
+  return places.filter((place) => place.file === file).map((place) => found(name, place, text))
+    .sort((a, b) => b.index - a.index)
+    .reduce((made, { index, length, after }) => made.slice(0, index) + after + made.slice(index + length), text);
+}
+
+/** The files that a defect changes. */
+export const filesOf = ({ places }) => [...new Set(places.map(({ file }) => file))];

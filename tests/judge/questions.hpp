@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "oracle/arithmetic/enclosure.hpp"
 
 namespace nearmiss {

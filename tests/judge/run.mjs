@@ -9,7 +9,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { Copy, filesBelow, source } from './copy.mjs';
 import { readOptions } from '../../tools/options.mjs';
-import { readDefects } from './list.mjs';
+import { filesOf, readDefects } from './list.mjs';
 import { steps } from './steps.mjs';
 import { table, unexpected } from './table.mjs';
 
@@ -26,12 +26,13 @@ const store = path.join(folder, 'results.json');
 const defects = readDefects();
 const wanted = steps.filter(({ name }) => options.steps.split(',').includes(name));
 
-/** The state that a result is valid for: the edit and the oracle. */
+/** The state that a result is valid for: the edit, the oracle and what makes a subject of it. */
 const oracle = createHash('sha256');
-for (const name of filesBelow(source, 'oracle')) oracle.update(readFileSync(path.join(source, name)));
+const extra = ['contract', 'exact'].map((name) => `fuzz/subjects/${name}.cpp`);
+for (const name of [...filesBelow(source, 'oracle'), ...extra]) oracle.update(readFileSync(path.join(source, name)));
 const sources = oracle.digest('hex');
-const keyOf = ({ file, occurrence, before, after }) =>
-  createHash('sha256').update(JSON.stringify([file, occurrence, before, after, sources])).digest('hex').slice(0, 16);
+const keyOf = ({ places }) =>
+  createHash('sha256').update(JSON.stringify([places, sources])).digest('hex').slice(0, 16);
 
 const results = existsSync(store) ? JSON.parse(readFileSync(store, 'utf8')) : {};
 
@@ -65,7 +66,7 @@ async function work(copy, queue) {
 }
 
 mkdirSync(folder, { recursive: true });
-const chosen = defects.filter(({ name, file }) => new RegExp(options.only).test(`${name} in ${file}`))
+const chosen = defects.filter((defect) => new RegExp(options.only).test(`${defect.name} in ${filesOf(defect)}`))
   .filter((_, number) => number % Number(options.every) === 0);
 const queue = chosen.filter((defect) => {
   const known = results[defect.name];

@@ -3,12 +3,12 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <set>
 
-#include "oracle/contract.hpp"
+#include "fuzz/subjects/contract.hpp"
+#include "fuzz/subjects/exact.hpp"
 #include "oracle/exact/first_approach.hpp"
 #include "oracle/exact/first_contact.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/sturm/times.hpp"
-#include "oracle/subjects.hpp"
 #include "oracle/within_separation.hpp"
 #include "tests/judge/questions.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/agreement.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "fuzz/random.hpp"
 
 namespace nearmiss::testing {

@@ -15,8 +15,8 @@
 #include <tuple>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
 #include "ccd/nearmiss_subject.h"
+#include "ccd/query/arithmetic.hpp"
 #include "tests/arithmetic_modes.hpp"
 
 namespace nearmiss {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "ccd/constraints.hpp"
-#include "ccd/proven.hpp"
+#include "ccd/wang/bounds/constraints.hpp"
+#include "ccd/wang/bounds/proven.hpp"
 #include "fuzz/studies/audit.hpp"
 #include "tests/proofs/ccd_problems.hpp"
 #include "tests/proofs/claims.hpp"
@@ -77,7 +77,7 @@ void append(std::vector<CcdClaim>& all, std::vector<CcdClaim> more) {
 
 std::vector<CcdClaim> printed_claims() {
   using enum ConfigurationPart;
-  constexpr auto here = "printed_errors, ccd/constraints.hpp";
+  constexpr auto here = "printed_errors, ccd/wang/bounds/constraints.hpp";
   constexpr auto paper = "the paper, 4.4";
   std::vector<CcdClaim> all{
       audited("VT: N", here, gappa, primitive_of(vt, near, normal)),
@@ -102,7 +102,7 @@ std::vector<CcdClaim> printed_claims() {
 }
 
 std::vector<CcdClaim> full_claims() {
-  constexpr auto here = "full_errors, ccd/constraints.hpp";
+  constexpr auto here = "full_errors, ccd/wang/bounds/constraints.hpp";
   return {
       {"area", here, factor(full.area), proven::normal, b2, edges,
        primitive_of(ee, far, ConfigurationPart::normal)},
@@ -120,8 +120,8 @@ std::vector<CcdClaim> full_claims() {
       replaced("VE of EE: F_0ij", here, factor(full.F), edges, edge_of(far, EdgePart::F)),
       {"F without S", here, factor(full_errors(largest_eps, 0.0, 0.0).F), proven::F_ve_far_without_S, b2,
        edges, edge_of(far, EdgePart::F_without_S)},
-      {"F of S", "F_ve_of_S, ccd/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps", edges,
-       edge_of(far, EdgePart::F_of_S)},
+      {"F of S", "F_ve_of_S, ccd/wang/bounds/proven.hpp", proven::F_ve_of_S, proven::F_ve_of_S, "S B eps",
+       edges, edge_of(far, EdgePart::F_of_S)},
       {"delta", here, factor(full.delta), proven::delta_far, b2, sum, [] { return vertices(far); }},
   };
 }
@@ -129,17 +129,18 @@ std::vector<CcdClaim> full_claims() {
 /// Bounds that the audit shows and the code does not use.
 std::vector<CcdClaim> shown_claims() {
   return {
-      replaced("EE: weight, far p", "weight_far, ccd/proven.hpp", proven::weight_far, edges,
+      replaced("EE: weight, far p", "weight_far, ccd/wang/bounds/proven.hpp", proven::weight_far, edges,
                primitive_of(ee, far, ConfigurationPart::weight)),
-      replaced("VE of EE: weight", "weight_ve_far, ccd/proven.hpp", proven::weight_ve_far, edges,
+      replaced("VE of EE: weight", "weight_ve_far, ccd/wang/bounds/proven.hpp", proven::weight_ve_far, edges,
                edge_of(far, EdgePart::weight)),
-      replaced("VE: F_0ij", "F_ve, ccd/proven.hpp", proven::F_ve, gappa, edge_of(near, EdgePart::F)),
+      replaced("VE: F_0ij", "F_ve, ccd/wang/bounds/proven.hpp", proven::F_ve, gappa,
+               edge_of(near, EdgePart::F)),
   };
 }
 
 /// The parts of δ.
 std::vector<CcdClaim> delta_claims() {
-  constexpr auto here = "delta, ccd/proven.hpp";
+  constexpr auto here = "delta, ccd/wang/bounds/proven.hpp";
   std::vector<CcdClaim> all;
   for (const Reach reach : {near, far}) {
     const bool is_far = reach == far;
@@ -159,22 +160,23 @@ std::vector<CcdClaim> delta_claims() {
 }
 
 std::vector<CcdClaim> cubic_claims() {
-  constexpr auto here = "coplanarity, ccd/cubic.hpp";
+  constexpr auto here = "coplanarity, ccd/wang/cubic.hpp";
   const auto of_exact = [](CubicPart part) { return [=] { return exact_cubic(part); }; };
   return {
       audited("F: a, exact vectors", here, exact, of_exact(CubicPart::a)),
       audited("F: b, exact vectors", here, exact, of_exact(CubicPart::b)),
       audited("F: c, exact vectors", here, exact, of_exact(CubicPart::c)),
       audited("F: d, exact vectors", here, exact, of_exact(CubicPart::d)),
-      {"F: a", "coefficient_a, ccd/proven.hpp", proven::coefficient_a, proven::coefficient_a, b3, edges,
-       cubic_of(ee, CubicPart::a)},
-      {"F: b", "coefficient_b, ccd/proven.hpp", proven::coefficient_b, proven::coefficient_b, b3, edges,
-       cubic_of(ee, CubicPart::b)},
-      {"F: c", "coefficient_c, ccd/proven.hpp", proven::coefficient_c, proven::coefficient_c, b3, edges,
-       cubic_of(ee, CubicPart::c)},
-      {"F: d", "coefficient_d, ccd/proven.hpp", proven::coefficient_d, proven::coefficient_d, b3, edges,
-       cubic_of(ee, CubicPart::d)},
-      {"Horner", "horner, ccd/proven.hpp", proven::horner, proven::horner, b3, of_coefficients, horner},
+      {"F: a", "coefficient_a, ccd/wang/bounds/proven.hpp", proven::coefficient_a, proven::coefficient_a, b3,
+       edges, cubic_of(ee, CubicPart::a)},
+      {"F: b", "coefficient_b, ccd/wang/bounds/proven.hpp", proven::coefficient_b, proven::coefficient_b, b3,
+       edges, cubic_of(ee, CubicPart::b)},
+      {"F: c", "coefficient_c, ccd/wang/bounds/proven.hpp", proven::coefficient_c, proven::coefficient_c, b3,
+       edges, cubic_of(ee, CubicPart::c)},
+      {"F: d", "coefficient_d, ccd/wang/bounds/proven.hpp", proven::coefficient_d, proven::coefficient_d, b3,
+       edges, cubic_of(ee, CubicPart::d)},
+      {"Horner", "horner, ccd/wang/bounds/proven.hpp", proven::horner, proven::horner, b3, of_coefficients,
+       horner},
       ours("clearance", of_coefficients, clearance_of_exact),
   };
 }

@@ -1,15 +1,16 @@
 #include "tests/proofs/ccd_problems.hpp"
 
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
-#include "ccd/cubic.hpp"
-#include "ccd/proximity.hpp"
-#include "ccd/ve_culling.hpp"
-#include "ccd/vertex_edge.hpp"
-#include "ccd/vertex_vertex.hpp"
+#include "ccd/wang/cubic.hpp"
+#include "ccd/wang/proximity.hpp"
+#include "ccd/wang/ve_culling.hpp"
+#include "ccd/wang/vertex_edge.hpp"
+#include "ccd/wang/vertex_vertex.hpp"
 
 namespace nearmiss::proofs {
 
@@ -56,6 +57,12 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
+/// The problem of a comparison that a test has made: left <= right.
+void choose(Problem& problem, const Branch& comparison) {
+  problem.left = Traced(comparison.left);
+  problem.right = Traced(comparison.right);
+}
+
 /// A moving vector whose components are inputs.
 Moving<Traced> exact_vector(Trace& trace, char name) {
   Moving<Traced> vector;
@@ -83,23 +90,21 @@ Problem configuration(Reach reach, ConfigurationPart part) {
     problem.degree = part == ConfigurationPart::normal ? 2 : 4;
     return problem;
   }
-  TracedPairs kept;
-  const KeptComparisons log(kept);
   Tolerances<Traced> tol{};
   if (part == ConfigurationPart::height) {
     tol.eta = threshold(problem, "eta");
-    std::ignore = configuration.well_shaped(tol, log);
+    std::ignore = configuration.well_shaped(tol);
     // The third edge of a triangle is within B too.
     if (kind == vt)
       for (int i = 0; i < 3; ++i)
         problem.facts.push_back({configuration.r[i] - configuration.q[i], -1, 1, 1});
     problem.degree = 2;
   } else {
-    std::ignore = configuration.inside(log);
+    std::ignore = configuration.inside();
     problem.degree = 4;
   }
   // The last comparison is of the third weight, which for a triangle is computed from the others.
-  std::tie(problem.left, problem.right) = kept.back();
+  choose(problem, problem.trace->branches().back());
   return problem;
 }
 
@@ -206,18 +211,19 @@ Problem near_edge(Reach reach, bool F) {
   problem.degree = 2;
   Tolerances<Traced> tol{};
   if (F) tol.S = threshold(problem, "S");
-  TracedPairs kept;
-  detail::near_edge(ve, problem.time, tol, KeptComparisons(kept));
-  std::tie(problem.left, problem.right) = kept.at(F ? 3 : 2);
+  // The sample is above the edge, so that near_edge makes all of its comparisons.
+  detail::near_edge(ve, problem.time, tol);
+  choose(problem, problem.trace->branches().at(F ? 3 : 2));
   return problem;
 }
 
 /// The squared distance of two vertices, at a time that is an input instead of the computed one.
 Problem squared_distance(Problem problem, const Moving<Traced>& ji) {
-  TracedPairs kept;
-  problem.time = *vertex_vertex(ji, Tolerances<Traced>{}, KeptComparisons(kept));
+  Tolerances<Traced> any_distance{};
+  any_distance.D2 = std::numeric_limits<double>::infinity();
+  problem.time = *vertex_vertex(ji, any_distance);
   problem.inputs = {{problem.time, 0, 1, 0}};
-  problem.left = kept.at(0).first;
+  problem.left = Traced(problem.trace->branches().back().left);
   problem.degree = 2;
   return problem;
 }

@@ -1,7 +1,7 @@
 // Makes problems from the computations of ccd/, by running its templates with recording scalars.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 #include "tests/proofs/problem.hpp"
 
 namespace nearmiss::proofs {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "ccd/motion.hpp"
+#include "ccd/wang/motion.hpp"
 #include "tests/proofs/traced.hpp"
 
 namespace nearmiss::proofs {

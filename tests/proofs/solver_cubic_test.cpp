@@ -1,6 +1,6 @@
 // Searches for problems that come near the bounds in the proof of solve_cubic. The coefficients are taken as
 // exact, so only the errors of the solver remain: m of the nodes, and h of Horner's rule.
-#include "ccd/cubic.hpp"
+#include "ccd/wang/cubic.hpp"
 
 #include <gtest/gtest.h>
 

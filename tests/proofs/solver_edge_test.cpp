@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "ccd/tight_tolerances.hpp"
-#include "ccd/vertex_edge.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/vertex_edge.hpp"
 #include "tests/proofs/solver_climb.hpp"
 #include "tests/proofs/solver_orders.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ccd/solver_errors.hpp"
-#include "ccd/ve_culling.hpp"
+#include "ccd/wang/bounds/solver_errors.hpp"
+#include "ccd/wang/ve_culling.hpp"
 #include "tests/proofs/solver_rational.hpp"
 
 namespace nearmiss::proofs {

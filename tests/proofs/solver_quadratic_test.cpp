@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <vector>
 
-#include "ccd/quadratic.hpp"
+#include "ccd/wang/quadratic.hpp"
 #include "tests/proofs/solver_climb.hpp"
 #include "tests/proofs/solver_orders.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ccd/vertex_edge.hpp"
+#include "ccd/wang/vertex_edge.hpp"
 #include "fuzz/studies/audit.hpp"
 #include "tests/proofs/ccd_problems.hpp"
 #include "tests/proofs/claims.hpp"

@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/steps.hpp"
-
 namespace nearmiss::proofs {
 
 /// The operation of a node. Each operation rounds its result once, to nearest, except the first three and
@@ -152,21 +150,6 @@ class Traced {
 inline Traced Trace::input(std::string name, double sample) {
   return Traced(std::make_shared<Node>(
       Node{.operation = Operation::input, .value = sample, .name = std::move(name), .trace = this}));
-}
-
-using TracedPairs = std::vector<std::pair<Traced, Traced>>;
-
-/// Steps that keep every accepting comparison and treat it as true, so that all comparisons of a test are
-/// reached.
-struct KeptComparisons : AllSteps {
-  TracedPairs* comparisons;  ///< left and right of each comparison left <= right
-
-  explicit KeptComparisons(TracedPairs& kept) : comparisons(&kept) {}
-};
-
-inline bool at_most(const Traced& a, const Traced& b, const KeptComparisons& steps) {
-  steps.comparisons->emplace_back(a, b);
-  return true;
 }
 
 }  // namespace nearmiss::proofs

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "ccd/cubic.hpp"
-#include "ccd/proximity.hpp"
+#include "ccd/wang/cubic.hpp"
+#include "ccd/wang/proximity.hpp"
 #include "tests/proofs/ccd_problems.hpp"
 #include "tests/proofs/gappa.hpp"
 #include "tests/proofs/program.hpp"

@@ -72,10 +72,8 @@ class Answers(unittest.TestCase):
                 with self.subTest(layout=name):
                     same(nearmiss.collides(block.kind, x, block.separation), block.collides)
                     same(nearmiss.wang(block.kind, x), block.wang)
-            every_third = block.separation.repeat(3)[::3]
-            same(
-                nearmiss.collides(nearmiss.Kind(block.kind), block.x, every_third), block.collides
-            )
+            kind, every_third = nearmiss.Kind(block.kind), block.separation.repeat(3)[::3]
+            same(nearmiss.collides(kind, block.x, every_third), block.collides)
 
     def test_about_floats_are_those_about_the_same_doubles(self):
         for block in BLOCKS[:4]:
@@ -138,12 +136,8 @@ class Options(unittest.TestCase):
         block = next(block for block in BLOCKS if not block.separation.any())
         hits, decided_by = nearmiss.collides(block.kind, block.x, decided_by=True)
         same(hits, block.collides)
-        a, b = (
-            block.x[:, :, part]
-            for part in (
-                (slice(1), slice(1, 4)) if block.kind == 'vt' else (slice(2), slice(2, 4))
-            )
-        )
+        split = 1 if block.kind == 'vt' else 2
+        a, b = block.x[:, :, :split], block.x[:, :, split:]
         apart = (a.max((1, 2)) < b.min((1, 2))) | (b.max((1, 2)) < a.min((1, 2)))
         same(decided_by == nearmiss.DecidedBy.BOXES, apart.any(1))
         self.assertLessEqual(set(decided_by), set(nearmiss.DecidedBy))

@@ -24,7 +24,7 @@ harness.harness_new.restype = ctypes.c_void_p
 
 
 class Queries(ctypes.Structure):
-    """nearmiss_queries of ccd/interface/queries.h"""
+    """nearmiss_queries of ccd/query/queries.h"""
 
     _fields_ = [
         ('kind', ctypes.c_int),

@@ -297,17 +297,14 @@ class WithoutModules(unittest.TestCase):
         self.assertTrue(said.endswith(f' ({sys.executable}): run tools/setup'), said)
         (self.build / 'CMakeCache.txt').touch()
         said = self.use(without='*.so')[1]
-        self.assertTrue(
-            said.endswith(f'cmake --build {self.build} --target nearmiss_python'), said
-        )
+        command = f'cmake --build {self.build} --target nearmiss_python'
+        self.assertTrue(said.endswith(command), said)
 
     def test_an_import_error_says_that_they_are_for_another_python(self):
         self.use(without='*.so')
-        (self.package / '_interface.cpython-27-x86_64-linux-gnu.so').touch()
-        said = self.use(without='*.so')[1]
-        self.assertIn(
-            'has _interface.cpython-27-x86_64-linux-gnu.so, which is for another Python', said
-        )
+        other = '_interface.cpython-27-x86_64-linux-gnu.so'
+        (self.package / other).touch()
+        self.assertIn(f'has {other}, which is for another Python', self.use(without='*.so')[1])
 
 
 if __name__ == '__main__':

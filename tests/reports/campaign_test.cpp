@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {

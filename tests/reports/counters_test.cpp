@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -155,7 +157,7 @@ void expect_in_json(const nlohmann::ordered_json& json, const Owner& owner) {
 
 TEST(Counters, EachStandsInTheJson) {
   const Counts counts = filled_counts();
-  expect_in_json(counts_json(counts, true), counts);
+  expect_in_json(counts_json({counts}), counts);
   const auto oracle = filled<OracleCounts>();
   expect_in_json(oracle_json(oracle), oracle);
   const auto funnel = filled<Funnel>();
@@ -164,6 +166,32 @@ TEST(Counters, EachStandsInTheJson) {
   nlohmann::ordered_json json;
   add_campaign_counters(json, statistics);
   expect_in_json(json, statistics);
+}
+
+std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
+  std::vector<std::string> keys;
+  for (const auto& each : object.items()) keys.push_back(each.key());
+  return keys;
+}
+
+/// The keys of the schema's properties, in order; `path` leads to the object with the properties.
+std::vector<std::string> keys_in_schema(const char* path) {
+  std::ifstream file(NEARMISS_SCHEMA);
+  const auto schema = nlohmann::ordered_json::parse(file);
+  return keys_of(schema.at(nlohmann::ordered_json::json_pointer(path)).at("properties"));
+}
+
+TEST(Counters, TheSchemaHasTheKeysOfTheJson) {
+  std::vector<std::string> keys = keys_in_schema("/$defs/rates");
+  EXPECT_EQ(keys, keys_of(rates_json({})));
+  for (std::string& each : keys_in_schema("/$defs/counts")) keys.push_back(std::move(each));
+  EXPECT_EQ(keys, keys_of(counts_json({})));
+  EXPECT_EQ(keys_in_schema("/$defs/oracle_counts"), keys_of(oracle_json({})));
+}
+
+TEST(Measures, AreKnownByTheirKeys) {
+  for (const Measure& each : rate_measures()) EXPECT_EQ(&measure(each.key), &each) << each.key;
+  EXPECT_THROW(measure("no such key"), std::out_of_range);
 }
 
 /// The fields of the only row, by heading.

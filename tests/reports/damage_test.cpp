@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/random.hpp"
 #include "reports/store/store.hpp"
 #include "tests/reports/stored.hpp"

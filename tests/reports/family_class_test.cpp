@@ -8,7 +8,7 @@
 
 #include "reports/csv.hpp"
 #include "reports/json.hpp"
-#include "reports/sections/class_table.hpp"
+#include "reports/sections/summary.hpp"
 #include "tests/reports/campaigns.hpp"
 
 namespace nearmiss {
@@ -30,7 +30,7 @@ TEST(FamilyClass, CasesAndSearchesAndUnknownNamesHaveNone) {
     EXPECT_EQ(class_of(name), QueryClass::unclassified) << name;
 }
 
-/// Two ordinary families, one of them a scene; one degenerate family; and cases.
+/// Two ordinary families, one of them with late times; one degenerate family; and cases.
 Statistics some_statistics() {
   Statistics statistics;
   const auto of = [&](const char* family) -> Counts& {
@@ -38,6 +38,8 @@ Statistics some_statistics() {
   };
   of("uniform") = counts(100, 10, 0, 5, 20);
   of("uniform-end") = counts(300, 20, 0, 7, 20);
+  of("uniform-end").times_given = of("uniform-end").times_promised = 20;
+  of("uniform-end").late = 2;
   of("grazing") = counts(50, 40, 3, 1, 30);
   of("cases/") = counts(8, 8, 1, 0);
   return statistics;
@@ -57,7 +59,7 @@ TEST(ByClass, SumsTheFamiliesOfEachClass) {
 TEST(ByClass, TheTerminalShowsARowForEachClass) {
   EXPECT_EQ(class_table(some_statistics()),
             "subject  kind  class         queries  collisions  false neg.  late  false pos.  ns/query\n"
-            "mine     ee    ordinary          400          30           0     -          12        20\n"
+            "mine     ee    ordinary          400          30           0     2          12        20\n"
             "mine     ee    degenerate         50          40           3     -           1        30\n"
             "mine     ee    unclassified        8           8           1     -           0         -\n");
 }

@@ -8,10 +8,8 @@
 #include "reports/csv.hpp"
 #include "reports/report.hpp"
 #include "reports/sections/baseline.hpp"
-#include "reports/sections/class_table.hpp"
 #include "reports/sections/headline.hpp"
 #include "reports/sections/summary.hpp"
-#include "reports/sections/time_table.hpp"
 #include "reports/sections/trade_off.hpp"
 #include "tests/queries.hpp"
 
@@ -150,15 +148,6 @@ TEST(ImpactTimes, TheTerminalShowsThemBySubjectKindAndClass) {
   statistics.counts.erase(of("mine"));
   statistics.counts.erase(of("other"));
   EXPECT_EQ(time_table(statistics), "");
-}
-
-TEST(ImpactTimes, TheTableByClassCountsLateOnes) {
-  Statistics statistics = statistics_of("mine", {too_late});
-  statistics.counts[{"mine", Kind::vertex_triangle, "grazing"}] = counts_of({estimated_after});
-  EXPECT_EQ(class_table(statistics),
-            "subject  kind  class       queries  collisions  false neg.  late  false pos.  ns/query\n"
-            "mine     vt    ordinary          1           1           0     1           0       100\n"
-            "mine     vt    degenerate        1           1           0     -           0       100\n");
 }
 
 TEST(ImpactTimes, CsvHasARowForEachBinOfEachSide) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "ccd/scalar_name.hpp"
+#include "ccd/query/scalar_name.hpp"
 
 namespace nearmiss {
 namespace {
@@ -36,11 +36,11 @@ TEST(Ladder, RungsHaveTheBoundOfTheirTolerances) {
       {{"wang", 0.5}, {"wang:float", 1}, {"wang-tight:p53", 1}, {"basic", 1}, {"wang:p40@7", 1}}));
   ASSERT_EQ(all.size(), 3);
   EXPECT_EQ(all[0].subject, "wang:float");
-  EXPECT_NEAR(all[0].claimed, 41 * std::exp2(-23 / 4.0), 5e-3);
+  EXPECT_NEAR(all[0].claimed(), 41 * std::exp2(-23 / 4.0), 5e-3);
   EXPECT_EQ(all[1].scalar, "double");
-  EXPECT_NEAR(all[1].claimed, 40.963 * 0x1p-13, 1e-7);
-  EXPECT_EQ(all[1].farthest(), all[1].claimed / 2);
-  EXPECT_NEAR(all[2].claimed, 11.9336 * 0x1p-13, 1e-7);
+  EXPECT_NEAR(all[1].claimed(), 40.963 * 0x1p-13, 1e-7);
+  EXPECT_EQ(all[1].farthest(), all[1].claimed() / 2);
+  EXPECT_NEAR(all[2].claimed(), 11.9336 * 0x1p-13, 1e-7);
 }
 
 TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {

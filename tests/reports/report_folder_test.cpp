@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "reports/campaign/finding_case.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/some_campaign.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "corpus/query_text.hpp"
 #include "corpus/readers.hpp"
 #include "reports/csv.hpp"
@@ -240,8 +240,7 @@ TEST_F(ReportTest, AddsUpTheDirectedSearchesForAllSubjects) {
   EXPECT_EQ(far["false_negatives"], 2);
   Counts both = some;
   both.merge(some);
-  EXPECT_EQ(far["false_positive_rate_interval_95"],
-            rates_json(both, true)["false_positive_rate_interval_95"]);
+  EXPECT_EQ(far["false_positive_rate_interval_95"], rates_json({both})["false_positive_rate_interval_95"]);
   EXPECT_EQ(json["oracle"]["families"]["vt"]["search-far"]["queries"], 6);
   EXPECT_EQ(json["subjects"]["wang:p24"]["vt"]["queries"], 15);
   // References to a query have the full name.

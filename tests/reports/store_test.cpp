@@ -8,7 +8,7 @@
 #include <csignal>
 #include <thread>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 #include "tests/reports/stored.hpp"
 #include "tests/temporary_folder.hpp"
 

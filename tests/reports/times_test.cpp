@@ -74,7 +74,7 @@ TEST(Times, TheSlowestAreKept) {
 TEST(Times, StandInTheReport) {
   Counts counts;
   for (int i = 0; i < 100; ++i) counts.times.add(50, testing::falling_edge(1, -1), [] { return "f:1:0"; });
-  const auto json = counts_json(counts, true)["times"];
+  const auto json = counts_json({counts})["times"];
   EXPECT_EQ(json["sampled"], 100);
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }

@@ -23,7 +23,7 @@ TEST(TradeOff, TheFrontHasTheSoundSubjectsThatNoSoundOneBeats) {
                        {at("beaten"), counts(100, 50, 0, 41, 200)},
                        {at("wrong"), counts(100, 50, 1, 0, 50)}};
   const auto front =
-      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.all.max_ratio(); });
+      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.all.counts.max_ratio(); });
   EXPECT_THAT(front, ElementsAre("fast", "exact"));
 }
 
@@ -35,7 +35,7 @@ TEST(TradeOff, OfEqualSubjectsTheFirstNameIsOnTheFront) {
                        {at("as wrong"), counts(100, 50, 0, 40, 200)},
                        {at("better"), counts(100, 50, 0, 30, 200)}};
   const auto front =
-      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.all.max_ratio(); });
+      pareto_front(trade_offs(statistics), [](const TradeOff& each) { return each.all.counts.max_ratio(); });
   EXPECT_THAT(front, ElementsAre("a", "better"));
 }
 
@@ -70,7 +70,7 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   searched.farthest = {{0.875, {}, "search-far-a:1:0"}};
   const auto all = trade_offs(statistics);
   ASSERT_THAT(all, SizeIs(1));
-  EXPECT_EQ(all[0].all.max_ratio(), 0.875);
+  EXPECT_EQ(all[0].all.counts.max_ratio(), 0.875);
   EXPECT_EQ(all[0].timed.counts.false_positives, 10);
   EXPECT_FALSE(all[0].sound());
   const auto json = trade_offs_json(statistics)["subjects"]["a"];

@@ -86,24 +86,13 @@ class Campaign:
         self.store = machine.folder / f'{number}.db'
         self.cases = self.faults = self.nights = 0
         self.complete = False
-        self.was_stopped = (
-            False  # by a signal or its time: findings may be saved before they are shrunk
-        )
 
     def __str__(self):
         return f'campaign {self.number}: nearmiss fuzz {shlex.join(self.options)}'
 
     def command(self, store, jobs):
-        return [
-            'fuzz',
-            *self.options,
-            '--jobs',
-            str(jobs),
-            '--db',
-            str(store),
-            '--quiet',
-            '--resume',
-        ]
+        how = ['--jobs', str(jobs), '--db', str(store), '--quiet', '--resume']
+        return ['fuzz', *self.options, *how]
 
     def exists(self):
         return self.store.exists()
@@ -172,8 +161,4 @@ class Campaign:
         self.faults = sum(each['seen'] for each in report['signatures'] if each['what'] == 'fault')
         if self.left_out:
             del report['headline'], report['findings_total']  # texts and sums over all subjects
-        if self.was_stopped:
-            # The report shows one of several findings that are shrunk to the same query.
-            report.pop('findings_total', None)
-            report['findings'] = self.findings(store)
         return leaves(without(report, self.left_out))

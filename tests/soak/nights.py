@@ -44,16 +44,11 @@ class Machine:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
+            # Python ignores the signal of a file that is too large.
             return subprocess.Popen(
-                [self.nearmiss, *command],
-                cwd=self.folder,
-                env=environment,
-                stdout=subprocess.DEVNULL,
-                stderr=said,
-                preexec_fn=prepare,
-                restore_signals=largest_file
-                is None,  # Python ignores that of a file that is too large
-            )
+                [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
+                stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,
+            )  # fmt: skip
 
     def call(self, command, campaign):
         """Runs a command to its end."""
@@ -154,14 +149,12 @@ class Night:
                 command += ['--time', f'{max(1, int(1000 * self.after))}ms']
             saved = last_save(campaign.store)
             process = machine.start(command, self.jumps)
-            while (
-                self.saves_first and process.poll() is None and last_save(campaign.store) == saved
-            ):
-                time.sleep(0.005)
+            if self.saves_first:
+                while process.poll() is None and last_save(campaign.store) == saved:
+                    time.sleep(0.005)
             code = self.wait(process, SIGNALS.get(self.end), self.after)
-            expected = {'SIGKILL': {-signal.SIGKILL}, 'time limit': set()}.get(
-                self.end, {INTERRUPTED}
-            )
+            expected = {'SIGKILL': {-signal.SIGKILL}, 'time limit': set()}
+            expected = expected.get(self.end, {INTERRUPTED})
         machine.wait_until_alone()
         if code not in {0, FOUND} | expected:
             raise Failure(f'{campaign}: {self}, and the exit code is {code}: {machine.said()}')

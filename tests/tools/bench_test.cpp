@@ -32,19 +32,17 @@ std::string history(const std::vector<std::string>& times) {
 
 class Bench : public CommandLine {
  protected:
-  void expect_comparison(const std::string& before, const std::string& after, const std::string& row) const {
+  [[nodiscard]] Output compare(int code, const std::string& before, const std::string& after) const {
     write("before", before);
     write("after", after);
-    const Output output = run("bench --compare before after");
-    EXPECT_EQ(output.code, 0) << output.error;
-    EXPECT_THAT(output.out, HasSubstr(row));
+    return expect_code(code, "bench --compare before after");
+  }
+  void expect_comparison(const std::string& before, const std::string& after, const std::string& row) const {
+    EXPECT_THAT(compare(0, before, after).out, HasSubstr(row));
   }
   void expect_incomparable(const std::string& before, const std::string& after,
                            const std::string& line) const {
-    write("before", before);
-    write("after", after);
-    const Output output = run("bench --compare before after");
-    EXPECT_EQ(output.code, 2);
+    const Output output = compare(2, before, after);
     EXPECT_EQ(output.error, "nearmiss: " + line + "\n");
     EXPECT_EQ(output.out, "");
   }
@@ -105,8 +103,7 @@ TEST_F(Bench, AddsARunToAHistory) {
   const std::string earlier = stored({"1.5"});
   write("runs", earlier);
   for (int i = 0; i < 2; ++i) {
-    const Output output = run("bench own.vt --queries 3 --runs 2 --history runs");
-    EXPECT_EQ(output.code, 0) << output.error;
+    expect_code(0, "bench own.vt --queries 3 --runs 2 --history runs");
   }
   const std::string text = read("runs");
   EXPECT_EQ(text.substr(0, earlier.size()), earlier);
@@ -116,8 +113,7 @@ TEST_F(Bench, AddsARunToAHistory) {
 
 TEST_F(Bench, DoesNotTouchAFileThatIsNoHistory) {
   write("notes", "my notes\n");
-  const Output output = run("bench --queries 3 --runs 1 --history notes");
-  EXPECT_EQ(output.code, 2);
+  const Output output = expect_code(2, "bench --queries 3 --runs 1 --history notes");
   EXPECT_EQ(output.out, "") << "it is noticed before anything is timed";
   EXPECT_EQ(output.error,
             "nearmiss: notes:1: found 'my notes', expected a run that nearmiss bench --history stored\n");

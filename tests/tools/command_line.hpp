@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -40,6 +39,32 @@ class CommandLine : public testing::TemporaryFolder {
                                 " " + arguments + " >out.txt 2>error.txt " + redirections;
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("error.txt")};
+  }
+
+  /// The same, and expects an exit code.
+  Output expect_code(int code, const std::string& arguments, const std::string& before = "",
+                     const std::string& redirections = "") const {
+    Output output = run(arguments, before, redirections);
+    EXPECT_EQ(output.code, code) << before << " nearmiss " << arguments << ": " << output.error;
+    return output;
+  }
+
+  /// The report.json of "nearmiss report STORES", which must have an exit code.
+  [[nodiscard]] nlohmann::json report_of(const std::string& stores, int code = 0) const {
+    expect_code(code, "report " + stores + " -o report");
+    return read_json("report/report.json");
+  }
+
+  /// A triangle at a height above another one, as a mesh. `last` is where its last vertex is.
+  static std::string two_triangles(const std::string& height, const std::string& last = "0.5 9") {
+    return "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 " + height + "\nv 1 0.5 " + height + "\nv " + last + " " +
+           height + "\nf 1 2 3\nf 4 5 6\n";
+  }
+
+  /// Writes start.obj and end.obj, between which a triangle falls through another one.
+  void write_falling_triangle(const std::string& last = "0.5 9") const {
+    write("start.obj", two_triangles("1", last));
+    write("end.obj", two_triangles("-1", last));
   }
 
   /// Expects one line on stderr with all of these words, exit code 2, and no new file.

@@ -52,8 +52,7 @@ TEST_F(CommandLine, TheBoundCanBeGiven) {
 
 TEST_F(CommandLine, ReplayComparesAndCounts) {
   write("q.vt", hit + miss);
-  const Output output = run("replay q.vt --subject basic,wang --json new.json");
-  EXPECT_EQ(output.code, 0) << output.error;
+  expect_code(0, "replay q.vt --subject basic,wang --json new.json");
   const json counts = read_json("new.json")["subjects"]["wang"]["vt"];
   EXPECT_EQ(counts["queries"], 2);
   EXPECT_EQ(counts["collisions"], 1);
@@ -62,38 +61,35 @@ TEST_F(CommandLine, ReplayComparesAndCounts) {
 }
 
 TEST_F(CommandLine, ACampaignCountsAPluginsCrashesAndHangsAndContinues) {
+  std::string again;
   for (const std::string way : {"crash", "hang"}) {
-    const Output output = run("fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " +
-                              way + ".db --subject " + plugin(way));
-    EXPECT_EQ(output.code, way == "hang" ? 0 : 1) << output.error;
+    const int code = way == "hang" ? 0 : 1;
+    const Output output =
+        expect_code(code, "fuzz --family planted --cases 1000 --query-time 20ms --json new.json --db " + way +
+                              ".db --subject " + plugin(way));
     EXPECT_THAT(output.out, HasSubstr(way == "hang" ? "SLOW in " : "NO ANSWER to "));
     const json counts = read_json("new.json")["subjects"]["misbehaving"]["ee"];
     EXPECT_EQ(counts["queries"], 500);
     const int faults = counts["faults"][way == "hang" ? "time" : way];
     EXPECT_GT(faults, 0);
     EXPECT_EQ(counts["positives"].get<int>() + faults, 500);
-    EXPECT_EQ(run("report " + way + ".db -o report").code, output.code);
-    EXPECT_EQ(read_json("report/report.json")["findings"][0]["what"], "fault");
+    const json finding = report_of(way + ".db", code)["findings"][0];
+    EXPECT_EQ(finding["what"], "fault");
+    again = finding["again"];
   }
-  std::filesystem::remove(file("new.json"));
   // The command in the report, run in the report's folder, makes a stored query fail again.
-  const std::string again = read_json("report/report.json")["findings"][0]["again"];
   EXPECT_THAT(again, ::testing::MatchesRegex("nearmiss replay cases/fault-misbehaving-001.case --subject "
                                              "/.*hang.so --query-time 20ms --query-memory [0-9]+"));
-  const Output failure = run(again.substr(9), "cd report &&");
-  EXPECT_EQ(failure.code, 1) << failure.error;
-  EXPECT_EQ(
-      run("shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"))
-          .code,
-      0);
+  expect_code(1, again.substr(9), "cd report &&");
+  expect_code(0,
+              "shrink report/cases/fault-misbehaving-001.case --query-time 20ms --subject " + plugin("hang"));
 }
 
 TEST_F(CommandLine, FuzzMergeAndReport) {
   EXPECT_EQ(run("fuzz --cases 1100 --seed 5 --shard 0/2 --db a.db").code, 0);
   EXPECT_EQ(run("fuzz --cases 1100 --seed 5 --shard 1/2 --db b.db --json b.json").code, 0);
   EXPECT_EQ(run("merge all.db a.db b.db").code, 0);
-  EXPECT_EQ(run("report all.db -o report --baseline a.db").code, 0);
-  const json report = read_json("report/report.json");
+  const json report = report_of("all.db --baseline a.db");
   int queries = 0;
   for (const char* kind : {"vt", "ee"}) queries += report["subjects"]["wang"][kind]["queries"].get<int>();
   EXPECT_EQ(queries, 1100);
@@ -105,8 +101,7 @@ TEST_F(CommandLine, FuzzMergeAndReport) {
 TEST_F(CommandLine, AReportHasSeveralStoresAsItsBaseline) {
   for (const char* seed : {"1", "2", "3"})
     EXPECT_EQ(run(std::string("fuzz --cases 1100 --seed ") + seed + " --db " + seed + ".db").code, 0);
-  EXPECT_EQ(run("report --baseline 1.db --baseline 2.db 3.db -o report").code, 0);
-  const json baseline = read_json("report/report.json")["baseline"];
+  const json baseline = report_of("--baseline 1.db --baseline 2.db 3.db")["baseline"];
   ASSERT_EQ(baseline["runs"].size(), 2);
   for (const json& subject : baseline["subjects"])
     EXPECT_EQ(subject["before"]["queries"], 2 * subject["now"]["queries"].get<int>());
@@ -114,9 +109,9 @@ TEST_F(CommandLine, AReportHasSeveralStoresAsItsBaseline) {
 }
 
 TEST_F(CommandLine, FuzzSweepsParameters) {
-  const Output output = run(
+  const Output output = expect_code(
+      0,
       "fuzz --sweep needle,end-contact --steps 3 --cases 600 --subject wang,exact --db a.db --json new.json");
-  EXPECT_EQ(output.code, 0) << output.error;
   for (const char* title : {"wang along needle@x", "exact along needle@x", "wang along end-contact@x"})
     EXPECT_THAT(output.out, HasSubstr(title));
   const json steps = read_json("new.json")["sweeps"]["needle"]["wang"];
@@ -125,18 +120,11 @@ TEST_F(CommandLine, FuzzSweepsParameters) {
     EXPECT_EQ(steps[i]["value"], (std::array{-16, -8, 0})[i]);
     EXPECT_EQ(steps[i]["queries"], 100);
   }
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_EQ(read_json("report/report.json")["sweeps"]["end-contact"]["exact"].size(), 3);
+  EXPECT_EQ(report_of("a.db")["sweeps"]["end-contact"]["exact"].size(), 3);
 }
 
-const std::string falling_triangle =
-    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n";
-const std::string fallen_triangle =
-    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 9 -1\nf 1 2 3\nf 4 5 6\n";
-
 TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
-  write("start.obj", falling_triangle);
-  write("end.obj", fallen_triangle);
+  write_falling_triangle();
   const std::string mesh = "--mesh start.obj end.obj --json new.json ";
   EXPECT_EQ(run("fuzz --cases 400 --family mesh " + mesh).code, 0);
   EXPECT_EQ(read_json("new.json")["subjects"]["wang"]["ee"]["families"]["mesh"]["queries"], 200);
@@ -147,11 +135,9 @@ TEST_F(CommandLine, FuzzTakesPairsOfAMesh) {
 }
 
 TEST_F(CommandLine, SceneComparesAllPairs) {
-  write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 1 1\nf 1 2 3\nf 4 5 6\n");
-  write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 1 -1\nf 1 2 3\nf 4 5 6\n");
+  write_falling_triangle("0.5 1");
   const std::string scene = "scene start.obj end.obj --json scene.json ";
-  const Output output = run(scene + "--leave-out boxes --bound pair,scene,100 --export pairs");
-  EXPECT_EQ(output.code, 0) << output.error;
+  expect_code(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs");
   const json subjects = read_json("scene.json")["subjects"];
   EXPECT_EQ(subjects.size(), 4);  // basic has no bound
   for (const char* name : {"basic", "wang", "wang@100"})
@@ -164,8 +150,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
     for (const char* count : {"queries", "collisions", "positives", "false_positives"})
       EXPECT_EQ(read_json("replay.json")["subjects"]["wang"][kind][count], subjects["wang"][kind][count]);
   // Both triangles are only translated, so the plan needs no subject.
-  const Output planned = run(scene + "--verify-plan");
-  EXPECT_EQ(planned.code, 0) << planned.error;
+  const Output planned = expect_code(0, scene + "--verify-plan");
   EXPECT_THAT(planned.out, HasSubstr("plan verified: "));
   const json funnel = read_json("scene.json")["scenes"]["scene:start"]["vt"];
   EXPECT_EQ(funnel["asked"], 0);
@@ -173,11 +158,9 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
 }
 
 TEST_F(CommandLine, ScenesAreBuiltInToo) {
-  const Output list = run("scene --list");
-  EXPECT_EQ(list.code, 0) << list.error;
+  const Output list = expect_code(0, "scene --list");
   EXPECT_THAT(list.out, HasSubstr("\nknot "));
-  const Output output = run("scene flying@300 --subject wang --json new.json");
-  EXPECT_EQ(output.code, 0) << output.error;
+  const Output output = expect_code(0, "scene flying@300 --subject wang --json new.json");
   EXPECT_THAT(output.out, HasSubstr("flying@300: 21 frames, "));
   const json scenes = read_json("new.json")["scenes"];
   EXPECT_EQ(scenes.size(), 20);
@@ -187,8 +170,8 @@ TEST_F(CommandLine, ScenesAreBuiltInToo) {
   expect_refused("scene flyings", {"flyings: found neither a folder nor a scene", "nearmiss scene --list"});
   expect_refused("scene", {"SCENE is required"});
   // A folder with this name is not the built-in scene.
-  write("flying/1.obj", falling_triangle);
-  write("flying/2.obj", fallen_triangle);
+  write("flying/1.obj", two_triangles("1"));
+  write("flying/2.obj", two_triangles("-1"));
   EXPECT_THAT(run("scene ./flying").out, HasSubstr("flying: 2 frames, 6 vertices"));
 }
 
@@ -203,21 +186,10 @@ TEST_F(CommandLine, FuzzSearchesAgainstItsSubjects) {
   EXPECT_GT(misses, 0);
 }
 
-TEST_F(CommandLine, TightnessGoesIntoTheReport) {
-  expect_refused("tightness --tolerance nu", {"'nu'"});
-  const Output output = run("tightness --time 1ms --tolerance D2,vertex-edge --db new.db --json new.json");
-  EXPECT_EQ(output.code, 0) << output.error;
-  EXPECT_THAT(output.out, HasSubstr("D2"));
-  EXPECT_LT(read_json("new.json")["tightness"]["D2"]["value"], 1);
-  EXPECT_EQ(run("report new.db -o report").code, 0);
-  EXPECT_GT(read_json("report/report.json")["tightness"]["vertex-edge"]["queries"], 0);
-}
-
 TEST_F(CommandLine, ShrinkWritesACaseThatFailsInTheSameWay) {
   write("q.vt", "0.3 0.37 1.1  0.1 0 0  1.7 0 0.2  0 1.3 0   0.31 0.2 -1.9  0 0.01 0  1.1 0 0.3  0 1.2 0\n");
   const std::string never = " --subject " + plugin("never");
-  const Output output = run("shrink q.vt" + never);
-  EXPECT_EQ(output.code, 0) << output.error;
+  const Output output = expect_code(0, "shrink q.vt" + never);
   EXPECT_THAT(output.out, StartsWith("# false-negative of always: vt simple-root inside in-face\n"
                                      "# distinct numbers: 11 -> "));
   EXPECT_THAT(output.out, HasSubstr("kind vt\ntruth 1\nprovenance shrunk from q.vt:1\nx0 "));
@@ -233,12 +205,10 @@ TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
   const std::string subject = " --subject " + plugin("bound_nan");
   EXPECT_EQ(run("fuzz --family uniform --cases 400 --db a.db --json new.json" + subject).code, 1);
   EXPECT_GT(read_json("new.json")["subjects"]["always"]["vt"]["faults"]["error"], 50);
-  EXPECT_EQ(run("report a.db -o report").code, 1);
-  const json finding = read_json("report/report.json")["findings"][0];
+  const json finding = report_of("a.db", 1)["findings"][0];
   EXPECT_EQ(finding["what"], "fault");
   const std::string found = "report/" + finding["file"].get<std::string>();
-  const Output shrunk = run("shrink " + found + " -o shrunk.case" + subject);
-  EXPECT_EQ(shrunk.code, 0) << shrunk.error;
+  const Output shrunk = expect_code(0, "shrink " + found + " -o shrunk.case" + subject);
   EXPECT_THAT(read("shrunk.case"), StartsWith("# fault of always: "));
   EXPECT_EQ(run("replay shrunk.case --json new.json" + subject).code, 1);
   EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "fault");
@@ -246,8 +216,7 @@ TEST_F(CommandLine, ABoundThatIsNoNumberIsCountedShrunkAndReplayedAlike) {
 
 TEST_F(CommandLine, ShrinkKeepsAReportBeyondItsBound) {
   write("q.ee", "0 0 1  1 0 1.1  0.5 -1 0  0.5 1 0.2   0 0 3  1 0 3.3  0.5 -1 0.1  0.5 1 0\n");
-  const Output output = run("shrink q.ee -o shrunk.case --subject " + plugin("bounded"));
-  EXPECT_EQ(output.code, 0) << output.error;
+  expect_code(0, "shrink q.ee -o shrunk.case --subject " + plugin("bounded"));
   EXPECT_THAT(read("shrunk.case"), StartsWith("# refuted-bound of always: ee unspecified\n"));
   EXPECT_EQ(run("replay shrunk.case --json new.json --subject " + plugin("bounded")).code, 1);
   EXPECT_EQ(read_json("new.json")["signatures"][0]["what"], "refuted-bound");
@@ -255,8 +224,7 @@ TEST_F(CommandLine, ShrinkKeepsAReportBeyondItsBound) {
 
 TEST_F(CommandLine, BenchWritesItsResults) {
   write("own.vt", hit);
-  const Output output = run("bench own.vt --queries 50 --runs 3 --json new.json");
-  EXPECT_EQ(output.code, 0) << output.error;
+  expect_code(0, "bench own.vt --queries 50 --runs 3 --json new.json");
   const json results = read_json("new.json")["results"];
   EXPECT_EQ(results.size(), 2 * 1 + 2 * 2 * 3);  // two subjects: one kind of own.vt, two of each random input
   for (const json& each : results) {
@@ -267,9 +235,9 @@ TEST_F(CommandLine, BenchWritesItsResults) {
 }
 
 TEST_F(CommandLine, BenchSaysThatASubjectGivesNoAnswer) {
-  const Output output = run("bench --queries 1 --runs 1 --json new.json --subject basic," + plugin("crash"),
-                            "NEARMISS_ONE_IN=1");
-  EXPECT_EQ(output.code, 1) << output.error;
+  const Output output =
+      expect_code(1, "bench --queries 1 --runs 1 --json new.json --subject basic," + plugin("crash"),
+                  "NEARMISS_ONE_IN=1");
   EXPECT_THAT(output.out, MatchesRegex(".*misbehaving +no answer +no answer\n.*"));
   const json results = read_json("new.json")["results"];
   EXPECT_GT(results[0]["ns_per_query"], 0);
@@ -292,27 +260,6 @@ TEST_F(CommandLine, EverySubcommandHasHelp) {
     EXPECT_EQ(output.code, 0) << name;
     EXPECT_THAT(output.out, HasSubstr("Usage: nearmiss " + name)) << name;
   }
-}
-
-TEST_F(CommandLine, TheLadderIsACampaign) {
-  const std::string ladder = "ladder --scalar float,p60 --family uniform --cases 80 --db ladder.db";
-  EXPECT_EQ(run(ladder).code, 0);
-  EXPECT_THAT(run(ladder + " --resume").out, HasSubstr("wang-tight:p60"));
-  EXPECT_THAT(run("report ladder.db -o ladder").out, HasSubstr("wang:float"));
-  EXPECT_THAT(run("ladder --scalar p15 --cases 1").error, HasSubstr("p16 to p256"));
-}
-
-TEST_F(CommandLine, TheAuditNamesConstantsThatAreTooSmall) {
-  const Output output = run("audit --json audit.json");
-  EXPECT_EQ(output.code, 0);
-  EXPECT_THAT(output.out, HasSubstr("TOO SMALL"));
-  EXPECT_THAT(output.out, HasSubstr("not proven by Theorem 4.1: relative positions of edges are within 2B"));
-  EXPECT_THAT(output.out, HasSubstr("33492"));
-  EXPECT_EQ(run("fuzz --cases 4 --db a.db").code, 0);
-  EXPECT_EQ(run("report a.db -o report --audit audit.json").code, 0);
-  write("other.json", "{\"constants\": []}");
-  EXPECT_THAT(run("report a.db -o report --audit other.json").error,
-              HasSubstr("expected what nearmiss audit --json keeps"));
 }
 
 }  // namespace

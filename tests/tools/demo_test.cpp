@@ -22,14 +22,12 @@ class DemoTest : public testing::CommandLine {
 };
 
 TEST_F(DemoTest, ShowsAMissThatCanBeReplayed) {
-  const Output output = run("demo -o 'a miss.case'");
-  EXPECT_EQ(output.code, 0) << output.error;
+  const Output output = expect_code(0, "demo -o 'a miss.case'");
   EXPECT_THAT(output.out,
               AllOf(ContainsRegex("basic has missed [0-9]+ collision"),
                     HasSubstr("wang, the failure-proof CCD, reports it."), ContainsRegex("\n  +[ .o#]*[0-3]"),
                     HasSubstr("nearmiss replay 'a miss.case' --subject basic,wang\n")));
-  const Output replayed = run("replay 'a miss.case' --subject basic,wang");
-  EXPECT_EQ(replayed.code, 1);
+  const Output replayed = expect_code(1, "replay 'a miss.case' --subject basic,wang");
   EXPECT_THAT(replayed.out, AllOf(HasSubstr("FAIL basic: MISSED "), HasSubstr("ok  wang: no miss in 1")));
 }
 

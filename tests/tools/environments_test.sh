@@ -17,7 +17,7 @@ grep -Eq '^wang +g\+\+ [0-9.]+ +-O2 +flush .* MISSES +false-negative ' "$folder/
   { cat "$folder/out"; fail "expected that wang misses where subnormals are flushed"; }
 grep -q '"verdict": "misses"' "$folder/report/report.json" || fail "expected the table in report.json"
 
-compile() { g++ -std=c++20 -fsyntax-only -I. "$@" -x c++ - <<<'#include "ccd/arithmetic.hpp"'; }
+compile() { g++ -std=c++20 -fsyntax-only -I. "$@" -x c++ - <<<'#include "ccd/query/arithmetic.hpp"'; }
 if compile -ffast-math 2>"$folder/error"; then fail "expected that -ffast-math is refused"; fi
 grep -q 'found -ffast-math' "$folder/error" || { cat "$folder/error"; fail "expected a line that says why"; }
 compile || fail "expected that plain flags are not refused"

@@ -9,8 +9,7 @@ using ::testing::HasSubstr;
 
 TEST_F(CommandLine, AMissGivesExitCodeOne) {
   write("q.vt", hit);
-  const Output output = run("replay q.vt --subject " + plugin("never"));
-  EXPECT_EQ(output.code, 1);
+  const Output output = expect_code(1, "replay q.vt --subject " + plugin("never"));
   EXPECT_THAT(output.out, HasSubstr("MISSED vt 1 of 1;"));
   EXPECT_THAT(output.out, HasSubstr("q.vt:1"));
 }
@@ -94,8 +93,7 @@ TEST_F(CommandLine, AWrongRecordedTruthGivesExitCodeOne) {
   write("a.case",
         "# deliberately wrong\nkind vt\ntruth 0\nx0 0.25 0.25 1\nx1 0 0 0\nx2 1 0 0\nx3 0 1 0\n"
         "y0 0.25 0.25 -1\ny1 0 0 0\ny2 1 0 0\ny3 0 1 0\n");
-  const Output output = run("replay a.case --json new.json");
-  EXPECT_EQ(output.code, 1);
+  expect_code(1, "replay a.case --json new.json");
   EXPECT_EQ(read_json("new.json")["oracle"]["mismatches_with_recorded_truth"], 1);
 }
 

@@ -13,8 +13,7 @@ class JsonToStdout : public CommandLine {
   /// Runs a command with --json -, and expects that standard output is JSON, that the text is on stderr, and that there
   /// is no file named "-".
   [[nodiscard]] json json_of(const std::string& arguments, const std::string& text, int code = 0) const {
-    const Output output = run(arguments + " --json -");
-    EXPECT_EQ(output.code, code) << arguments << ": " << output.error;
+    const Output output = expect_code(code, arguments + " --json -");
     EXPECT_THAT(output.error, HasSubstr(text)) << arguments;
     EXPECT_FALSE(std::filesystem::exists(file("-"))) << arguments;
     EXPECT_TRUE(json::accept(output.out)) << arguments << ": " << output.out;
@@ -34,8 +33,7 @@ TEST_F(JsonToStdout, OfCommandsThatRunTrials) {
 }
 
 TEST_F(JsonToStdout, OfScenes) {
-  write("start.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 1\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n");
-  write("end.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 0.5 9 -1\nf 1 2 3\nf 4 5 6\n");
+  write_falling_triangle();
   EXPECT_EQ(json_of("scene start.obj end.obj --verify-plan", "plan verified: ")["scenes"].size(), 1);
   EXPECT_EQ(json_of("scene start.obj end.obj --leave-out boxes --thickness 1e9 --subject wang",
                     "contact thickness 1e+09")["scenes"]
@@ -52,8 +50,7 @@ TEST_F(JsonToStdout, OfStudies) {
 
 TEST_F(JsonToStdout, IsAnErrorIfItCannotBeWritten) {
   write("q.vt", hit);
-  const Output output = run("replay q.vt --json -", "", ">/dev/full");
-  EXPECT_EQ(output.code, 2);
+  const Output output = expect_code(2, "replay q.vt --json -", "", ">/dev/full");
   EXPECT_THAT(output.error,
               HasSubstr("nearmiss: standard output cannot be written: No space left on device\n"));
 }

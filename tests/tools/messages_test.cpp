@@ -96,10 +96,7 @@ TEST_F(Messages, AStoreThatExistsNamesResumeWhereThereIsOne) {
 
 TEST_F(Messages, OptionsTakeTheirValueBehindAnEqualsSignToo) {
   write("q.vt", miss);
-  const std::string square = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0.5 0.5 ";
-  const std::string others = "\nv 1 0.5 1\nv 0.5 9 1\nf 1 2 3\nf 4 5 6\n";
-  write("start.obj", square + "1" + others);
-  write("end.obj", square + "-1" + others);
+  write_falling_triangle();
   const std::vector<std::string> commands{
       // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one command in several literals
       "fuzz --cases=40 --family=uniform,planted --seed=2 --shard=0/1 --subject=wang,basic --jobs=1 "

@@ -1,5 +1,4 @@
 // nearmiss shrink --as prints tests that compile and run in other projects.
-#include <array>
 #include <sstream>
 
 #include "corpus/query_text.hpp"
@@ -31,6 +30,14 @@ class PastedTest : public testing::CommandLine {
     return to_line(parse_line(Kind::vertex_triangle, read("text.txt"), "text.txt"));
   }
 
+  /// The tests that `nearmiss shrink` writes.
+  struct Tests {
+    std::string cpp, python;
+  };
+  [[nodiscard]] Tests tests_of(const std::string& arguments) const {
+    return {run("shrink " + arguments + " --as c++").out, run("shrink " + arguments + " --as python").out};
+  }
+
   /// Compiles a test in C++, with a detector that prints its numbers and gives this answer and time, and runs it.
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
                                    const std::string& answer, const std::string& time = "0") const {
@@ -52,6 +59,20 @@ class PastedTest : public testing::CommandLine {
     return succeeds("./test");
   }
 
+  /// Expects that both tests pass with a detector that gives an answer and a time, or that both fail.
+  void expect_both(bool pass, const Tests& tests, const std::string& name, bool answer,
+                   const std::string& time = "0") const {
+    const bool is_number = time != "nan";
+    EXPECT_EQ(
+        passes_in_python(tests.python, name, answer ? "True" : "False", is_number ? time : "float('nan')"),
+        pass)
+        << answer << ' ' << time;
+    EXPECT_EQ(
+        passes_in_cpp(tests.cpp, name, answer ? "true" : "false", is_number ? time : "__builtin_nan(\"\")"),
+        pass)
+        << answer << ' ' << time;
+  }
+
   /// Runs a test in Python, with a detector that prints its numbers and gives this answer and time.
   [[nodiscard]] bool passes_in_python(const std::string& test, const std::string& name,
                                       const std::string& answer, const std::string& time = "0") const {
@@ -67,8 +88,7 @@ class PastedTest : public testing::CommandLine {
 
 TEST_F(PastedTest, PassesInCppIfTheDetectorIsRight) {
   const std::string arguments = NEARMISS_CORPUS "/rounding/vt-planted.case --subject basic";
-  const Output test = run("shrink " + arguments + " --as c++");
-  EXPECT_EQ(test.code, 0) << test.error;
+  const Output test = expect_code(0, "shrink " + arguments + " --as c++");
   EXPECT_THAT(test.out, HasSubstr("// basic reported no collision.\n"));
   EXPECT_THAT(test.out, HasSubstr("// The primitives touch, first "));
   EXPECT_TRUE(passes_in_cpp(test.out, "test_vertex_triangle", "true"));
@@ -88,24 +108,18 @@ TEST_F(PastedTest, PassesInPythonIfTheDetectorIsRight) {
 
 TEST_F(PastedTest, ExpectsNoCollisionAfterAReportBeyondTheBound) {
   write("q.ee", "0 0 1  1 0 1.1  0.5 -1 0  0.5 1 0.2   0 0 3  1 0 3.3  0.5 -1 0.1  0.5 1 0\n");
-  const std::string arguments = "q.ee --subject " + plugin("bounded");
-  const std::string python = run("shrink " + arguments + " --as python").out;
-  EXPECT_THAT(python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
-  EXPECT_TRUE(passes_in_python(python, "test_edge_edge", "False"));
-  EXPECT_FALSE(passes_in_python(python, "test_edge_edge", "True"));
-  const std::string cpp = run("shrink " + arguments + " --as c++").out;
-  EXPECT_TRUE(passes_in_cpp(cpp, "test_edge_edge", "false"));
-  EXPECT_FALSE(passes_in_cpp(cpp, "test_edge_edge", "true"));
+  const Tests tests = tests_of("q.ee --subject " + plugin("bounded"));
+  EXPECT_THAT(tests.python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
+  expect_both(true, tests, "test_edge_edge", false);
+  expect_both(false, tests, "test_edge_edge", true);
 }
 
 TEST_F(PastedTest, PassesTheSeparation) {
   write("q.vt", hit);
-  const std::string arguments = "q.vt --separation 0.5 --subject " + plugin("never");
-  const std::string cpp = run("shrink " + arguments + " --as c++").out;
+  const auto [cpp, python] = tests_of("q.vt --separation 0.5 --subject " + plugin("never"));
   EXPECT_THAT(cpp, HasSubstr("// The primitives come within 1 of each other, first "));
   EXPECT_THAT(cpp, HasSubstr("(&end)[4][3], double separation);\n"));
   EXPECT_THAT(cpp, HasSubstr("  return detects(start, end, 1.0) == true;\n"));
-  const std::string python = run("shrink " + arguments + " --as python").out;
   EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end, separation) that returns whether "));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end, 1.0)\n"));
 }
@@ -113,10 +127,10 @@ TEST_F(PastedTest, PassesTheSeparation) {
 TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
   write("q.vt", "0.25 0.25 1  0 0 0  1 0 0  0 1 0   0.25 0.25 -3  0 0 0  1 0 0  0 1 0\n");
   const std::string arguments = "q.vt --subject " + plugin("promises");
-  const std::string python = run("shrink " + arguments + " --as python").out;
-  EXPECT_THAT(python, HasSubstr("# always gave a later time as one before which nothing happens.\n"));
+  const Tests tests = tests_of(arguments);
+  EXPECT_THAT(tests.python, HasSubstr("# always gave a later time as one before which nothing happens.\n"));
   const auto passes = [&](const std::string& time) {
-    write("test.py", "import math\n" + python + "def time_of_impact(start, end):\n    return " + time +
+    write("test.py", "import math\n" + tests.python + "def time_of_impact(start, end):\n    return " + time +
                          "\ntest_vertex_triangle()\n");
     return succeeds("python3 test.py 2>error.txt");
   };
@@ -126,54 +140,36 @@ TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
   truth >> collides >> lo >> hi;
   EXPECT_TRUE(passes("float.fromhex('" + lo + "')"));
   EXPECT_FALSE(passes("math.nextafter(float.fromhex('" + hi + "'), 2)"));
-  const std::string cpp = run("shrink " + arguments + " --as c++").out;
   EXPECT_THAT(
-      cpp, HasSubstr("\ndouble time_of_impact(const double (&start)[4][3], const double (&end)[4][3]);\n"));
-  EXPECT_THAT(cpp, HasSubstr("  return time_of_impact(start, end) <= "));
+      tests.cpp,
+      HasSubstr("\ndouble time_of_impact(const double (&start)[4][3], const double (&end)[4][3]);\n"));
+  EXPECT_THAT(tests.cpp, HasSubstr("  return time_of_impact(start, end) <= "));
 }
 
 TEST_F(PastedTest, ExpectsATimeInTheStepWithACollision) {
   write("q.vt", hit);
-  const std::string arguments = "q.vt --subject " + plugin("invalid_time");
-  const std::string python = run("shrink " + arguments + " --as python").out;
-  EXPECT_THAT(python, HasSubstr("# always gave no answer (vt invalid).\n"));
-  EXPECT_THAT(python, HasSubstr("# Write a function detects(start, end) that returns "));
-  EXPECT_THAT(python, HasSubstr("# Write a function time_of_impact(start, end) that returns "));
-  const std::string cpp = run("shrink " + arguments + " --as c++").out;
-  const std::string name = "test_vertex_triangle";
-  for (const std::string time : {"0", "1"}) {
-    EXPECT_TRUE(passes_in_python(python, name, "True", time)) << time;
-    EXPECT_TRUE(passes_in_cpp(cpp, name, "true", time)) << time;
-  }
-  for (const std::string time : {"2", "-1e-300"}) {
-    EXPECT_FALSE(passes_in_python(python, name, "True", time)) << time;
-    EXPECT_FALSE(passes_in_cpp(cpp, name, "true", time)) << time;
-  }
-  EXPECT_FALSE(passes_in_python(python, name, "True", "float('nan')"));
-  EXPECT_FALSE(passes_in_cpp(cpp, name, "true", "__builtin_nan(\"\")"));
-  EXPECT_FALSE(passes_in_python(python, name, "False", "0"));
-  EXPECT_FALSE(passes_in_cpp(cpp, name, "false", "0"));
+  const Tests tests = tests_of("q.vt --subject " + plugin("invalid_time"));
+  EXPECT_THAT(tests.python, HasSubstr("# always gave no answer (vt invalid).\n"));
+  EXPECT_THAT(tests.python, HasSubstr("# Write a function detects(start, end) that returns "));
+  EXPECT_THAT(tests.python, HasSubstr("# Write a function time_of_impact(start, end) that returns "));
+  for (const char* time : {"0", "1"}) expect_both(true, tests, "test_vertex_triangle", true, time);
+  for (const char* time : {"2", "-1e-300", "nan"})
+    expect_both(false, tests, "test_vertex_triangle", true, time);
+  expect_both(false, tests, "test_vertex_triangle", false);
 }
 
 TEST_F(PastedTest, ExpectsATimeInTheStepWithAFalsePositive) {
   write("q.vt", miss);
-  const std::string arguments = "q.vt --subject " + plugin("invalid_time_above");
-  const std::string python = run("shrink " + arguments + " --as python").out;
-  EXPECT_THAT(python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
-  const std::string cpp = run("shrink " + arguments + " --as c++").out;
-  const std::string name = "test_vertex_triangle";
-  EXPECT_TRUE(passes_in_python(python, name, "True", "0.5"));
-  EXPECT_TRUE(passes_in_cpp(cpp, name, "true", "0.5"));
-  EXPECT_FALSE(passes_in_python(python, name, "True", "2"));
-  EXPECT_FALSE(passes_in_cpp(cpp, name, "true", "2"));
-  EXPECT_TRUE(passes_in_python(python, name, "False", "2"));
-  EXPECT_TRUE(passes_in_cpp(cpp, name, "false", "2"));
+  const Tests tests = tests_of("q.vt --subject " + plugin("invalid_time_above"));
+  EXPECT_THAT(tests.python, HasSubstr("# The primitives do not touch at any t in [0, 1].\n"));
+  expect_both(true, tests, "test_vertex_triangle", true, "0.5");
+  expect_both(false, tests, "test_vertex_triangle", true, "2");
+  expect_both(true, tests, "test_vertex_triangle", false, "2");
 }
 
 TEST_F(PastedTest, AsksForNoTimeOfASubjectThatGivesNone) {
   write("q.vt", hit);
-  const std::string arguments = "q.vt --subject " + plugin("several") + ":told:answer=3";
-  const std::string python = run("shrink " + arguments + " --as python").out;
+  const std::string python = tests_of("q.vt --subject " + plugin("several") + ":told:answer=3").python;
   EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
 }
@@ -182,14 +178,6 @@ TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
   write("q.vt", hit);
   expect_refused("shrink q.vt --as rust --subject " + plugin("never"),
                  {"--as", "'rust'", "case, c++ or python"});
-}
-
-TEST_F(PastedTest, NamesTheDetectorsOfAPluginThatHasSeveral) {
-  write("q.vt", hit);
-  expect_refused("shrink q.vt --subject " + plugin("several"), {"several detectors", "expected one of"});
-  const Output power = run("power --time 1ms --way families --subject " + plugin("several"));
-  EXPECT_EQ(power.code, 2);
-  EXPECT_THAT(power.error, HasSubstr("several detectors, expected one of told"));
 }
 
 }  // namespace

@@ -1,9 +1,4 @@
 // What a run stores about plug-ins, on the command line: their limits, and names with which a finding can be replayed.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "tests/tools/command_line.hpp"
 
 namespace nearmiss {
@@ -18,8 +13,7 @@ class ReplayOfAPlugin : public CommandLine {
   [[nodiscard]] std::string command(const std::string& subject) const {
     const std::string options = "--family small-integer --cases 200 --db a.db --subject ";
     EXPECT_EQ(run("fuzz " + options + "'" + subject + "'").code, 1);
-    EXPECT_EQ(run("report a.db -o report").code, 1);
-    return read_json("report/report.json")["findings"][0]["again"];
+    return report_of("a.db", 1)["findings"][0]["again"];
   }
 };
 

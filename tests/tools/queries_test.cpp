@@ -31,8 +31,7 @@ TEST_F(CommandLine, VerdictPrintsTheQueryAsTheSubjectRoundsIt) {
 
 TEST_F(CommandLine, FamilyPrintsTheQueriesOfACampaign) {
   const auto lines = [&](const std::string& options) {
-    const Output output = run("family parallel --seed 5 " + options);
-    EXPECT_EQ(output.code, 0) << output.error;
+    const Output output = expect_code(0, "family parallel --seed 5 " + options);
     return output.out;
   };
   const auto count = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };

@@ -25,20 +25,8 @@ class ResultTable(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        families = "uniform,planted,scale"
-        run(
-            NEARMISS,
-            "fuzz",
-            "--subject",
-            "basic,wang",
-            "--family",
-            families,
-            "--cases",
-            "6000",
-            "--db",
-            "a.db",
-            cwd=cls.folder.name,
-        )
+        campaign = "fuzz --subject basic,wang --family uniform,planted,scale --cases 6000 --db a.db"
+        run(NEARMISS, *campaign.split(), cwd=cls.folder.name)
         run(NEARMISS, "report", "a.db", "-o", "report", cwd=cls.folder.name)
         report = pathlib.Path(cls.folder.name) / "report"
         cls.report = json.loads((report / "report.json").read_text())
@@ -56,15 +44,13 @@ class ResultTable(unittest.TestCase):
         self.assertEqual(self.said.returncode, 0, self.said.stderr)
         head, row = self.rows["subject", "kinds"], self.rows["basic", "vt ee"]
         for of in ("ordinary", "degenerate", "extreme"):
-            counts = [
-                self.report["subjects"]["basic"][kind]["classes"][of] for kind in ("vt", "ee")
-            ]
+            basic = self.report["subjects"]["basic"]
+            counts = [basic[kind]["classes"][of] for kind in ("vt", "ee")]
             missed = sum(each["false_negatives"] for each in counts)
             share = 100 * missed / sum(each["collisions"] for each in counts)
             shown = row[head.index(f"missed, {of}")]
-            self.assertAlmostEqual(
-                float(shown.rstrip(" %")), share, delta=max(0.005, 0.06 * share)
-            )
+            most = max(0.005, 0.06 * share)
+            self.assertAlmostEqual(float(shown.rstrip(" %")), share, delta=most)
             self.assertEqual(shown == "0", missed == 0)
 
     def test_times_are_those_of_the_report(self):
@@ -74,33 +60,22 @@ class ResultTable(unittest.TestCase):
             for kind in ("vt", "ee")
             for of, each in self.report["subjects"]["basic"][kind]["classes"].items()
         ]
-        self.assertEqual(
-            [row[:3] for row in rows], [["basic", kind, of] for kind, of, _ in classes]
-        )
+        self.assertEqual([row[:3] for row in rows], [["basic", *each[:2]] for each in classes])
         for row, (_, _, each) in zip(rows, classes):
-            self.assertEqual(
-                row[4:8], [f"{each['times_given']:,}", "–", f"{each['stuck']:,}", "0"]
-            )
-            self.assertAlmostEqual(
-                float(row[10]), each["max_early"], delta=0.06 * each["max_early"]
-            )
+            counts = [f"{each['times_given']:,}", "–", f"{each['stuck']:,}", "0"]
+            self.assertEqual(row[4:8], counts)
+            early = each["max_early"]
+            self.assertAlmostEqual(float(row[10]), early, delta=0.06 * early)
 
     def test_nobody_who_misses_nothing_has_a_query(self):
         self.assertIn(("basic", "vt"), self.rows)
         self.assertNotIn(("wang", "vt"), self.rows)
 
     def test_the_shortest_query_is_one_that_was_found(self):
-        shown = [
-            float.fromhex(x) if "x" in x else float(x) for x in self.rows["basic", "vt"][2].split()
-        ]
-        self.assertIn(
-            shown,
-            [
-                f["shrunk"]
-                for f in self.report["findings"]
-                if f["subject"] == "basic" and f["kind"] == "vt"
-            ],
-        )
+        numbers = self.rows["basic", "vt"][2].split()
+        shown = [float.fromhex(x) if "x" in x else float(x) for x in numbers]
+        of_basic = [each for each in self.report["findings"] if each["subject"] == "basic"]
+        self.assertIn(shown, [each["shrunk"] for each in of_basic if each["kind"] == "vt"])
 
     def test_the_shortest_query_has_its_separation(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -116,8 +116,7 @@ TEST_F(Resume, ResumesOnlyTheSameCampaign) {
 TEST_F(Resume, AMergeNamesMissingShardsAndRefusesAShardTwice) {
   EXPECT_EQ(run("fuzz --cases 300 --shard 0/3 --db a.db").code, 0);
   EXPECT_EQ(run("fuzz --cases 300 --shard 2/3 --db c.db").code, 0);
-  const Output output = run("merge some.db a.db c.db");
-  EXPECT_EQ(output.code, 0);
+  const Output output = expect_code(0, "merge some.db a.db c.db");
   EXPECT_THAT(output.out, HasSubstr("fuzz: shards 1 of 3 are missing"));
   EXPECT_EQ(timeless_report("some.db")["runs"][0]["missing"], "shards 1 of 3 are missing");
   expect_refused("merge new.db a.db c.db a.db", {"a.db and a.db: both have shard 0/3 of the run with"});

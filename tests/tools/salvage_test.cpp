@@ -23,13 +23,11 @@ TEST_F(SalvageCommand, SavesWhatIsIntact) {
   expect_refused("merge new.db a.db", words);
   expect_refused("fuzz --cases 20000 --subject basic --db a.db --resume", words);
 
-  const Output output = run("merge saved.db a.db --salvage");
-  EXPECT_EQ(output.code, 1) << output.error;
+  const Output output = expect_code(1, "merge saved.db a.db --salvage");
   EXPECT_THAT(output.out, HasSubstr("a.db: saved "));
   EXPECT_THAT(output.out, HasSubstr("rows, lost " + lost));
   EXPECT_EQ(load_campaign(file("saved.db")).runs[0].findings.size(), findings.size() - 1);
-  EXPECT_EQ(run("report saved.db -o report").code, 1);
-  EXPECT_EQ(read_json("report/report.json")["runs"][0]["salvaged"], "lost " + lost);
+  EXPECT_EQ(report_of("saved.db", 1)["runs"][0]["salvaged"], "lost " + lost);
   expect_refused("fuzz --cases 20000 --subject basic --db saved.db --resume",
                  {"saved.db: found a run with salvaged 'lost " + lost + "', expected none"});
 }

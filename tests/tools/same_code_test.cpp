@@ -30,8 +30,7 @@ class SameCode : public CommandLine {
 TEST_F(SameCode, AReportSaysWhichCodeRan) {
   install("example");
   EXPECT_EQ(run(std::string(campaign) + " --db a.db").code, 0);
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  const json run = read_json("report/report.json")["runs"][0];
+  const json run = report_of("a.db")["runs"][0];
   EXPECT_EQ(run["plug-in boxes sha256"], digest());
   EXPECT_EQ(run["plug-in boxes version"], "1.0");
   EXPECT_EQ(run["environments"][0]["plug-in boxes"], fs::canonical(file("")).string() + "/p.so");
@@ -91,8 +90,7 @@ TEST_F(SameCode, APluginThatIsReplacedEndsTheCampaign) {
                         digest() + ", expected the file with sha256 "));
   EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
 
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  const std::uint64_t cases = read_json("report/report.json")["runs"][0]["cases_done"];
+  const std::uint64_t cases = report_of("a.db")["runs"][0]["cases_done"];
   EXPECT_GT(cases, 0);
   expect_refused(endless + " --resume", {"a.db: found a run with plug-in boxes sha256 '"});
   install("example");

@@ -24,7 +24,6 @@ class SeparationOption : public testing::CommandLine {
 };
 
 TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
-  EXPECT_EQ(run("oracle --kind vt --toi q.vt").out, "1 0x1p-1 0x1p-1\n0 inf inf\n");
   const std::string expected = "1 0x1p-2 0x1p-2\n0 inf inf\n";
   EXPECT_EQ(run("oracle --kind vt --toi --separation 0.5 q.vt").out, expected);
   EXPECT_EQ(run("oracle --kind vt --toi --separation 0x1p-1 --method all q.vt").out, expected);
@@ -49,7 +48,6 @@ TEST_F(SeparationOption, VerdictPrintsTheTime) {
               MatchesRegex("1 [a-z]+ 0x1p-2\n0\n"));
   EXPECT_EQ(run("verdict --kind vt --separation 0.5 q.vt" + promises).out,
             "1 unspecified 0x1p-1\n1 unspecified 0x1p-1\n");
-  EXPECT_EQ(run("verdict --kind vt q.vt --subject " + plugin("example")).out, "1 unspecified nan\n0\n");
 }
 
 TEST_F(SeparationOption, IsRefusedIfItIsNoDistanceOrIfASubjectTakesNone) {
@@ -102,11 +100,9 @@ TEST_F(SeparationOption, ZeroAsksForContact) {
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {
   write("one.vt", hit);
   EXPECT_EQ(run("shrink one.vt" + promises).code, 2);  // contact at t = 1/2 is not before
-  const Output shrunk = run("shrink one.vt -o late.case --separation 0.5" + promises);
-  EXPECT_EQ(shrunk.code, 0) << shrunk.error;
+  expect_code(0, "shrink one.vt -o late.case --separation 0.5" + promises);
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
-  const Output again = run("replay late.case --json r.json" + promises);
-  EXPECT_EQ(again.code, 1);
+  const Output again = expect_code(1, "replay late.case --json r.json" + promises);
   EXPECT_THAT(again.out, HasSubstr("FAIL always: no miss in 1 collision; LATE vt 1 of 1;"));
   const json counts = read_json("r.json")["subjects"]["always"]["vt"];
   EXPECT_EQ(counts["late"], 1);

@@ -69,8 +69,7 @@ TEST_F(CommandLine, ASubcommandForOneSubjectRefusesSeveral) {
 }
 
 TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {
-  const Output output = run("subjects " + plugin("several") + " " + plugin("sampling"));
-  EXPECT_EQ(output.code, 0) << output.error;
+  const Output output = expect_code(0, "subjects " + plugin("several") + " " + plugin("sampling"));
   EXPECT_THAT(output.out, HasSubstr("told                    answers what its option says\n"));
   EXPECT_THAT(output.out, HasSubstr("version 7; vt and ee; 53 bits; no time; batches of 1\n"));
   EXPECT_THAT(output.out, HasSubstr("ee; 53 bits; a lower bound of the time; batches of 1\n"));

@@ -26,17 +26,17 @@ TEST_F(CommandLine, BadQueries) {
   write("negative.vt", hit.substr(0, hit.size() - 1) + " -5\n");
   write("empty.vt", "");
   write("comments.vt", "# nothing\n");
-  for (const char* command :
+  for (const std::string command :
        {"oracle --kind vt ", "verdict --kind vt ", "replay --json new.json --db new.db "}) {
-    expect_refused(command + std::string("nan.vt"), {"nan.vt:2", "'nan'"});
-    expect_refused(command + std::string("inf.vt"), {"inf.vt:2", "'inf'"});
-    expect_refused(command + std::string("word.vt"), {"word.vt:1", "'x'"});
-    expect_refused(command + std::string("few.vt"), {"few.vt:1", "3", "24"});
-    expect_refused(command + std::string("many.vt"), {"many.vt:1", "24"});
-    expect_refused(command + std::string("negative.vt"), {"negative.vt:1", "separation -5"});
-    expect_refused(command + std::string("empty.vt"), {"empty.vt"});
-    expect_refused(command + std::string("comments.vt"), {"comments.vt:1"});
-    expect_refused(command + std::string("absent.vt"), {"absent.vt: cannot be read"});
+    expect_refused(command + "nan.vt", {"nan.vt:2", "'nan'"});
+    expect_refused(command + "inf.vt", {"inf.vt:2", "'inf'"});
+    expect_refused(command + "word.vt", {"word.vt:1", "'x'"});
+    expect_refused(command + "few.vt", {"few.vt:1", "3", "24"});
+    expect_refused(command + "many.vt", {"many.vt:1", "24"});
+    expect_refused(command + "negative.vt", {"negative.vt:1", "separation -5"});
+    expect_refused(command + "empty.vt", {"empty.vt"});
+    expect_refused(command + "comments.vt", {"comments.vt:1"});
+    expect_refused(command + "absent.vt", {"absent.vt: cannot be read"});
   }
 }
 
@@ -59,8 +59,7 @@ TEST_F(CommandLine, FilesThatAreNone) {
 
 TEST_F(CommandLine, AWrongNumberOfLanes) {
   for (const char* wrong : {"3", "16", "x", "-2", "8 "}) {
-    const Output output = run("subjects", std::string("NEARMISS_LANES='") + wrong + "'");
-    EXPECT_EQ(output.code, 2);
+    const Output output = expect_code(2, "subjects", std::string("NEARMISS_LANES='") + wrong + "'");
     EXPECT_EQ(output.error,
               "nearmiss: NEARMISS_LANES: found '" + std::string(wrong) + "', expected 2, 4 or 8\n");
   }
@@ -210,29 +209,25 @@ TEST_F(CommandLine, AnInterruptSavesEverything) {
   campaign.stop(SIGINT);
   EXPECT_EQ(campaign.code(), 130) << read("error.txt");
   EXPECT_THAT(read("out.txt"), HasSubstr("no miss in"));
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
+  EXPECT_GT(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 0);
 }
 
 TEST_F(CommandLine, AKillLosesNothingThatWasSaved) {
   Background campaign(file(""), endless_campaign);
   ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
   campaign.stop(SIGKILL);
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_GT(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 0);
+  EXPECT_GT(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 0);
 }
 
 TEST_F(CommandLine, AFullDiskIsReportedAndLosesNothingThatWasSaved) {
   // A limit on the size of files simulates a full disk.
-  const Output output =
-      run("fuzz --time 24h --subject basic --family planted --db a.db", "ulimit -f 1200; trap '' XFSZ;");
-  EXPECT_EQ(output.code, 2);
+  const Output output = expect_code(2, "fuzz --time 24h --subject basic --family planted --db a.db",
+                                    "ulimit -f 1200; trap '' XFSZ;");
   EXPECT_EQ(std::count(output.error.begin(), output.error.end(), '\n'), 1) << output.error;
   EXPECT_THAT(output.error, HasSubstr("a.db: "));
   EXPECT_EQ(run("merge b.db a.db").code, 1);
   write("q.vt", hit);
-  const Output no_room = run("replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
-  EXPECT_EQ(no_room.code, 2);
+  expect_code(2, "replay q.vt --json new.json", "ulimit -f 4; trap '' XFSZ;");
   EXPECT_FALSE(std::filesystem::exists(file("new.json")));
   EXPECT_FALSE(std::filesystem::exists(file("new.json.part")));
 }
@@ -244,15 +239,14 @@ TEST_F(CommandLine, AFullDiskLeavesNoPartOfAStoreWithoutResults) {
       "unshare -rm sh -c 'mkdir disk && mount -t tmpfs -o size=400k none disk && \"$@\"; code=$?; ls disk > "
       "left.txt; "
       "exit $code' sh";
-  const Output output = run("fuzz --quiet --cases 4000 --subject basic,wang,exact --db disk/a.db", with_disk);
-  EXPECT_EQ(output.code, 2);
+  const Output output =
+      expect_code(2, "fuzz --quiet --cases 4000 --subject basic,wang,exact --db disk/a.db", with_disk);
   EXPECT_EQ(output.error, "nearmiss: disk/a.db: database or disk is full\n");
   EXPECT_EQ(read("left.txt"), "");
 }
 
 TEST_F(CommandLine, AFullDiskLeavesNoPartOfAnExport) {
-  const Output output = run("scene spikes@400 --subject wang --export pairs", "ulimit -f 8;");
-  EXPECT_EQ(output.code, 2);
+  const Output output = expect_code(2, "scene spikes@400 --subject wang --export pairs", "ulimit -f 8;");
   EXPECT_THAT(output.error, HasSubstr("cannot be written"));
   for (const auto& each : std::filesystem::directory_iterator(file("")))
     EXPECT_THAT(each.path().filename().string(), ::testing::Not(::testing::StartsWith("pairs")));
@@ -263,8 +257,7 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
             ">&3; echo $? >code.txt; } 3>&1 >none.txt | true");
   EXPECT_EQ(read("code.txt"), "2\n");
   EXPECT_EQ(read("error.txt"), "nearmiss: standard output cannot be written: Broken pipe\n");
-  const Output output = run("family uniform --seed 1 --kind vt --count 100000", "ulimit -f 8;");
-  EXPECT_EQ(output.code, 2);
+  const Output output = expect_code(2, "family uniform --seed 1 --kind vt --count 100000", "ulimit -f 8;");
   EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
 }
 
@@ -283,23 +276,18 @@ TEST_F(CommandLine, AnInterruptEndsACommandThatSavesNothing) {
 TEST_F(CommandLine, AClosedStandardStreamIsAnErrorWhereItIsNeeded) {
   write("q.vt", hit);
   const std::string fuzz = "fuzz --cases 100 --family uniform --subject wang," + plugin("example");
-  const Output unwritten = run(fuzz + " --db a.db", "", ">&-");
-  EXPECT_EQ(unwritten.code, 2);
+  const Output unwritten = expect_code(2, fuzz + " --db a.db", "", ">&-");
   EXPECT_THAT(unwritten.error, HasSubstr("nearmiss: standard output cannot be written: "));
-  EXPECT_EQ(run("report a.db -o report").code, 0);
-  EXPECT_EQ(read_json("report/report.json")["subjects"]["wang"]["vt"]["queries"], 50);
-  const Output unread = run("oracle --kind vt -", "", "<&-");
-  EXPECT_EQ(unread.code, 2);
+  EXPECT_EQ(report_of("a.db")["subjects"]["wang"]["vt"]["queries"], 50);
+  const Output unread = expect_code(2, "oracle --kind vt -", "", "<&-");
   EXPECT_THAT(unread.error, HasSubstr("nearmiss: stdin"));
 }
 
 TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   write("q.vt", hit);
   const std::string replay = "replay q.vt --subject wang," + plugin("print") + " --db ";
-  const Output deaf = run(replay + "a.db", "", "<&-");
-  EXPECT_EQ(deaf.code, 0) << deaf.error;
-  const Output silent = run(replay + "b.db", "", "2>&-");
-  EXPECT_EQ(silent.code, 0);
+  expect_code(0, replay + "a.db", "", "<&-");
+  const Output silent = expect_code(0, replay + "b.db", "", "2>&-");
   EXPECT_THAT(silent.out, HasSubstr(" ok  wang: no miss in 1 collision"));
   // Nothing that is printed gets into the store or its lock.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);

@@ -24,12 +24,10 @@ class VersionsOfACcd : public CommandLine {
 
 TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
   const Output output =
-      run("fuzz --subject ./v1.so,./v2.so --family small-integer,uniform --cases 400 --db a.db");
-  EXPECT_EQ(output.code, 1) << output.error;
+      expect_code(1, "fuzz --subject ./v1.so,./v2.so --family small-integer,uniform --cases 400 --db a.db");
   EXPECT_THAT(output.out, HasSubstr("v2 against v1: "));
   EXPECT_THAT(output.out, HasSubstr("v1 answers rightly, and v2 does not:"));
-  EXPECT_EQ(run("report a.db -o report").code, 1);
-  const auto report = read_json("report/report.json");
+  const auto report = report_of("a.db", 1);
   const auto& versions = report["versions"];
   EXPECT_EQ(sum(versions, "queries"), 400);
   EXPECT_EQ(
@@ -47,8 +45,7 @@ TEST_F(VersionsOfACcd, AreNamedAsTheirFilesAndCompared) {
 
 TEST_F(VersionsOfACcd, AreReplayedUnderTheirNames) {
   EXPECT_EQ(run("fuzz --subject old=./v1.so,new=./v2.so --family uniform --cases 400 --db a.db").code, 1);
-  EXPECT_EQ(run("report a.db -o report").code, 1);
-  const auto findings = read_json("report/report.json")["findings"];
+  const auto findings = report_of("a.db", 1)["findings"];
   for (const auto& finding : findings) {
     if (!finding.contains("broken_since")) continue;
     const std::string again = finding["again"];
@@ -70,8 +67,7 @@ TEST_F(VersionsOfACcd, MergeAndResumeToTheSameComparison) {
   EXPECT_EQ(run(fuzz + "--db 1.db --shard 1/2").code, 1);
   EXPECT_EQ(run(fuzz + "--db 1.db --shard 1/2 --resume").code, 1);
   EXPECT_EQ(run("merge all.db 1.db 0.db").code, 1);
-  EXPECT_EQ(run("report all.db -o report").code, 1);
-  EXPECT_EQ(read_json("report/report.json")["versions"], read_json("whole.json")["versions"]);
+  EXPECT_EQ(report_of("all.db", 1)["versions"], read_json("whole.json")["versions"]);
 }
 
 TEST_F(VersionsOfACcd, SayWhichKindIsNotCompared) {

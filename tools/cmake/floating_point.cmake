@@ -8,7 +8,7 @@ add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 set(CMAKE_REQUIRED_FLAGS "${CMAKE_CXX_FLAGS} -ffp-contract=off")
 set(CMAKE_REQUIRED_INCLUDES ${PROJECT_SOURCE_DIR})
 check_cxx_source_compiles("
-  #include \"ccd/arithmetic.hpp\"
+  #include \"ccd/query/arithmetic.hpp\"
   int main() {}
 " NEARMISS_IEEE_DOUBLE)
 unset(CMAKE_REQUIRED_FLAGS)

@@ -3,12 +3,17 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. There, "ccd/query.hpp" is
+# Headers lie flat in include/nearmiss, those of the templates in include/nearmiss/ccd. There, "ccd/query/query.hpp" is
 # "nearmiss/ccd/query.hpp", so that no folder of the user's can be meant.
-set(templates advance arithmetic basic constraints cubic elementary error kind motion pair_bound plane_culling proven proximity
-  quadratic query scalar solver_errors steps subject tight_tolerances tolerances ve_culling vertex_edge vertex_vertex wang wang_time)
-list(TRANSFORM templates REPLACE "(.+)" "ccd/\\1.hpp")
-set(interface ccd/interface/queries.h ccd/interface/wang.h oracle/interface/oracle.h oracle/interface/nearmiss.h oracle/interface/nearmiss.hpp
+set(query arithmetic error kind query scalar)
+set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
+  vertex_edge vertex_vertex wang wang_time)
+set(wang/bounds constraints proven solver_errors tight_tolerances)
+foreach(room query wang wang/bounds)
+  list(TRANSFORM ${room} REPLACE "(.+)" "ccd/${room}/\\1.hpp" OUTPUT_VARIABLE headers)
+  list(APPEND templates ${headers})
+endforeach()
+set(interface ccd/query/queries.h ccd/wang/wang.h oracle/interface/oracle.h oracle/interface/nearmiss.h oracle/interface/nearmiss.hpp
   oracle/interface/contact.hpp)
 
 # nearmiss_install_headers(COMPONENT HEADER...)
@@ -16,12 +21,15 @@ function(nearmiss_install_headers component)
   foreach(header IN LISTS ARGN)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
     file(READ ${PROJECT_SOURCE_DIR}/${header} text)
-    string(REGEX REPLACE "#include \"(ccd|oracle)/interface/" "#include \"nearmiss/" text "${text}")
-    string(REPLACE "#include \"ccd/" "#include \"nearmiss/ccd/" text "${text}")
-    if(header MATCHES "^ccd/[^/]+hpp$")  # templates of ours and Eigen's, about which a user's compiler shall not warn
+    string(REGEX REPLACE "#include \"(ccd/query|ccd/wang|oracle/interface)/([a-z_]+\\.h)\"" "#include \"nearmiss/\\2\"" text "${text}")
+    string(REGEX REPLACE "#include \"oracle/interface/" "#include \"nearmiss/" text "${text}")
+    string(REGEX REPLACE "#include \"ccd/(query|wang/bounds|wang)/" "#include \"nearmiss/ccd/" text "${text}")
+    if(header MATCHES "^ccd/.+hpp$")  # templates of ours and Eigen's, about which a user's compiler shall not warn
       string(REPLACE "#pragma once" "#pragma once\n#pragma GCC system_header" text "${text}")
     endif()
-    string(REGEX REPLACE "^(ccd|oracle)/interface/" "" place ${header})
+    string(REGEX REPLACE "^oracle/interface/" "" place ${header})
+    string(REGEX REPLACE "^ccd/(query|wang)/([a-z_]+\\.h)$" "\\2" place ${place})
+    string(REGEX REPLACE "^ccd/(query|wang/bounds|wang)/" "ccd/" place ${place})
     set(made ${PROJECT_BINARY_DIR}/include/nearmiss/${place})
     file(CONFIGURE OUTPUT ${made} CONTENT "${text}" @ONLY)
     get_filename_component(folder nearmiss/${place} DIRECTORY)
@@ -57,7 +65,7 @@ endif()
 if("oracle" IN_LIST NEARMISS_COMPONENTS)
   nearmiss_install_headers(oracle-dev ${interface})
   # The C++ interface uses the kinds of the templates.
-  nearmiss_install_headers(oracle-dev ccd/kind.hpp)
+  nearmiss_install_headers(oracle-dev ccd/query/kind.hpp)
   nearmiss_install_target(oracle nearmiss_interface)
   if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR} OR IS_ABSOLUTE ${CMAKE_INSTALL_INCLUDEDIR})
     set(pkgconfig_prefix ${CMAKE_INSTALL_PREFIX})

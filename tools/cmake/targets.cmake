@@ -47,12 +47,9 @@ function(nearmiss_precompile target)
   endif()
 endfunction()
 
-# nearmiss_library(FOLDER LIB...): the library of one folder, from all its .cpp files.
+# nearmiss_library(FOLDER LIB...): the library of one folder, from the .cpp files in it; the folder's CMakeLists.txt adds those of its parts.
 function(nearmiss_library folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
-  if(NOT sources)
-    return()
-  endif()
   add_library(nearmiss_${folder} STATIC ${sources})
   set_target_properties(nearmiss_${folder} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   nearmiss_options(nearmiss_${folder})

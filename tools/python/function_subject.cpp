@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 
 namespace nearmiss::python {
 

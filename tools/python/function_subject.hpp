@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "ccd/detector.hpp"
+#include "ccd/subjects/detector.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
 
 namespace nearmiss::python {

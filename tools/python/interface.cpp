@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "ccd/arithmetic.hpp"
+#include "ccd/query/arithmetic.hpp"
 #include "oracle/interface/nearmiss.h"
 
 namespace nearmiss::python {

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/error.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/built_in.hpp"
@@ -40,8 +40,7 @@ std::unique_ptr<Subject> subject_of(const py::object& each) {
   info.time_sort = static_cast<TimeSort>(each.attr("_number_of_time_sort")().cast<int>());
   info.takes_separation = each.attr("takes_separation").cast<bool>();
   for (const Kind kind : kinds)
-    if (each.attr("kinds").contains(short_name(kind)))
-      info.kinds |= kind == Kind::vertex_triangle ? NEARMISS_VERTEX_TRIANGLE : NEARMISS_EDGE_EDGE;
+    if (each.attr("kinds").contains(short_name(kind))) info.kinds |= bit_of(kind);
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
 #include "corpus/query_text.hpp"
 #include "fuzz/scenes/built_in/themes.hpp"
 

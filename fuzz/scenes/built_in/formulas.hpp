@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss {
 

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"
-#include "oracle/subjects.hpp"
+#include "fuzz/subjects/exact.hpp"
 
 namespace nearmiss::environments {
 

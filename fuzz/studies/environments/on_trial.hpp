@@ -1,7 +1,7 @@
 // The functions of a CCD that the plug-ins of this folder call.
 #pragma once
 
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
 
 namespace nearmiss::environments {
 

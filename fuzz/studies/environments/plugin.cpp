@@ -41,8 +41,6 @@ Query query_of(Kind kind, const double* x) {
   return query;
 }
 
-Kind kind_of(int kind) { return kind == NEARMISS_VERTEX_TRIANGLE ? Kind::vertex_triangle : Kind::edge_edge; }
-
 int test(const Query& query) {
   try {
     const Mode mode;
@@ -54,18 +52,18 @@ int test(const Query& query) {
 
 void decide(void* /*state*/, int kind, std::size_t n, const double* x, const double* /*h*/, int* answer,
             double* /*toi*/) {
-  for (std::size_t i = 0; i < n; ++i) answer[i] = test(query_of(kind_of(kind), x + 24 * i));
+  for (std::size_t i = 0; i < n; ++i) answer[i] = test(query_of(*kind_of_bit(kind), x + 24 * i));
 }
 
 double distance_bound(void* /*state*/, int kind, const double* x) {
-  return environments::distance_bound(query_of(kind_of(kind), x));
+  return environments::distance_bound(query_of(*kind_of_bit(kind), x));
 }
 
 constexpr nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
                                    .name = NAME,
                                    .version = "1",
                                    .about = "one of nearmiss's own CCDs, in a mode of the processor",
-                                   .kinds = NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE,
+                                   .kinds = bits_of_all_kinds,
                                    .bits = 53,
                                    .time_sort = NEARMISS_NO_TIME,
                                    .takes_separation = 0,

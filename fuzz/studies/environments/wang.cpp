@@ -1,14 +1,14 @@
 // The failure-proof CCD, used as a header-only library without the guard of the built-in subjects.
-#include "ccd/wang.hpp"
+#include "ccd/wang/wang.hpp"
 
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/studies/environments/on_trial.hpp"
 
 namespace nearmiss::environments {
 
 bool collides(const Query& query) {
   constexpr WangOptions of_wang;
-  return query.kind == Kind::vertex_triangle ? wang<Kind::vertex_triangle, double, of_wang>(query).hit
-                                             : wang<Kind::edge_edge, double, of_wang>(query).hit;
+  return with_kind(query.kind, [&]<Kind kind>() { return wang<kind, double, of_wang>(query).hit; });
 }
 
 double distance_bound(const Query& query) { return make_subject("wang")->distance_bound(query); }

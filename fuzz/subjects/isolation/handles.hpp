@@ -11,7 +11,7 @@
 #include <new>
 #include <utility>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss::isolation {
 

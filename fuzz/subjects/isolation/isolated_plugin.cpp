@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "fuzz/subjects/batch_subject.hpp"
 #include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/subjects/isolation/fault_texts.hpp"
@@ -157,7 +157,7 @@ class IsolatedPlugin final : public BatchSubject {
     give_back(std::move(worker));
   }
 
-  /// The same for one batch. A worker that cannot be used any more is replaced, and goes on behind the query at which it failed. A call
+  /// Has one batch decided. A worker that cannot be used any more is replaced, and goes on behind the query at which it failed. A call
   /// that takes too long as a whole is repeated query by query, since nobody knows which one takes so long. `late` counts the
   /// queries over the time limit.
   template <class Take>

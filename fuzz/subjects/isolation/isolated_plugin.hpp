@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "ccd/detector.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/subjects/detector.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/subjects/isolation/worker_process.hpp"
 
 namespace nearmiss {
 
-/// The plug-in of a name (ccd/plugin.hpp), with one worker process for each thread that asks at the same time. A failure
+/// The plug-in of a name (ccd/subjects/plugin.hpp), with one worker process for each thread that asks at the same time. A failure
 /// becomes the verdict's fault, and the next query gets a new process, except after an exception. The plug-in's output is discarded. Throws Error if
 /// the plug-in cannot be loaded, or has several detectors and the name does not say which.
 ///
@@ -21,7 +21,7 @@ namespace nearmiss {
 std::unique_ptr<Subject> make_isolated_plugin(const std::string& name,
                                               const isolation::PluginLimits& limits = {});
 
-/// The same, but all detectors of a shared object if the name does not say which.
+/// As make_isolated_plugin, but makes all detectors of a shared object if the name does not say which.
 std::vector<std::unique_ptr<Subject>> make_isolated_plugins(const std::string& name,
                                                             const isolation::PluginLimits& limits = {});
 

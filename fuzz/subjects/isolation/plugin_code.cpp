@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "ccd/plugin.hpp"
+#include "ccd/subjects/plugin.hpp"
 #include "reports/sha256.hpp"
 #include "reports/text/shell.hpp"
 

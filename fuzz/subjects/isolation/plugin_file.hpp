@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss::isolation {
 

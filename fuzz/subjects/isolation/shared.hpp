@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "ccd/detector.hpp"
-#include "ccd/query.hpp"
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/detector.hpp"
 
 namespace nearmiss::isolation {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/printable.hpp"
+#include "ccd/query/printable.hpp"
 
 namespace nearmiss::isolation {
 
@@ -62,7 +62,7 @@ DetectorInfo info_of(const PluginDescription& about) {
   info.name = text(about.name);
   info.version = text(about.version);
   info.about = text(about.about);
-  info.kinds = about.kinds & (NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  info.kinds = about.kinds & bits_of_all_kinds;
   info.is_narrow = about.is_narrow != 0;
   info.time_sort =
       static_cast<TimeSort>(std::clamp(about.time_sort, 0, static_cast<int>(TimeSort::lower_bound)));

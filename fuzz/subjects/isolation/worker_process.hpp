@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "ccd/detector.hpp"
-#include "ccd/subject.hpp"
+#include "ccd/subjects/detector.hpp"
+#include "ccd/subjects/subject.hpp"
 #include "fuzz/stop.hpp"
 #include "fuzz/subjects/isolation/handles.hpp"
 #include "fuzz/subjects/isolation/plugin_code.hpp"
@@ -106,7 +106,7 @@ class WorkerProcess {
   [[nodiscard]] Duration computing() const;
   /// Sends a call, and waits for the reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// The same, without a note of whether the worker waits for the next call.
+  /// As `ask`, without a note of whether the worker waits for the next call.
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
   /// How the call ended, if a message says so.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
 

@@ -1,6 +1,6 @@
 // Scalars of the machine, and double-double. The operations and the square root of IEEE 754, rounded to
 // nearest (`MachineArithmetic`), give the exact result times 1 + d with |d| <= u = ε/2, unless they overflow
-// or underflow, which `in_range` (ccd/motion.hpp) excludes. The same holds for long double, the x87 type with
+// or underflow, which `in_range` (ccd/wang/motion.hpp) excludes. The same holds for long double, the x87 type with
 // 64 bits. Double-double has its own ε.
 #include "fuzz/subjects/ladder/double_double.hpp"
 #include "fuzz/subjects/ladder/scaled_subject.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "ccd/error.hpp"
-#include "ccd/excerpt.hpp"
-#include "ccd/scalar_name.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/query/scalar_name.hpp"
 
 namespace nearmiss {
 

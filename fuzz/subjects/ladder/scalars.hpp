@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/subject.hpp"
+#include "ccd/subjects/subject.hpp"
 
 namespace nearmiss {
 

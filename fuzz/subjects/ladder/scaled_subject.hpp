@@ -12,21 +12,22 @@
 #include <type_traits>
 #include <utility>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/basic.hpp"
-#include "ccd/pair_bound.hpp"
-#include "ccd/tight_tolerances.hpp"
-#include "ccd/wang.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/wang/basic.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/loosened.hpp"
+#include "ccd/wang/pair_bound.hpp"
+#include "ccd/wang/wang.hpp"
 #include "fuzz/subjects/ladder/scalars.hpp"
 
 namespace nearmiss::ladder {
 
-/// Steps with the paper's tolerances, or with the smallest ones.
-struct EitherTolerances : AllSteps {
+/// The paper's tolerances, or the smallest ones.
+struct EitherTolerances {
   std::optional<ToleranceConstants> smallest;
 
   template <class T>
-  [[nodiscard]] Tolerances<T> tolerances(const T& B) const {
+  [[nodiscard]] Tolerances<T> operator()(const T& B) const {
     return smallest ? tolerances_of(*smallest, epsilon<T>(), B) : paper_tolerances(B);
   }
 };
@@ -50,7 +51,7 @@ class Scaled final : public Subject {
         narrow_(1 - epsilon_exponent < std::numeric_limits<double>::digits),
         largest_(
             std::ldexp(1 - std::ldexp(0.5, epsilon_exponent), std::numeric_limits<double>::max_exponent)) {
-    if (algorithm == Algorithm::wang_tight) steps_.smallest = solve_tight(epsilon_exponent);
+    if (algorithm == Algorithm::wang_tight) tolerances_.smallest = solve_tight(epsilon_exponent);
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -59,14 +60,14 @@ class Scaled final : public Subject {
   [[nodiscard]] Verdict decide(const Query& query) const override {
     if (!is_finite(query)) refuse_coordinates(name_);
     const Arithmetic arithmetic(epsilon_exponent_);
-    return decide(query, steps_);
+    return decide(query, tolerances_);
   }
 
   [[nodiscard]] double distance_bound(const Query& query) const override {
     if (!claims_bound()) return std::numeric_limits<double>::infinity();
     const Arithmetic arithmetic(epsilon_exponent_);
     // Rounded up, with a margin for B in a scalar of few digits: B <= B* (1 + 40ε).
-    const double bound = static_cast<double>(steps_.tolerances(T(1)).distance_bound());
+    const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
     return std::nextafter(bound * slack * B, std::numeric_limits<double>::infinity());
@@ -82,8 +83,7 @@ class Scaled final : public Subject {
     if (algorithm_ == Algorithm::basic) return std::numeric_limits<double>::quiet_NaN();
     const Arithmetic arithmetic(epsilon_exponent_);
     return least_loosening([&](double s) {
-      const Loosened<EitherTolerances> steps{steps_, s};
-      return decide(query, steps).hit;
+      return decide(query, Loosened<EitherTolerances>{tolerances_, s}).hit;
     });
   }
 
@@ -99,18 +99,15 @@ class Scaled final : public Subject {
  private:
   static constexpr WangOptions options{true, VeCulling::per_root};
 
-  template <class Steps>
-  [[nodiscard]] Verdict decide(const Query& query, const Steps& steps) const {
+  template <class Rule>
+  [[nodiscard]] Verdict decide(const Query& query, const Rule& tolerances) const {
     const Seen seen = as_seen(query);
     std::optional<double> given = given_;
     if (given) given = std::ldexp(*given, seen.exponent);
-    const auto of_kind = [&]<Kind kind>(std::integral_constant<Kind, kind>) {
+    return with_kind(query.kind, [&]<Kind kind>() {
       return algorithm_ == Algorithm::basic ? basic<kind, T, true>(seen.query)
-                                            : wang<kind, T, options>(seen.query, given, steps);
-    };
-    return query.kind == Kind::vertex_triangle
-               ? of_kind(std::integral_constant<Kind, Kind::vertex_triangle>())
-               : of_kind(std::integral_constant<Kind, Kind::edge_edge>());
+                                            : wang<kind, T, options>(seen.query, given, tolerances);
+    });
   }
 
   struct Seen {
@@ -141,7 +138,7 @@ class Scaled final : public Subject {
   std::optional<double> given_;
   bool narrow_;
   double largest_;  ///< the largest double with the digits of T, if T is narrow
-  EitherTolerances steps_;
+  EitherTolerances tolerances_;
 };
 
 template <class T, class Arithmetic = MachineArithmetic>

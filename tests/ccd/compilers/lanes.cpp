@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <random>
 
-#include "ccd/lanes.hpp"
+#include "ccd/query/lanes.hpp"
 
 namespace nearmiss {
 namespace {

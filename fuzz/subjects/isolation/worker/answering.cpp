@@ -20,11 +20,11 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/arithmetic.hpp"
-#include "ccd/detector.hpp"
-#include "ccd/error.hpp"
-#include "ccd/plugin.hpp"
-#include "ccd/stopwatch.hpp"
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/detector.hpp"
+#include "ccd/subjects/plugin.hpp"
+#include "ccd/subjects/stopwatch.hpp"
 #include "fuzz/subjects/isolation/shared.hpp"
 #include "fuzz/subjects/isolation/worker/program.hpp"
 
@@ -98,7 +98,7 @@ void note_exception() {
   }
 }
 
-/// The same for an exception that cannot be caught, such as one from another thread; ends the process.
+/// Notes an exception that cannot be caught, such as one from another thread, and ends the process.
 [[noreturn]] void note_exception_and_end() {
   note_exception();
   std::abort();
@@ -153,13 +153,13 @@ void ask(const Detector& detector, Answers& noted, std::uint64_t call, std::uint
   }
 }
 
-/// The same with the empty detector, whose answers nobody must take for those of the plug-in.
+/// Asks the empty detector, whose answers nobody must take for those of the plug-in.
 void ask_empty(std::uint64_t call, std::uint32_t first, std::uint32_t last, std::uint32_t step) {
   static Answers of_empty;
   ask(Detector::empty(), of_empty, call, first, last, step);
 }
 
-/// The same with the plug-in's detector, and measures the time of all threads, since a plug-in may have threads of its
+/// Asks the plug-in's detector, and measures the time of all threads, since a plug-in may have threads of its
 /// own. Some queries are decided before that, so that the code is in the caches; but not if the first takes so long that
 /// this makes no difference.
 std::uint64_t time_of_warm(const Detector& detector, std::uint64_t call, std::uint32_t first,

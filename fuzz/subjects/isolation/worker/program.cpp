@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ccd/detector.hpp"
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/subjects/detector.hpp"
 
 namespace nearmiss::isolation {
 

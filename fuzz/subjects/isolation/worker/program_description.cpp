@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/error.hpp"
+#include "ccd/query/error.hpp"
 
 namespace nearmiss::isolation {
 

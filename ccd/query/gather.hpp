@@ -1,0 +1,181 @@
+// Queries in the caller's memory (queries.h) as values, block by block.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+
+#include "ccd/query/queries.h"
+#include "ccd/query/query.hpp"
+#include "ccd/query/query_rows.hpp"
+
+namespace nearmiss::interface {
+
+/// Whether the fields are such that the queries can be read.
+inline bool are_readable(const nearmiss_queries* queries) {
+  return queries != nullptr && kind_of_bit(queries->kind).has_value() &&
+         (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
+         (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
+}
+
+/// A number in the caller's memory, wherever it lies.
+template <class Number>
+Number number_at(const void* base, std::ptrdiff_t offset) {
+  Number value;
+  std::memcpy(&value, static_cast<const std::byte*>(base) + offset, sizeof value);
+  return value;
+}
+
+/// The separation of query q, if separations are given.
+inline double separation_of(const nearmiss_queries& queries, std::size_t q) {
+  return number_at<double>(queries.separation, static_cast<std::ptrdiff_t>(q) * queries.separation_stride);
+}
+
+/// Whether `count` queries from the query `first` on have the separation 0.
+inline bool ask_for_contact(const nearmiss_queries& queries, std::size_t first, std::size_t count) {
+  if (queries.separation == nullptr) return true;
+  if (queries.separation_stride == 0) count = std::min<std::size_t>(count, 1);
+  for (std::size_t q = first; q < first + count; ++q)
+    if (separation_of(queries, q) != 0) return false;
+  return true;
+}
+
+/// Whether all queries have the separation 0.
+inline bool ask_for_contact(const nearmiss_queries& queries) {
+  return ask_for_contact(queries, 0, queries.count);
+}
+
+/// Whether a query has an answer.
+inline bool is_answerable(const Query& query) {
+  return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
+}
+
+/// Whether the 12 coordinates of a query at one time, of type T, lie one after the other.
+template <class T>
+bool has_packed_points(const nearmiss_queries& queries) {
+  return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
+         queries.vertices == nullptr;
+}
+
+/// Whether all coordinates of a query are doubles that lie one after the other.
+inline bool lie_in_rows(const nearmiss_queries& queries) {
+  return queries.type == NEARMISS_DOUBLE && has_packed_points<double>(queries) &&
+         static_cast<const double*>(queries.start) + 12 == queries.end;
+}
+
+/// Reads one query after the other.
+template <class T>
+class Reader {
+ public:
+  explicit Reader(const nearmiss_queries& queries)
+      : queries_(queries), is_packed_(has_packed_points<T>(queries)) {}
+
+  void read(std::size_t q, Query& query) const {
+    const auto offset = static_cast<std::ptrdiff_t>(q);
+    read_points(q, static_cast<const std::byte*>(queries_.start) + offset * queries_.query_stride,
+                &query.x[0]);
+    read_points(q, static_cast<const std::byte*>(queries_.end) + offset * queries_.query_stride,
+                &query.x[12]);
+    if (queries_.separation != nullptr) query.separation = separation_of(queries_, q);
+  }
+
+ private:
+  void read_points(std::size_t q, const std::byte* first, double* x) const {
+    if (is_packed_) {
+      std::array<T, 12> numbers;
+      std::memcpy(numbers.data(), first, sizeof numbers);
+      std::copy(numbers.begin(), numbers.end(), x);
+      return;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::ptrdiff_t vertex =
+          queries_.vertices == nullptr ? static_cast<std::ptrdiff_t>(i) : queries_.vertices[4 * q + i];
+      const std::ptrdiff_t point = vertex * queries_.vertex_stride;
+      for (std::ptrdiff_t k = 0; k < 3; ++k)
+        *x++ = number_at<T>(first, point + k * queries_.coordinate_stride);
+    }
+  }
+
+  const nearmiss_queries& queries_;
+  bool is_packed_;
+};
+
+/// The largest number of queries in a block.
+inline constexpr std::size_t block_size = 256;
+
+/// Calls visit(block, first) for blocks of queries, of which the first is query `first`. Returns NEARMISS_OK, or what `visit`
+/// returns last that is something else. `block_of` makes a block from its first query and its size.
+template <class BlockOf, class Visit>
+int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
+  int status = NEARMISS_OK;
+  for (std::size_t first = 0; first < count; first += most) {
+    const int each = visit(block_of(first, std::min(most, count - first)), first);
+    if (each != NEARMISS_OK) status = each;
+  }
+  return status;
+}
+
+/// Calls visit(block, first) for blocks that are copies of the queries.
+template <class T, class Visit>
+int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
+  constexpr std::size_t most = 128;  // which fit into the nearest cache
+  union Block {                      // of which only the queries that are used are initialised
+    Block() {}
+    Query queries[most];
+  } block;
+  std::uninitialized_fill_n(block.queries, std::min(most, queries.count), Query{.kind = kind});
+  const Reader<T> reader(queries);
+  return for_parts(
+      queries.count, most,
+      [&](std::size_t first, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) reader.read(first + i, block.queries[i]);
+        return QueryRows(std::span<const Query>(block.queries, size));
+      },
+      visit);
+}
+
+/// Calls visit(block, first) for blocks of queries, which are copied if their layout needs it. Returns a status and throws nothing. The
+/// caller has plain arithmetic.
+template <class Visit>
+int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
+  if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
+  const Kind kind = *kind_of_bit(queries->kind);
+  try {
+    if (lie_in_rows(*queries) && ask_for_contact(*queries)) {
+      const QueryRows rows(kind, static_cast<const double*>(queries->start), queries->query_stride,
+                           queries->count);
+      return for_parts(
+          queries->count, block_size,
+          [&](std::size_t first, std::size_t size) { return rows.part(first, size); }, visit);
+    }
+    return queries->type == NEARMISS_DOUBLE ? for_copies<double>(*queries, kind, visit)
+                                            : for_copies<float>(*queries, kind, visit);
+  } catch (const std::bad_alloc&) {
+    return NEARMISS_OUT_OF_MEMORY;
+  }
+}
+
+/// Calls answer(query, q) for each query that is finite, and refuse(q) for each of the others. Returns a status and throws nothing.
+template <class Answer, class Refuse>
+int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
+  return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
+    int status = NEARMISS_OK;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const Query query = block[i];
+      if (is_answerable(query)) {
+        answer(query, first + i);
+      } else {
+        refuse(first + i);
+        status = NEARMISS_NOT_FINITE;
+      }
+    }
+    return status;
+  });
+}
+
+}  // namespace nearmiss::interface

@@ -1,0 +1,125 @@
+// The kinds of queries, and what their primitives are made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace nearmiss {
+
+/// Which primitives a query has.
+enum class Kind : std::uint8_t {
+  vertex_triangle,  ///< x0 is the vertex, x1 x2 x3 the triangle
+  edge_edge,        ///< x0x1 and x2x3 are the edges
+};
+
+/// All kinds.
+inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge};
+
+/// A primitive, by the number of its vertices.
+enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
+
+/// Two vertices, by their numbers in a query.
+struct VertexPair {
+  std::uint8_t from, to;
+};
+
+/// A vertex of one primitive and an edge of the other.
+struct VertexAndEdge {
+  std::uint8_t vertex, from, to;
+};
+
+/// What the two primitives of a query are made of. Whoever needs the vertices, edges or pairs of a kind reads them here.
+struct Topology {
+  std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
+  std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
+  Primitive first, second;            ///< with the vertices x[0 .. split) and x[split .. 4)
+  std::span<const VertexPair> edges;  ///< of both primitives
+  std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
+  std::span<const VertexAndEdge>
+      first_to_second;  ///< each vertex of the first primitive and each edge of the second
+  std::span<const VertexAndEdge>
+      second_to_first;  ///< each vertex of the second primitive and each edge of the first
+  /// p, q and r (x_to - x_from), where N = q × r is the normal and F = p · N the coplanarity (§3.3, §3.4).
+  std::array<VertexPair, 3> pqr;
+};
+
+namespace topologies {
+
+inline constexpr std::array<VertexPair, 3> edges_of_vt{{{1, 2}, {2, 3}, {3, 1}}};
+inline constexpr std::array<VertexPair, 3> gaps_of_vt{{{0, 1}, {0, 2}, {0, 3}}};
+inline constexpr std::array<VertexAndEdge, 3> first_to_second_of_vt{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+
+inline constexpr std::array<VertexPair, 2> edges_of_ee{{{0, 1}, {2, 3}}};
+inline constexpr std::array<VertexPair, 4> gaps_of_ee{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+inline constexpr std::array<VertexAndEdge, 2> first_to_second_of_ee{{{0, 2, 3}, {1, 2, 3}}};
+inline constexpr std::array<VertexAndEdge, 2> second_to_first_of_ee{{{2, 0, 1}, {3, 0, 1}}};
+
+/// In the order of Kind.
+inline constexpr std::array<Topology, 2> of_kinds{{{.short_name = "vt",
+                                                    .name = "vertex_triangle",
+                                                    .first = Primitive::vertex,
+                                                    .second = Primitive::triangle,
+                                                    .edges = edges_of_vt,
+                                                    .gaps = gaps_of_vt,
+                                                    .first_to_second = first_to_second_of_vt,
+                                                    .second_to_first = {},
+                                                    .pqr = {{{1, 0}, {1, 2}, {1, 3}}}},
+                                                   {.short_name = "ee",
+                                                    .name = "edge_edge",
+                                                    .first = Primitive::edge,
+                                                    .second = Primitive::edge,
+                                                    .edges = edges_of_ee,
+                                                    .gaps = gaps_of_ee,
+                                                    .first_to_second = first_to_second_of_ee,
+                                                    .second_to_first = second_to_first_of_ee,
+                                                    .pqr = {{{0, 2}, {0, 1}, {2, 3}}}}}};
+
+}  // namespace topologies
+
+constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
+
+/// "vt" or "ee".
+constexpr std::string_view short_name(Kind kind) { return topology(kind).short_name; }
+
+/// The vertices of the first primitive are x[0 .. split), those of the second x[split .. 4).
+constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
+
+/// Whether the second primitive is a triangle, with weights α, β >= 0 and α + β <= 1 of its edges x1x2 and x1x3. Otherwise the
+/// primitives are two edges, with weights α and β in [0, 1].
+constexpr bool has_triangle(Kind kind) { return topology(kind).second == Primitive::triangle; }
+
+/// The number of a kind in the interfaces in C, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a set of kinds.
+constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
+
+/// All kinds, as such a set.
+inline constexpr int bits_of_all_kinds = (1 << kinds.size()) - 1;
+
+/// The kind of such a number; nothing for other numbers.
+constexpr std::optional<Kind> kind_of_bit(int bit) {
+  for (const Kind kind : kinds)
+    if (bit_of(kind) == bit) return kind;
+  return std::nullopt;
+}
+
+/// f.operator()<kind>(), where `kind` is known at run time only.
+template <class Function>
+constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
+  return kind == Kind::vertex_triangle ? f.template operator()<Kind::vertex_triangle>()
+                                       : f.template operator()<Kind::edge_edge>();
+}
+
+/// Calls f.operator()<kind>() for each kind.
+template <class Function>
+constexpr void for_each_kind(const Function& f) {
+  const auto call = [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (f.template operator()<kinds[i]>(), ...);
+  };
+  call(std::make_index_sequence<kinds.size()>());
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,49 @@
+#include "ccd/query/printable.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nearmiss {
+
+namespace {
+
+/// The length of the UTF-8 sequence at the begin of a text, if it is valid (RFC 3629) and printable; else 0.
+std::size_t printable_sequence(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  constexpr std::array<unsigned, 5> lead_bits{0, 0, 0x1f, 0x0f, 0x07};
+  std::uint32_t code = byte(0) & lead_bits[length];
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  const bool is_control = code < 0xa0;
+  // These change the direction of the text around them.
+  const bool turns = (code >= 0x200e && code <= 0x200f) || (code >= 0x202a && code <= 0x202e) ||
+                     (code >= 0x2066 && code <= 0x2069);
+  const bool ends_line = code == 0x2028 || code == 0x2029;
+  const bool is_fine = code >= least[length] && code <= 0x10ffff && !is_surrogate && !is_control && !turns;
+  return is_fine && !ends_line ? length : 0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = printable_sequence(text);
+    if (length != 0)
+      result += text.substr(0, length);
+    else
+      result += text[0] == '\n' || text[0] == '\t' ? ' ' : '?';
+    text.remove_prefix(length != 0 ? length : 1);
+  }
+  return result;
+}
+
+}  // namespace nearmiss

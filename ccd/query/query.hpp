@@ -1,0 +1,78 @@
+// A query: two moving primitives. Every part of nearmiss works on this value.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/kind.hpp"
+
+namespace nearmiss {
+
+/// Three coordinates.
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+
+/// Four vertices that move linearly from t = 0 to t = 1: x(t) = (1 - t) x(0) + t x(1), exactly, for the given
+/// double coordinates. The unit of length is arbitrary. Coordinates are finite; readers refuse any others.
+/// The question is whether the distance of the two closed primitives is at most h, the separation, at some t in [0, 1].
+/// Their distance is 0 where they touch, so h = 0 asks for contact.
+struct Query {
+  Kind kind{};  ///< which primitives they are
+  /// x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each.
+  std::array<double, 24> x{};
+  /// The separation h, finite and not negative, in the unit of the coordinates.
+  double separation = 0;
+
+  /// A vertex at t = 0.
+  [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
+  /// A vertex at t = 1.
+  [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
+  /// Moves a vertex at t = 0.
+  void set_start(int vertex, const Vector3<double>& p) { set(vertex, p); }
+  /// Moves a vertex at t = 1.
+  void set_end(int vertex, const Vector3<double>& p) { set(4 + vertex, p); }
+
+  /// Whether kind, coordinates and separation are equal.
+  bool operator==(const Query&) const = default;
+
+ private:
+  [[nodiscard]] Eigen::Map<const Vector3<double>> at(int point) const {
+    return Eigen::Map<const Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point);
+  }
+  void set(int point, const Vector3<double>& p) {
+    Eigen::Map<Vector3<double>>(x.data() + static_cast<std::ptrdiff_t>(3) * point) = p;
+  }
+};
+
+/// The query of the same primitives for another separation; 0 asks for contact.
+inline Query with_separation(Query query, double separation) {
+  query.separation = separation;
+  return query;
+}
+
+/// The coordinates as a function of a time (0 or 1), a vertex and a component k.
+inline auto coordinates(const Query& query) {
+  return [&query](std::size_t time, std::size_t vertex, std::size_t k) {
+    return query.x[12 * time + 3 * vertex + k];
+  };
+}
+
+/// Whether all 24 coordinates are finite.
+inline bool is_finite(const Query& query) {
+  // Infinities and NaN have an exponent of all ones; adding one to it carries into the sign bit.
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  constexpr std::uint64_t one_more = std::uint64_t{1} << 52;
+  std::uint64_t carries = 0;
+  for (const double c : query.x) carries |= (std::bit_cast<std::uint64_t>(c) & ~sign) + one_more;
+  return (carries & sign) == 0;
+}
+
+}  // namespace nearmiss

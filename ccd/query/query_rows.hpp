@@ -1,0 +1,55 @@
+// Queries in memory, as code for many queries at once reads them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "ccd/query/query.hpp"
+
+namespace nearmiss {
+
+/// Queries whose 24 coordinates lie one after the other, in the order of Query::x: a span of queries, or an array of somebody
+/// else's, which has queries of one kind with h = 0. The memory must outlive this view.
+class QueryRows {
+ public:
+  explicit QueryRows(std::span<const Query> queries)
+      : queries_(queries.data()),
+        x_(reinterpret_cast<const std::byte*>(queries.data()) + offsetof(Query, x)),
+        stride_(sizeof(Query)),
+        size_(queries.size()) {}
+  /// @param stride from one query to the next, in bytes
+  QueryRows(Kind kind, const double* x, std::ptrdiff_t stride, std::size_t size)
+      : kind_(kind), x_(reinterpret_cast<const std::byte*>(x)), stride_(stride), size_(size) {}
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const double* x(std::size_t q) const {
+    return reinterpret_cast<const double*>(x_ + static_cast<std::ptrdiff_t>(q) * stride_);
+  }
+  [[nodiscard]] Kind kind(std::size_t q) const { return queries_ == nullptr ? kind_ : queries_[q].kind; }
+
+  /// The rows first .. first + size - 1.
+  [[nodiscard]] QueryRows part(std::size_t first, std::size_t size) const {
+    QueryRows some = *this;
+    if (queries_ != nullptr) some.queries_ += first;
+    some.x_ += static_cast<std::ptrdiff_t>(first) * stride_;
+    some.size_ = size;
+    return some;
+  }
+
+  [[nodiscard]] Query operator[](std::size_t q) const {
+    if (queries_ != nullptr) return queries_[q];
+    Query query{.kind = kind_};
+    std::copy_n(x(q), query.x.size(), query.x.begin());
+    return query;
+  }
+
+ private:
+  const Query* queries_ = nullptr;  ///< null if all have the kind `kind_`
+  Kind kind_{};
+  const std::byte* x_;
+  std::ptrdiff_t stride_;
+  std::size_t size_;
+};
+
+}  // namespace nearmiss

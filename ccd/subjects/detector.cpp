@@ -1,0 +1,234 @@
+#include "ccd/subjects/detector.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/printable.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+static_assert(bit_of(Kind::vertex_triangle) == NEARMISS_VERTEX_TRIANGLE);
+static_assert(bit_of(Kind::edge_edge) == NEARMISS_EDGE_EDGE);
+
+std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
+
+bool is_power_of_two(double x) {
+  int exponent = 0;
+  return std::isfinite(x) && std::frexp(x, &exponent) == 0.5;
+}
+
+Contract contract_of(const nearmiss_contract& given) {
+  return {.apart_at_start = given.apart_at_start != 0,
+          .one_root = given.one_root != 0,
+          .apart_by = given.apart_by,
+          .grid = given.grid,
+          .shortest = given.shortest,
+          .longest = given.longest};
+}
+
+DetectorInfo info_of(const nearmiss_subject& subject, const std::string& options) {
+  return {.name = subject.name + (options.empty() ? "" : ":" + options),
+          .version = text_or_empty(subject.version),
+          .about = text_or_empty(subject.about),
+          .kinds = subject.kinds,
+          .is_narrow = subject.bits == 24,
+          .time_sort = static_cast<TimeSort>(subject.time_sort),
+          .takes_separation = subject.takes_separation != 0,
+          .batch = std::max<std::size_t>(1, subject.batch),
+          .claims_bound = subject.distance_bound != nullptr,
+          .contract = contract_of(subject.contract)};
+}
+
+void find_nothing(void* /*state*/, int /*kind*/, std::size_t n, const double* /*x*/, const double* /*h*/,
+                  int* answer, double* /*toi*/) {
+  std::fill_n(answer, n, NEARMISS_NO_COLLISION);
+}
+
+const nearmiss_subject& empty_subject() {
+  static const nearmiss_subject subject{.interface_version = NEARMISS_INTERFACE,
+                                        .name = "empty",
+                                        .version = "",
+                                        .about = "",
+                                        .kinds = bits_of_all_kinds,
+                                        .bits = 53,
+                                        .time_sort = NEARMISS_NO_TIME,
+                                        .takes_separation = 0,
+                                        .batch = 1,
+                                        .contract = {},
+                                        .open = nullptr,
+                                        .close = nullptr,
+                                        .decide = find_nothing,
+                                        .distance_bound = nullptr};
+  return subject;
+}
+
+}  // namespace
+
+std::string fault_of_name(std::string_view name) {
+  if (name.empty()) return "a detector without a name";
+  if (name.size() > longest_name)
+    return "a name of " + std::to_string(name.size()) + " bytes, not " + std::to_string(longest_name) +
+           " at most";
+  if (printable(name) != name) return "a name with a control character, or that is no UTF-8";
+  if (name.find_first_of(":=/,") != std::string_view::npos)
+    return "the name '" + std::string(name) + "' with ':', '=', '/' or ','";
+  return "";
+}
+
+std::string fault_of(const Contract& contract) {
+  if (contract.grid != 0 && !is_power_of_two(contract.grid)) return "a grid that is no power of two";
+  const auto is_length = [](double limit) { return limit >= 0 && std::isfinite(limit); };
+  if (!is_length(contract.apart_by) || (contract.apart_by != 0 && !contract.apart_at_start))
+    return "a distance at t = 0 that is none, or without apart_at_start";
+  if (!is_length(contract.shortest) || !is_length(contract.longest) ||
+      (contract.longest != 0 && contract.longest < contract.shortest))
+    return "limits of lengths that no length meets, or that are not finite";
+  return "";
+}
+
+std::string fault_of(const nearmiss_subject& subject) {
+  const std::string name = text_or_empty(subject.name);
+  if (std::string fault = fault_of_name(name); !fault.empty()) return fault;
+  if (subject.decide == nullptr) return "'" + name + "' without the function decide";
+  if (subject.kinds < 1 || subject.kinds > bits_of_all_kinds)
+    return "'" + name + "' with no known kind of queries";
+  if (subject.bits != 0 && subject.bits != 24 && subject.bits != 53)
+    return "'" + name + "' with coordinates of " + std::to_string(subject.bits) + " bits, not 24 or 53";
+  if (subject.time_sort < NEARMISS_NO_TIME || subject.time_sort > NEARMISS_TIME_LOWER_BOUND)
+    return "'" + name + "' with an unknown sort of time";
+  const std::string of_contract = fault_of(contract_of(subject.contract));
+  return of_contract.empty() ? "" : "'" + name + "' with " + of_contract;
+}
+
+bool decides(const DetectorInfo& info, Kind kind) { return (info.kinds & bit_of(kind)) != 0; }
+
+Query rounded_for(const DetectorInfo& info, const Query& query) {
+  if (!info.is_narrow) return query;
+  const auto round = [](double& number) {
+    constexpr double most = std::numeric_limits<float>::max();
+    number = static_cast<double>(static_cast<float>(std::clamp(number, -most, most)));
+  };
+  Query rounded = query;
+  for (double& c : rounded.x) round(c);
+  round(rounded.separation);
+  return rounded;
+}
+
+Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
+  if (answer < 0) return {.fault = Fault::error, .fault_code = answer};
+  const Verdict invalid{.fault = Fault::invalid, .fault_code = answer};
+  switch (answer) {
+    case NEARMISS_NO_COLLISION:
+      return {};
+    case NEARMISS_UNKNOWN:
+      return Verdict::accepted(Stage::unknown, nan);
+    case NEARMISS_COLLISION:
+      if (info.time_sort == TimeSort::none) return Verdict::accepted(Stage::unspecified, nan);
+      return time >= 0 && time <= 1 ? Verdict::accepted(Stage::unspecified, time) : invalid;
+    default:
+      return invalid;
+  }
+}
+
+namespace {
+
+/// Throws Error unless a detector is as nearmiss_subject.h says, with a name of its own.
+void expect_usable(const std::string& path, const nearmiss_subject& subject,
+                   const std::vector<std::string>& other_names) {
+  if (subject.interface_version != NEARMISS_INTERFACE)
+    throw Error(path + ": found version " + std::to_string(subject.interface_version) +
+                " of the plug-in interface, expected " + std::to_string(NEARMISS_INTERFACE));
+  std::string fault = fault_of(subject);
+  if (fault.empty() && std::find(other_names.begin(), other_names.end(), subject.name) != other_names.end())
+    fault = "two detectors with the name '" + std::string(subject.name) + "'";
+  if (!fault.empty()) throw Error(path + ": found " + fault + ", expected what ccd/nearmiss_subject.h says");
+}
+
+}  // namespace
+
+void PluginLibrary::Unload::operator()(void* handle) const { dlclose(handle); }
+
+PluginLibrary::PluginLibrary(const std::string& path)
+    : path_(path), library_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+  make_arithmetic_plain();  // loading a library linked by g++ -ffast-math turns on flushing of subnormals
+  if (!library_) throw Error(path + ": cannot load the plug-in: " + dlerror());
+  using GetSubject = decltype(&nearmiss_get_subject);
+  const auto get = reinterpret_cast<GetSubject>(dlsym(library_.get(), "nearmiss_get_subject"));
+  if (get == nullptr)
+    throw Error(path + ": no function nearmiss_get_subject, expected by ccd/nearmiss_subject.h");
+  while (const nearmiss_subject* const subject = get(subjects_.size())) {
+    if (subjects_.size() == most_detectors)
+      throw Error(path + ": found more than " + std::to_string(most_detectors) +
+                  " detectors, expected nearmiss_get_subject to return a null pointer behind the last");
+    expect_usable(path, *subject, names());
+    subjects_.push_back(subject);
+  }
+  if (subjects_.empty()) throw Error(path + ": nearmiss_get_subject returned a null pointer");
+}
+
+std::vector<std::string> PluginLibrary::names() const {
+  std::vector<std::string> names;
+  for (const nearmiss_subject* each : subjects_) names.emplace_back(each->name);
+  return names;
+}
+
+const nearmiss_subject& PluginLibrary::subject(std::string_view name) const {
+  std::string known;
+  for (const nearmiss_subject* each : subjects_) {
+    if (name.empty() || name == each->name) return *each;
+    known += (known.empty() ? "" : ", ") + std::string(each->name);
+  }
+  throw Error(path_ + ": found no detector '" + std::string(name) + "', expected one of " + known);
+}
+
+Detector::Detector(const nearmiss_subject& subject, const std::string& options)
+    : subject_(subject), info_(info_of(subject, options)) {
+  if (subject.open == nullptr) {
+    if (!options.empty())
+      throw Error(std::string(subject.name) + ": found the options '" + options + "', expected none");
+    return;
+  }
+  std::array<char, 512> message{};
+  state_ = subject.open(options.c_str(), message.data(), message.size());
+  make_arithmetic_plain();
+  message.back() = '\0';
+  if (state_ == nullptr)
+    throw Error(std::string(subject.name) + ": refuses the options '" + options + "': " + message.data());
+}
+
+Detector::~Detector() {
+  if (state_ != nullptr && subject_.close != nullptr) subject_.close(state_);
+  make_arithmetic_plain();
+}
+
+void Detector::decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
+                      std::span<double> times) const {
+  std::fill(answers.begin(), answers.end(), std::numeric_limits<int>::min());
+  std::fill(times.begin(), times.end(), nan);
+  subject_.decide(state_, bit_of(kind), answers.size(), x, separations, answers.data(), times.data());
+  make_arithmetic_plain();
+}
+
+BoundAnswer Detector::bound(Kind kind, const double* x) const {
+  if (!info_.claims_bound) return BoundAnswer::given(std::numeric_limits<double>::infinity());
+  const double bound = subject_.distance_bound(state_, bit_of(kind), x);
+  make_arithmetic_plain();
+  return BoundAnswer::given(bound);
+}
+
+const Detector& Detector::empty() {
+  static const Detector detector(empty_subject(), "");
+  return detector;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,96 @@
+// Detectors that shared objects export (nearmiss_subject.h).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/nearmiss_subject.h"
+#include "ccd/subjects/subject.hpp"
+
+namespace nearmiss {
+
+/// What a detector says about itself (nearmiss_subject.h).
+struct DetectorInfo {
+  std::string name;  ///< with its options
+  std::string version, about;
+  int kinds = 0;
+  bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
+  TimeSort time_sort{};
+  bool takes_separation = false;
+  std::size_t batch = 1;
+  bool claims_bound = false;
+  Contract contract;
+
+  bool operator==(const DetectorInfo&) const = default;
+};
+
+/// The most detectors of a shared object, and the most bytes of a detector's name.
+inline constexpr std::size_t most_detectors = 64;
+inline constexpr std::size_t longest_name = 255;
+
+/// How a description, a name or a contract contradicts nearmiss_subject.h; "" if it does not.
+std::string fault_of(const nearmiss_subject& subject);
+std::string fault_of_name(std::string_view name);
+std::string fault_of(const Contract& contract);
+
+/// Whether a detector decides queries of a kind.
+bool decides(const DetectorInfo& info, Kind kind);
+/// The query that it decides: with coordinates rounded to float if it is narrow, those beyond the range of float to the
+/// largest float.
+Query rounded_for(const DetectorInfo& info, const Query& query);
+/// Its answer as a verdict. `time` is the time that it gave; NaN if none.
+Verdict verdict_of(const DetectorInfo& info, int answer, double time);
+
+/// A loaded shared object.
+class PluginLibrary {
+ public:
+  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, or exports a subject that is not as
+  /// nearmiss_subject.h says.
+  explicit PluginLibrary(const std::string& path);
+
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// The subject of this name; the first one if it is "". Throws Error.
+  [[nodiscard]] const nearmiss_subject& subject(std::string_view name) const;
+
+ private:
+  struct Unload {
+    void operator()(void* handle) const;
+  };
+
+  std::string path_;
+  std::unique_ptr<void, Unload> library_;
+  std::vector<const nearmiss_subject*> subjects_;  // owned by the library
+};
+
+/// A detector that is open, for one thread. It may change the rounding mode, the treatment of subnormals or the traps;
+/// arithmetic is plain again after each call.
+class Detector {
+ public:
+  /// Opens it. The subject must outlive this object. Throws Error if it refuses the options.
+  Detector(const nearmiss_subject& subject, const std::string& options);
+  Detector(const Detector&) = delete;
+  Detector& operator=(const Detector&) = delete;
+  ~Detector();
+
+  [[nodiscard]] const DetectorInfo& info() const { return info_; }
+  [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
+
+  /// Decides queries of one kind, one for each answer: x has 24 coordinates for each, rounded if it is narrow.
+  void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
+              std::span<double> times) const;
+  [[nodiscard]] BoundAnswer bound(Kind kind, const double* x) const;
+
+  /// A detector that does nothing and finds no collision.
+  static const Detector& empty();
+
+ private:
+  const nearmiss_subject& subject_;
+  DetectorInfo info_;
+  void* state_ = nullptr;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,107 @@
+#include "ccd/subjects/plugin.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "ccd/query/error.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+bool is_file(std::string_view path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
+/// The path with which a plug-in's name begins: the shortest part up to a ':' or the end that has a '/' and is a file. If
+/// there is none, up to the first ':' behind the last '/' before an option, so that a message can name it.
+std::string_view path_in(std::string_view name) {
+  for (std::size_t end = 0; end != std::string_view::npos;) {
+    end = name.find(':', end + 1);
+    const std::string_view part = name.substr(0, end);
+    if (part.find('/') != std::string_view::npos && is_file(part)) return part;
+  }
+  const std::size_t in_file = name.rfind('/', name.find('=')) + 1;
+  return name.substr(0, name.find(':', in_file));
+}
+
+}  // namespace
+
+bool is_plugin(std::string_view name) {
+  const bool may_be_path = name.find('/') != std::string_view::npos;
+  return is_program(name) || (may_be_path && path_in(name).find('/') != std::string_view::npos);
+}
+
+PluginName PluginName::parse(std::string_view name) {
+  PluginName parsed{.path = std::string(path_in(name)), .subject = "", .options = ""};
+  for (std::size_t at = parsed.path.size(); at < name.size();) {
+    const std::size_t end = std::min(name.find(':', at + 1), name.size());
+    const std::string part(name.substr(at + 1, end - at - 1));
+    at = end;
+    if (part.find('=') != std::string::npos) {
+      parsed.options += (parsed.options.empty() ? "" : ":") + part;
+    } else if (part.empty() || !parsed.subject.empty() || !parsed.options.empty()) {
+      throw Error(std::string(name) + ": found '" + part + "', expected PATH[:SUBJECT][:KEY=VALUE]...");
+    } else {
+      parsed.subject = part;
+    }
+  }
+  return parsed;
+}
+
+Plugin::Plugin(std::string_view name) {
+  const PluginName parsed = PluginName::parse(name);
+  library_ = std::make_unique<PluginLibrary>(parsed.path);
+  subject_ = &library_->subject(parsed.subject);
+  options_ = parsed.options;
+  idle_.push_back(std::make_unique<Detector>(*subject_, options_));
+  info_ = idle_.back()->info();
+}
+
+Plugin::Plugin() : subject_(&Detector::empty().subject()), info_(Detector::empty().info()) {}
+
+const Subject& Plugin::empty() const {
+  static const Plugin plugin;
+  return plugin;
+}
+
+template <class Act>
+auto Plugin::with_detector(const Act& act) const {
+  std::unique_ptr<Detector> detector;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      detector = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (!detector) detector = std::make_unique<Detector>(*subject_, options_);
+  auto answer = act(*detector);
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(detector));
+  return answer;
+}
+
+Verdict Plugin::decide(const Query& query) const {
+  if (!decides(query.kind) || (query.separation > 0 && !takes_separation()))
+    return {.fault = Fault::not_asked};
+  return with_detector([&](const Detector& detector) {
+    const Query seen = rounded(query);
+    int answer = 0;
+    double time = std::numeric_limits<double>::quiet_NaN();
+    detector.decide(query.kind, seen.x.data(), &seen.separation, std::span(&answer, 1), std::span(&time, 1));
+    return verdict_of(info_, answer, time);
+  });
+}
+
+BoundAnswer Plugin::ask_bound(const Query& query) const {
+  return with_detector(
+      [&](const Detector& detector) { return detector.bound(query.kind, rounded(query).x.data()); });
+}
+
+double Plugin::distance_bound(const Query& query) const { return ask_bound(query).bound_or_nan(); }
+
+}  // namespace nearmiss

@@ -1,0 +1,176 @@
+// The interface through which any CCD is put on trial.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/query/query.hpp"
+#include "ccd/wang/verdict.hpp"
+
+namespace nearmiss {
+
+/// What a subject says about the time of a collision: t*, the earliest time at which the distance is at most h.
+enum class TimeSort : std::uint8_t {
+  none,         ///< nothing
+  estimate,     ///< a time near it
+  lower_bound,  ///< a time that is not after it: nothing happens before
+};
+
+/// Names of the sorts of time in reports, in order.
+inline constexpr std::array<std::string_view, 3> time_sort_names{"none", "estimate", "lower-bound"};
+
+constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
+
+/// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
+struct Contract {
+  bool apart_at_start = false;  ///< the distance of the primitives at t = 0 is more than `apart_by` and h
+  bool one_root = false;  ///< the volume of the four vertices has one root in [0, 1] at most, a simple one
+  double apart_by = 0;    ///< used with apart_at_start
+  double grid = 0;        ///< a power of two of which every coordinate is a multiple
+  double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least as long
+  double longest = 0;     ///< these edges and the paths of the vertices are at most as long
+
+  bool operator==(const Contract&) const = default;
+};
+
+/// A subject's answer to the question for its distance bound.
+struct BoundAnswer {
+  double bound = std::numeric_limits<double>::quiet_NaN();  ///< as the subject gives it
+  Fault fault = Fault::none;                                ///< if not `none`, there is no bound
+  std::int32_t fault_code = 0;                              ///< as in Verdict
+
+  /// A number that a subject gave as its bound; an error if it is not a distance.
+  static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
+
+  /// As Subject::distance_bound returns it.
+  [[nodiscard]] double bound_or_nan() const {
+    return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
+/// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
+struct BatchTime {
+  std::size_t queries = 0;  ///< timed queries; none next to a query at which a process ended
+  std::uint64_t nanoseconds = 0;
+};
+
+/// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic (arithmetic.hpp),
+/// whatever the caller's mode.
+class Subject {
+ public:
+  Subject() = default;
+  Subject(const Subject&) = delete;
+  Subject& operator=(const Subject&) = delete;
+  virtual ~Subject() = default;
+
+  /// Name on the command line and in reports; for a plug-in, its own name.
+  [[nodiscard]] virtual const std::string& name() const = 0;
+
+  /// Throws Error if a coordinate is not finite.
+  [[nodiscard]] virtual Verdict decide(const Query& query) const = 0;
+
+  /// verdicts[i] = decide(queries[i]); both spans have the same length.
+  virtual void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
+  }
+
+  /// Decides the queries and measures how long that took.
+  virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
+
+  /// The time of each query on its own, in ns: the shortest of three tries, or nothing if there is no answer.
+  virtual void time_each(std::span<const Query> queries,
+                         std::span<std::optional<std::uint64_t>> nanoseconds) const;
+
+  /// The largest distance of a false positive that this subject claims, in the query's unit of length. It is
+  /// infinity if the subject claims nothing or more than the largest double, and NaN if it fails to answer.
+  [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
+
+  /// The distance bound, or why the subject fails to give it.
+  [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
+    return BoundAnswer::given(distance_bound(query));
+  }
+
+  /// Whether the subject claims a bound; it does so for all queries or for none.
+  [[nodiscard]] virtual bool claims_bound() const { return true; }
+
+  /// Whether the subject decides queries of a kind. About others, it is not asked.
+  [[nodiscard]] virtual bool decides(Kind /*kind*/) const { return true; }
+
+  /// Whether the subject answers queries with a separation h > 0. About these, other subjects are not asked.
+  [[nodiscard]] virtual bool takes_separation() const { return false; }
+
+  /// What the time of a verdict means, for collisions.
+  [[nodiscard]] virtual TimeSort time_sort() const { return TimeSort::none; }
+
+  /// What the subject takes for granted.
+  [[nodiscard]] virtual Contract contract() const { return {}; }
+
+  /// Whether the subject rounds coordinates to fewer digits than those of double.
+  [[nodiscard]] virtual bool rounds() const { return false; }
+
+  /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
+  [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
+
+  /// What an exception said, or why the subject could not be loaded, of a verdict of this subject; "" for any other.
+  [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
+
+  /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
+  /// lengths (D, ψ^½, S, μ^⅓), must be multiplied so that the subject just reports the query. It is at most 1
+  /// if the subject reports the query, and larger otherwise. It guides directed search, is accurate to a few
+  /// bits, and is NaN if the subject does not say.
+  [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+ protected:
+  /// A subject that decides nothing and is asked in the same way; its time is subtracted from this subject's
+  /// time.
+  [[nodiscard]] virtual const Subject& empty() const;
+};
+
+/// A built-in subject's name and a one-line description.
+struct SubjectInfo {
+  std::string_view name;
+  std::string_view about;
+};
+
+/// The built-in subjects, in the order in which `nearmiss subjects` lists them.
+std::vector<SubjectInfo> subjects();
+
+/// Suffix of the name of a subject that uses the scene's bound for every pair.
+inline constexpr std::string_view of_scene = "@scene";
+
+/// Makes a built-in subject from its name, or a plug-in from its path (any name with a '/'). A bound may be
+/// given as NAME@B, or as `given_bound` for NAME and NAME@scene, in the queries' unit of length. It replaces
+/// every pair's own bound B (§5 of the paper: per scene, or given by the user); subjects without B ignore it.
+/// Throws Error for an unknown name or an unusable plug-in.
+std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
+                                      std::optional<double> given_bound = std::nullopt);
+
+/// As make_subject, but returns nothing for an unknown name.
+std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
+
+/// A name without its suffix "@B" or "@scene", and the bound of the suffix, or the given bound if there is no
+/// suffix, as in the path of a plug-in. Throws Error if B is a number that is not positive and finite.
+struct SplitName {
+  std::string_view name;
+  std::optional<double> bound;
+};
+SplitName split_bound(std::string_view name, std::optional<double> given_bound);
+
+/// Throws the Error that a subject found a coordinate that is not finite.
+[[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
+
+/// Throws an Error that lists the known names.
+[[noreturn]] void refuse_subject(std::string_view name, std::span<const SubjectInfo> known);
+
+}  // namespace nearmiss

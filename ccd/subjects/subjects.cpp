@@ -1,0 +1,253 @@
+// The built-in subjects.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "ccd/query/arithmetic.hpp"
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/subjects/plugin.hpp"
+#include "ccd/subjects/stopwatch.hpp"
+#include "ccd/subjects/subject.hpp"
+#include "ccd/wang/advance.hpp"
+#include "ccd/wang/basic.hpp"
+#include "ccd/wang/bounds/tight_tolerances.hpp"
+#include "ccd/wang/loosened.hpp"
+#include "ccd/wang/pair_bound.hpp"
+#include "ccd/wang/wang.hpp"
+#include "ccd/wang/wang_batch.hpp"
+#include "ccd/wang/wang_time.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// A policy has `template <Kind> static Verdict decide(query, given)`, static functions
+/// `distance_bound(query, given)` and `needed_tolerance(query, given)` that return double, and the constants
+/// `claims_bound`, `takes_separation` and `time_sort`.
+template <class Policy, bool is_batched = false>
+class BuiltInSubject final : public Subject {
+ public:
+  BuiltInSubject(std::string_view name, std::optional<double> given) : name_(name), given_(given) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    const PlainArithmetic guard;
+    return decide_plainly(query);
+  }
+
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    const PlainArithmetic guard;
+    if constexpr (is_batched) {
+      if (!given_) {
+        wang_in_lanes(QueryRows(queries), verdicts);
+        for (std::size_t i = 0; i < queries.size(); ++i)
+          if (!is_decided(verdicts[i])) verdicts[i] = decide_plainly(queries[i]);
+        return;
+      }
+    }
+    for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide_plainly(queries[i]);
+  }
+
+  [[nodiscard]] double distance_bound(const Query& query) const override {
+    const PlainArithmetic guard;
+    return Policy::distance_bound(query, given_);
+  }
+
+  [[nodiscard]] double needed_tolerance(const Query& query) const override {
+    const PlainArithmetic guard;
+    return Policy::needed_tolerance(query, given_);
+  }
+
+  [[nodiscard]] bool claims_bound() const override { return Policy::claims_bound; }
+  [[nodiscard]] bool takes_separation() const override { return Policy::takes_separation; }
+  [[nodiscard]] TimeSort time_sort() const override { return Policy::time_sort; }
+
+ private:
+  [[nodiscard]] Verdict decide_plainly(const Query& query) const {
+    if (!is_finite(query)) refuse_coordinates(name_);
+    return with_kind(query.kind, [&]<Kind kind>() { return Policy::template decide<kind>(query, given_); });
+  }
+
+  std::string name_;
+  std::optional<double> given_;
+};
+
+template <bool plane_culling>
+struct Basic {
+  static constexpr bool claims_bound = false;
+  static constexpr bool takes_separation = false;
+  static constexpr TimeSort time_sort = TimeSort::estimate;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
+    return basic<kind, double, plane_culling>(query);
+  }
+  static double distance_bound(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::infinity();
+  }
+  static double needed_tolerance(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+/// The policy of a subject that decides nothing.
+struct Empty : Basic<false> {
+  template <Kind kind>
+  static Verdict decide(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return {};
+  }
+};
+
+template <WangOptions options, class Rule = PaperTolerances>
+struct Wang {
+  static constexpr bool claims_bound = true;
+  static constexpr bool takes_separation = false;
+  static constexpr TimeSort time_sort = TimeSort::none;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& given) {
+    return wang<kind, double, options, Rule>(query, given);
+  }
+  static double distance_bound(const Query& query, const std::optional<double>& given) {
+    return distance_bound_of(Rule()(1.0), given.value_or(pair_bound(query)));
+  }
+  static double needed_tolerance(const Query& query, const std::optional<double>& given) {
+    return least_loosening([&](double s) {
+      const Loosened<Rule> tolerances{{}, s};
+      return with_kind(
+          query.kind, [&]<Kind kind>() { return wang<kind, double, options>(query, given, tolerances).hit; });
+    });
+  }
+};
+
+template <WangOptions options>
+struct WangTime : Wang<options> {
+  static constexpr TimeSort time_sort = TimeSort::lower_bound;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& given) {
+    return wang_time<kind, double, options>(query, given);
+  }
+};
+
+struct Advance {
+  static constexpr bool claims_bound = true;
+  static constexpr bool takes_separation = true;
+  static constexpr TimeSort time_sort = TimeSort::lower_bound;
+
+  template <Kind kind>
+  static Verdict decide(const Query& query, const std::optional<double>& /*given*/) {
+    return advance<kind, double>(query);
+  }
+  static double distance_bound(const Query& query, const std::optional<double>& /*given*/) {
+    const double bound =
+        with_kind(query.kind, [&]<Kind kind>() { return advance_distance_bound<kind, double>(query); });
+    return std::nextafter(bound, std::numeric_limits<double>::infinity());
+  }
+  static double needed_tolerance(const Query& /*query*/, const std::optional<double>& /*given*/) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+struct Entry {
+  SubjectInfo info;
+  std::unique_ptr<Subject> (*make)(std::string_view name, std::optional<double> given);
+};
+
+template <class Policy, bool is_batched = false>
+constexpr Entry entry(std::string_view name, std::string_view about) {
+  return {{name, about},
+          [](std::string_view own_name, std::optional<double> given) -> std::unique_ptr<Subject> {
+            return std::make_unique<BuiltInSubject<Policy, is_batched>>(own_name, given);
+          }};
+}
+
+constexpr std::array registry{
+    entry<Basic<true>>("basic", "cubic CCD without any tolerance, plane culling: the baseline"),
+    entry<Basic<false>>("basic-plain", "the same without plane culling"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}>, true>(
+        "wang", "the failure-proof CCD: plane culling, vertex-edge culling with an interval for each root"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}>>("wang-scalar", "the same, one query at a time"),
+    entry<Wang<WangOptions{true, VeCulling::fixed}>>(
+        "wang-eps", "the same with the fixed interval of the paper's text, the square root of epsilon"),
+    entry<Wang<WangOptions{false, VeCulling::none}>>("wang-plain", "the same without either culling"),
+    entry<Wang<WangOptions{true, VeCulling::per_root}, TightTolerances>>(
+        "wang-tight", "wang with the smallest tolerances that its proof allows"),
+    entry<WangTime<WangOptions{true, VeCulling::per_root}>>(
+        "wang-time", "wang with a lower bound of the earliest time of contact"),
+    entry<Advance>("advance", "conservative advancement: steps in time that cannot be too long"),
+};
+
+}  // namespace
+
+std::vector<SubjectInfo> subjects() {
+  std::vector<SubjectInfo> infos;
+  for (const Entry& each : registry) infos.push_back(each.info);
+  return infos;
+}
+
+BatchTime Subject::decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const {
+  const std::size_t few = std::min(warm_up_queries, queries.size());
+  for (const Subject* each : {&empty(), this}) each->decide(queries.first(few), verdicts.first(few));
+  return {queries.size(), time_beyond(
+                              CLOCK_THREAD_CPUTIME_ID, [&] { decide(queries, verdicts); },
+                              [&] { empty().decide(queries, verdicts); })};
+}
+
+void Subject::time_each(std::span<const Query> queries,
+                        std::span<std::optional<std::uint64_t>> nanoseconds) const {
+  Verdict verdict;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    nanoseconds[i] = best_time_beyond(
+        CLOCK_THREAD_CPUTIME_ID, [&] { verdict = decide(queries[i]); },
+        [&] { verdict = empty().decide(queries[i]); });
+}
+
+const Subject& Subject::empty() const {
+  static const BuiltInSubject<Empty> subject("empty", std::nullopt);
+  return subject;
+}
+
+SplitName split_bound(std::string_view name, std::optional<double> given_bound) {
+  const auto at = name.rfind('@');
+  if (at == std::string_view::npos || is_plugin(name)) return {name, given_bound};
+  if (name.substr(at) == of_scene && given_bound) return {name.substr(0, at), given_bound};
+  double bound = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + at + 1, end, bound);
+  if (error == std::errc::invalid_argument || rest != end) return {name, given_bound};
+  if (error != std::errc() || !(bound > 0) || !std::isfinite(bound))
+    throw Error("subject '" + excerpt(name) + "': found the bound '" + excerpt(name.substr(at + 1)) +
+                "', expected a positive finite number");
+  return {name.substr(0, at), bound};
+}
+
+std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  const auto [name, bound] = split_bound(name_or_path, given_bound);
+  for (const Entry& each : registry)
+    if (each.info.name == name) return each.make(name_or_path, bound);
+  if (is_plugin(name_or_path)) return std::make_unique<Plugin>(name_or_path);
+  return nullptr;
+}
+
+std::unique_ptr<Subject> make_subject(std::string_view name_or_path, std::optional<double> given_bound) {
+  auto subject = try_make_subject(name_or_path, given_bound);
+  if (!subject) refuse_subject(name_or_path, subjects());
+  return subject;
+}
+
+void refuse_coordinates(std::string_view name) {
+  throw Error(std::string(name) + ": found a coordinate that is not finite, expected 24 finite numbers");
+}
+
+void refuse_subject(std::string_view name, std::span<const SubjectInfo> known) {
+  std::string names;
+  for (const SubjectInfo& info : known) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  throw Error("unknown subject '" + excerpt(name) + "', expected one of " + names +
+              " or the path of a plug-in such as ./plugin.so");
+}
+
+}  // namespace nearmiss

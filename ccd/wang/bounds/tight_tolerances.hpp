@@ -1,0 +1,198 @@
+// The smallest tolerances that the constraints of §4 allow, for any scalar.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ccd/wang/bounds/constraints.hpp"
+#include "ccd/wang/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The exponent in ε = 2^epsilon_exponent.
+template <class T>
+inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
+
+/// Tolerances for B = 1 as multiples of powers of e = ε^¼.
+struct ToleranceConstants {
+  double mu;           ///< in units of ε
+  double tau, eta;     ///< in units of e² and e
+  double R, S;         ///< in units of e
+  double lambda2, D2;  ///< in units of e²
+  double psi, rho;     ///< in units of e²
+};
+
+namespace detail {
+
+constexpr double power_of_two(int exponent) {
+  double power = 1;
+  for (; exponent < 0; ++exponent) power /= 2;
+  return power;
+}
+
+constexpr double square_root(double x) {  // Newton's method, from above
+  double root = x > 1 ? x : 1;
+  for (;;) {
+    const double next = (root + x / root) / 2;
+    if (!(next < root)) return root;
+    root = next;
+  }
+}
+
+/// The place in [lo, hi] at which a function that first falls and then rises is smallest (golden-section
+/// search).
+template <class Function>
+constexpr double lowest(const Function& f, double lo, double hi) {
+  constexpr double golden = 0.6180339887498949;
+  double a = hi - golden * (hi - lo);
+  double b = lo + golden * (hi - lo);
+  double fa = f(a);
+  double fb = f(b);
+  for (int i = 0; i < 80; ++i) {
+    if (fa <= fb) {
+      hi = b;
+      b = a;
+      fb = fa;
+      fa = f(a = hi - golden * (hi - lo));
+    } else {
+      lo = a;
+      a = b;
+      fa = fb;
+      fb = f(b = lo + golden * (hi - lo));
+    }
+  }
+  return (lo + hi) / 2;
+}
+
+struct EdgeTolerances {
+  double psi, lambda2, D2;
+};
+
+// The smallest ψ and D² for a given S, for B = 1. As λ² grows, λ²/4 + (ψ/λ + S)² first falls and then rises,
+// since its slope grows. The other constraint on D² falls, so the larger of the two also falls and then
+// rises.
+constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
+  const double psi = errors.least_psi * margin;
+  const auto D2 = [&](double lambda2) {
+    const double longer2 = lambda2 + errors.length2;
+    const double shorter2 = lambda2 - errors.length2;
+    const double at_longer = psi / square_root(longer2) + S;
+    const double at_shorter = (psi + errors.F) / square_root(shorter2) + S;
+    return std::max(longer2 / 4 + at_longer * at_longer,
+                    errors.weight_ve * errors.weight_ve / shorter2 + at_shorter * at_shorter);
+  };
+  const double least = 2 * errors.length2;
+  double most = least;
+  while (D2(2 * most) < D2(most)) most *= 2;
+  const double lambda2 = lowest(D2, least, 2 * most);
+  return {psi, lambda2, D2(lambda2) * margin};
+}
+
+// The smallest g for which the constraint on the weight holds, with η(g) and τ(g) as in `solve_tight`: 2
+// weight <= g η (τ - error). The left side does not depend on g, and the right side grows with it.
+template <class Allows>
+constexpr double least_size(const Allows& allows) {
+  double none = 0;
+  double some = 1;
+  while (!allows(some)) some *= 2;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (none + some) / 2;
+    (middle > 0 && allows(middle) ? some : none) = middle;
+  }
+  return some;
+}
+
+}  // namespace detail
+
+/// Minimises D² subject to `constraints` with `full_errors`.
+///
+/// D² grows with R alone, so R comes first. Let g² = R² - r². The short edge allows E up to 2g. The height
+/// allows η up to 2g/√3 - error/E, and η is at most B. The quadrilateral's area allows τ up to 4g²/√3 - error
+/// (the triangle's area allows more). Larger values of E, η and τ make everything else smaller. The weight
+/// requires g η (τ - error) >= 2 weight, which holds for g above some g0, and R² = g² + r(g)² falls and then
+/// rises. S, ρ = ε and `edge_tolerances` follow.
+///
+/// Computing a value takes a few roundings, with a relative error below 16 ε in total. R, ψ, D² and μ are
+/// made larger by that and by 2^-30.
+constexpr ToleranceConstants solve_tight(int eps_exponent) {
+  const double eps = detail::power_of_two(eps_exponent);
+  const double e = detail::square_root(detail::square_root(eps));
+  const double margin = 1 + 16 * eps + 0x1p-30;
+  const double rho = eps;
+  const auto errors = full_errors(eps, 1.0, rho);
+  const double mu = errors.least_mu * margin;
+  const double root3 = detail::square_root(3);
+  const auto eta = [&](double g) {
+    return std::min(2 * g / root3 - errors.height_vt / (2 * g), 1 - 16 * eps);
+  };
+  const auto tau = [&](double g) { return 4 * g * g / root3 - errors.area; };
+  const double g0 = detail::least_size(
+      [&](double g) { return g * eta(g) * (tau(g) - errors.area) >= 2 * errors.weight_vt; });
+  const auto R2 = [&](double g) {
+    const double r = (mu + errors.residual) / (tau(g) - errors.area);
+    return g * g + r * r;
+  };
+  const double g = detail::lowest(R2, g0, 64 * g0);
+  const double R = detail::square_root(R2(g)) * margin;
+  const double S = detail::square_root(8) * R;
+  const auto edge = detail::edge_tolerances(full_errors(eps, S, rho), S, margin);
+  const double area = e * e;
+  return {.mu = mu / eps,
+          .tau = tau(g) / area,
+          .eta = eta(g) / e,
+          .R = R / e,
+          .S = S / e,
+          .lambda2 = edge.lambda2 / area,
+          .D2 = edge.D2 / area,
+          .psi = edge.psi / area,
+          .rho = rho / area};
+}
+
+template <class T>
+inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
+
+/// The constants of the paper's closed forms, for ε = 2^eps_exponent.
+constexpr ToleranceConstants closed_forms(int eps_exponent) {
+  const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
+  return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
+}
+
+/// The tolerances for a bound B from their constants.
+template <class T>
+Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& B) {
+  using std::sqrt;
+  const T Be = B * sqrt(sqrt(eps));
+  const T B2 = B * B;
+  const T B2e2 = Be * Be;
+  Tolerances<T> tol;
+  tol.delta = B2 * eps * 311;
+  tol.D2 = B2e2 * static_cast<T>(c.D2);
+  tol.rho = B2e2 * static_cast<T>(c.rho);
+  tol.psi = B2e2 * static_cast<T>(c.psi);
+  tol.lambda2 = B2e2 * static_cast<T>(c.lambda2);
+  tol.R = Be * static_cast<T>(c.R);
+  tol.S = Be * static_cast<T>(c.S);
+  tol.mu = B2 * B * eps * static_cast<T>(c.mu);
+  tol.tau = B2e2 * static_cast<T>(c.tau);
+  tol.eta = Be * static_cast<T>(c.eta);
+  return tol;
+}
+
+/// Tolerances that are failure-proof for every scalar of 11 to 256 bits that rounds to nearest, and for
+/// queries whose coordinates the scalar represents; a narrower scalar rounds them first. The distance bound
+/// is the smallest that the constraints give: 11.9 B e for double and finer, 12.1 B e for float.
+template <class T>
+Tolerances<T> tight_tolerances(const T& B) {
+  return tolerances_of(tight_constants<T>, epsilon<T>(), B);
+}
+
+/// The rule for tolerances that gives these.
+struct TightTolerances {
+  template <class T>
+  Tolerances<T> operator()(T B) const {
+    return tight_tolerances(B);
+  }
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,175 @@
+// The coplanarity cubic F(t) and its roots in [0, 1] (the paper's Appendix B).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <tuple>
+
+#include "ccd/wang/motion.hpp"
+#include "ccd/wang/quadratic.hpp"
+
+namespace nearmiss {
+
+/// F(t) = a t³ + b t² + c t + d.
+template <class T>
+struct Cubic {
+  T a, b, c, d;
+
+  [[nodiscard]] T operator()(T t) const { return ((a * t + b) * t + c) * t + d; }
+  [[nodiscard]] T slope(T t) const { return (3 * a * t + 2 * b) * t + c; }
+};
+
+/// F(t) = p · (q × r) of a pair. If all vectors are exact and within B, Theorem 4.1 bounds the errors of a
+/// and d by 6B³((1 + ε)⁵ - 1) and those of b and c by 18B³((1 + ε)⁷ - 1), as in the paper. Here x·(v×v) +
+/// v·(x×v + v×x) is the paper's sum with the dot product factored out.
+template <Kind kind, class T>
+Cubic<T> coplanarity(const Pair<kind, T>& pair) {
+  const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
+  const Vector3<T> n0 = q.x().cross(r.x());
+  const Vector3<T> n1 = q.x().cross(r.v()) + q.v().cross(r.x());
+  const Vector3<T> n2 = q.v().cross(r.v());
+  return {dot(p.v(), n2), dot(p.x(), n2) + dot(p.v(), n1), dot(p.x(), n1) + dot(p.v(), n0), dot(p.x(), n0)};
+}
+
+namespace detail {
+
+// A time with |F| <= μ between lo and hi, at which F has different signs and |F| > μ, by Newton's method
+// safeguarded by bisection. It terminates: bisection replaces a step that leaves the bracket or is more than
+// half as long as the step before it. If the bracket cannot shrink any more, the end with the smaller
+// residual is returned. That happens only if μ is smaller than `solve_cubic` requires; the same holds for
+// `next == t`.
+template <class T>
+T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
+  using std::abs;
+  T t = lo + (hi - lo) * (F_lo / (F_lo - F_hi));
+  T last_step = hi - lo;
+  for (;;) {
+    if (!(t > lo && t < hi)) {
+      t = lo + (hi - lo) / 2;
+      if (!(t > lo && t < hi)) return abs(F_lo) <= abs(F_hi) ? lo : hi;
+      last_step = hi - lo;
+    }
+    const T value = F(t);
+    if (abs(value) <= mu) return t;
+    if ((value < 0) == (F_lo < 0)) {
+      lo = t;
+      F_lo = value;
+    } else {
+      hi = t;
+      F_hi = value;
+    }
+    const T slope = F.slope(t);
+    const T step = slope != 0 ? value / slope : hi;
+    const T next = t - step;
+    if (next == t) return t;
+    t = abs(step) * 2 <= last_step ? next : hi;  // hi is not inside the bracket, so bisect
+    last_step = abs(step);
+  }
+}
+
+// Adds the critical points of F in [0, 1], in ascending order.
+template <class T>
+void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
+  // F' has the Bernstein coefficients c, c + b, 3a + 2b + c. If they have one sign, F is monotone and has no
+  // node inside.
+  const T s1 = F.c + F.b;
+  const T s2 = 3 * F.a + 2 * F.b + F.c;
+  if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
+    solve_quadratic(critical, 3 * F.a, 2 * F.b, F.c);
+    if (critical.count == 2 && critical.values[0] > critical.values[1])
+      std::swap(critical.values[0], critical.values[1]);
+  }
+}
+
+// The nodes of F, 0, its critical points in (0, 1) and 1, and F's values there. Interval i is between nodes i and i + 1.
+template <class T>
+struct Nodes {
+  std::array<T, 4> time{0}, value;
+  std::size_t last;  // the last interval
+
+  explicit Nodes(const Cubic<T>& F) {
+    CandidateTimes<T, 2> critical;
+    find_critical_times(critical, F);
+    last = static_cast<std::size_t>(critical.count);
+    value[0] = F.d;
+    for (std::size_t i = 0; i < last; ++i) {
+      time[i + 1] = critical.values[i];
+      value[i + 1] = F(critical.values[i]);
+    }
+    time[last + 1] = 1;
+    value[last + 1] = F(T(1));
+  }
+};
+
+// The time with |F| <= μ that represents the roots in interval i, if there is one.
+template <class T>
+std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu) {
+  using std::abs;
+  const auto& [time, value, last] = nodes;
+  if (abs(value[i]) <= mu) return time[i];
+  if (abs(value[i + 1]) <= mu) return time[i + 1];
+  if ((value[i] < 0) == (value[i + 1] < 0)) return std::nullopt;
+  return refine_root(F, time[i], time[i + 1], value[i], value[i + 1], mu);
+}
+
+}  // namespace detail
+
+/// Bound of |computed - exact| / (B³ε) for `clearance` with the computed coefficients as input. For rounding
+/// to nearest, 41 is proven (proven.hpp).
+inline constexpr int clearance_error = 100;
+
+/// A lower bound of |F| on [0, 1], up to `clearance_error`; negative if no bound is known. F lies between its
+/// Bernstein coefficients d, d + c/3, d + (2c + b)/3, a + b + c + d.
+template <class T>
+T clearance(const Cubic<T>& F) {
+  using std::max;
+  using std::min;
+  const T third = F.c / 3;
+  const T b1 = F.d + third;
+  const T b2 = b1 + (third + F.b / 3);
+  const T b3 = F(T(1));
+  const T lowest = min(min(F.d, b3), min(b1, b2));
+  const T highest = max(max(F.d, b3), max(b1, b2));
+  return max(lowest, T(-highest));
+}
+
+/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1].
+///
+/// The nodes are 0, the critical points of F in (0, 1) and 1. An interval between nodes contributes its left
+/// node if |F| <= μ there, else its right node if |F| <= μ there, else nothing if F has one sign at both,
+/// else a refined root.
+///
+/// Claim (Appendix B), for μ >= `cubic_residual`: for each root t0 of the exact F*, a time t is returned such
+/// that |F*| is at most μ + `cubic_residual` between t0 and t.
+///
+/// Proof, for operations with a relative error of at most ω. F has the computed coefficients, and |F - F*| <=
+/// e. F̂ is the value of F computed by Horner's rule, and |F̂ - F| <= h. Let E = e + h.
+/// (1) If s and t lie in the interval between two nodes, F stays between F(s) and F(t) there, up to an error
+///     of m. The inner nodes are the critical points of F + (c' - c) t (`solve_quadratic`, |c' - c| <= 3ω
+///     |c|), each up to a factor 1 + θ. That function is monotone between its exact critical points, and it
+///     changes by O(ω²) between such a point, where its slope is 0, and the node. So m is 54 ω + O(ω²). If
+///     the computed Bernstein coefficients have one sign, the last one has an error of at most 72 ω, and the
+///     slope has one of at most 72 ω t²: m is 24 ω.
+/// (2) If |F̂| > μ with one sign at both nodes, then |F| > μ - h - m between them. A root t0 of F* has |F| <=
+///     e, so there is none between them. `clearance` has an error of at most 114 ω; if it exceeds μ, F* has
+///     no root.
+/// (3) `refine_root` ends with |F̂| <= μ. F̂ has different signs at the ends of its bracket, with |F̂| > μ.
+///     If F̂ has different signs at two neighbouring numbers, |F̂| <= 72 ω + h at one of them, so the bracket
+///     can always shrink. A step that leaves t unchanged is at most ω t, but |F̂| > 73 ω gives a longer step.
+/// (4) Between t0 and t, |F*| <= e + max(|F(t0)|, |F(t)|) + m <= e + max(e, μ + h) + m.
+///
+/// If |F| is above μ on all of [0, 1], there are no such times.
+template <class T>
+CandidateTimes<T, 3> solve_cubic(const Cubic<T>& F, T mu) {
+  CandidateTimes<T, 3> roots;
+  if (clearance(F) > mu) return roots;
+  const detail::Nodes<T> nodes(F);
+  for (std::size_t i = 0; i <= nodes.last; ++i)
+    if (const auto t = detail::root_in_interval(F, nodes, i, mu)) roots.add(*t);
+  return roots;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,45 @@
+// How near a pair is to the other answer: by which factor the tolerances must be loosened, or tightened.
+#pragma once
+
+#include "ccd/wang/elementary.hpp"
+#include "ccd/wang/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The tolerances of a rule, with the accepting ones multiplied, as lengths (D, √δ, √ψ, S, ∛μ), by s.
+template <class Rule>
+struct Loosened {
+  Rule tolerances;
+  double s = 1;
+
+  template <class T>
+  [[nodiscard]] Tolerances<T> operator()(T B) const {
+    Tolerances<T> tol = tolerances(B);
+    const T length = static_cast<T>(s);
+    const T area = length * length;
+    tol.delta *= area;
+    tol.D2 *= area;
+    tol.psi *= area;
+    tol.S *= length;
+    tol.mu *= area * length;
+    return tol;
+  }
+};
+
+/// The s, to about 1 %, at which hits(s), the answer with Loosened tolerances, changes from false to true. If it
+/// does not change between 2^-40 and 2^8, the nearer of the two is returned.
+template <class Hits>
+double least_loosening(const Hits& hits) {
+  double lo = -40;
+  double hi = 8;
+  if (hits(exp2_of(lo))) return exp2_of(lo);
+  (hits(1.0) ? hi : lo) = 0;
+  if (lo == 0 && !hits(exp2_of(hi))) return exp2_of(hi);
+  while (hi - lo > 1.0 / 64) {
+    const double middle = lo + (hi - lo) / 2;
+    (hits(exp2_of(middle)) ? hi : lo) = middle;
+  }
+  return exp2_of(lo < 0 ? hi : lo);
+}
+
+}  // namespace nearmiss

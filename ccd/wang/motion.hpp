@@ -1,0 +1,253 @@
+// Relative positions and velocities of a pair, normalised by a power of two, with its bound B.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ccd/query/query.hpp"
+#include "ccd/query/scalar.hpp"
+#include "ccd/wang/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The largest magnitude of a component, ‖a‖∞.
+template <class Vector>
+auto max_component(const Vector& a) {
+  using std::abs;
+  using std::max;
+  using T = typename Vector::Scalar;
+  static_assert(Vector::SizeAtCompileTime == 3);
+  return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
+}
+
+/// Eigen's sums depend on its vector instructions; these have one order.
+template <class A, class B>
+auto dot(const A& a, const B& b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+/// ‖a‖₁
+template <class Vector>
+auto norm_1(const Vector& a) {
+  using std::abs;
+  return (abs(a[0]) + abs(a[1])) + abs(a[2]);
+}
+
+/// A vector that moves linearly: x + t v for t in [0, 1].
+template <class T>
+struct Moving {
+  Eigen::Array<T, 6, 1> xv;  ///< x, then v
+
+  [[nodiscard]] auto x() const { return xv.template head<3>().matrix(); }
+  [[nodiscard]] auto v() const { return xv.template tail<3>().matrix(); }
+  [[nodiscard]] Vector3<T> at(T t) const { return x() + t * v(); }
+};
+
+/// The time in which a gap closes at a given speed, at most `most`; 0 if the gap is not positive.
+template <class T>
+T closing_time(T gap, T speed, T most) {
+  if (!(gap > 0)) return 0;
+  return gap < most * speed ? T(gap / speed) : most;
+}
+
+/// The power-of-two frame in which a pair is computed: differences of coordinates are multiplied by
+/// 2^exponent. If a difference would overflow, the coordinates themselves are multiplied by 2^-4 first.
+struct Frame {
+  int exponent = 0;
+  bool reduced = false;
+
+  [[nodiscard]] bool identity() const { return exponent == 0 && !reduced; }
+  /// A length in the frame is the length in the query times 2 to this power.
+  [[nodiscard]] int total() const { return exponent - (reduced ? reduction : 0); }
+
+  static constexpr int reduction = 4;
+};
+
+namespace detail {
+
+template <class T, class Coordinate>
+Vector3<T> difference(const Coordinate* a, const Coordinate* b, const Frame& frame) {
+  const auto component = [&](int k) -> T {
+    if constexpr (!is_scalar<T>) {  // lanes are not scaled
+      return a[k] - b[k];
+    } else {
+      if (frame.identity()) return static_cast<T>(a[k]) - static_cast<T>(b[k]);
+      using std::ldexp;
+      const int reduce = frame.reduced ? -Frame::reduction : 0;
+      return ldexp(T(ldexp(static_cast<T>(a[k]), reduce) - ldexp(static_cast<T>(b[k]), reduce)),
+                   frame.exponent);
+    }
+  };
+  return {component(0), component(1), component(2)};
+}
+
+}  // namespace detail
+
+/// x_ab = x_a - x_b and its velocity v_ab = x_ab(1) - x_ab(0), as §4.1 forms them. Each position has one
+/// rounding (relative error u); scaling is exact except for underflow below 2^-1074. `Points` is Query, or a
+/// type with 24 coordinates of another scalar.
+template <class T, class Points>
+Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame = {}) {
+  const auto* x = points.x.data();
+  const Vector3<T> start = detail::difference<T>(x + 3 * a, x + 3 * b, frame);
+  const Vector3<T> end = detail::difference<T>(x + 12 + 3 * a, x + 12 + 3 * b, frame);
+  Moving<T> motion;
+  motion.xv << start, end - start;
+  return motion;
+}
+
+/// The vertices of a pair in the order in which the paper's formulas name them. The two end points of an edge
+/// may change places (§4.1).
+using VertexOrder = std::array<int, 4>;
+inline constexpr VertexOrder given_order{0, 1, 2, 3};
+
+/// The three relative vectors whose triple product is the coplanarity cubic F(t) = p · (q × r):
+/// vertex-triangle x01, x21, x31 (Algorithm 3); edge-edge x20, x10, x32 (Algorithm 4).
+template <Kind kind, class T>
+struct Pair {
+  Moving<T> p, q, r;
+  Frame frame;
+  VertexOrder order = given_order;
+  T E = 0;  ///< largest component of an edge at t = 0
+  T W = 0;  ///< largest component of a relative velocity within the pair: the relative 2 V_max of §4.1
+  T B = 0;  ///< the bound of §4.1 on all relative positions and velocities, if the pair collides
+};
+
+/// Forms p, q and r in the pair's frame and order.
+template <Kind kind, class T, class Points>
+void form_vectors(const Points& points, Pair<kind, T>& pair) {
+  const auto motion = [&](VertexPair vertices) {
+    return relative_motion<T>(points, pair.order[vertices.to], pair.order[vertices.from], pair.frame);
+  };
+  const auto& [p, q, r] = topology(kind).pqr;
+  pair.p = motion(p);
+  pair.q = motion(q);
+  pair.r = motion(r);
+}
+
+/// B exceeds E + W by `bound_margin`, relatively and in units of ε; the proofs need an excess of
+/// `bound_needs`.
+inline constexpr int bound_margin = 64;
+inline constexpr int bound_needs = 40;
+
+namespace detail {
+
+// B = (E + W)(1 + 64 ε), where E bounds the edges at t = 0 and W is the extent of the box of all velocities
+// relative to one vertex, which is the extent of the velocities themselves. W = 2 V_max with the relative
+// V_max of §4.1, and is never above 2 max ‖v_i‖∞.
+//
+// Rounding errors, with exact E* and W* and B* = E* + W*, for a pair that collides (others need no bound):
+// every edge is within B* at both times, and the vertex of VT is within B* of all others. Any two end points
+// of EE are within B* + 2E* <= 3B* of each other at t = 0 (some pair is within B*, and the edges are within
+// E*), and within 4B* at t = 1. So the errors are at most
+// - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
+// - 17uB* for a sum of two velocities (v30 = v20 + v32),
+// - 34uB* + u for an extent, which is the difference of two,
+// - 4uB* for an edge (x32 = x31 - x21).
+// The sum E + W adds u. All together are below 40uB* = 20 ε B* (17 is proven). The factor 1 + 64 ε leaves
+// room for the rounding of its own product: B >= B*(1 + 40ε).
+template <Kind kind, class T>
+void form_bound(Pair<kind, T>& pair) {
+  // Six components at once: positions, then velocities, of the points relative to the first point, which is
+  // at 0.
+  using Six = Eigen::Array<T, 6, 1>;
+  const Six& q = pair.q.xv;
+  Six p;
+  Six r = pair.r.xv;
+  p << Vector3<T>::Zero(), pair.p.v();
+  if constexpr (!has_triangle(kind)) r += p;  // v30 = v32 + v20; r's position stays x32, an edge
+  const Six hi = p.max(q).max(r).max(T(0));
+  const Six lo = p.min(q).min(r).min(T(0));
+  const Six extent = hi - lo;
+  // The edges of a triangle are the differences of {0, q, r}; the edges of EE are q and r themselves.
+  const Six edges = has_triangle(kind) ? extent : Six(hi.max(-lo));
+  pair.E = max_component(edges.template head<3>());
+  pair.W = max_component(extent.template tail<3>());
+  pair.B = (pair.E + pair.W) * (1 + bound_margin * epsilon<T>());
+}
+
+}  // namespace detail
+
+/// The relative vectors of a pair and its bound B in a given frame and order of end points.
+template <Kind kind, class T>
+Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const VertexOrder& order = given_order) {
+  Pair<kind, T> pair;
+  pair.frame = frame;
+  pair.order = order;
+  form_vectors(query, pair);
+  detail::form_bound(pair);
+  return pair;
+}
+
+/// Whether B³, B⁴ε and N·N stay in the range of the scalar without scaling. For double with B in [2^-100,
+/// 2^100], nothing can overflow, and a result that underflows is below 2^-1074, while B⁴ε >= 2^-452. So
+/// scaling would change no digit there. For a narrower scalar the same argument holds with a smaller range.
+template <class T>
+auto in_range(T B) {
+  using Number = ScalarOf<T>;
+  constexpr int range = std::numeric_limits<Number>::max_exponent >= 1024 ? 50 : 3;
+  const Number root = static_cast<Number>(1ULL << range);
+  return (B <= T(root * root)) & (B >= T(1 / (root * root)));
+}
+
+/// The frame in which B lies in [1, 2), for finite coordinates of any magnitude. It is the identity if the
+/// pair is already in range, or if B = 0.
+template <Kind kind, class T>
+Frame normalising_frame(const Query& query) {
+  Frame frame;
+  const auto pair = make_pair<kind, T>(query, frame);
+  // If a position overflows at both times, its velocity is NaN, and B may have any value.
+  const bool finite = pair.p.xv.isFinite().all() && pair.q.xv.isFinite().all() && pair.r.xv.isFinite().all();
+  T B = pair.B;
+  if (finite && in_range(B)) return frame;
+  if (!finite || !(B <= std::numeric_limits<T>::max() / 16)) {
+    frame.reduced = true;
+    B = make_pair<kind, T>(query, frame).B;
+  }
+  using std::ilogb;
+  if (B > 0) frame.exponent = -ilogb(B);
+  return frame;
+}
+
+namespace detail {
+
+// The order of end points in which x20 has the smallest largest component of the four pairs.
+template <class T>
+VertexOrder closest_order(const Query& query, const Frame& frame) {
+  VertexOrder best = given_order;
+  T smallest = std::numeric_limits<T>::infinity();
+  for (const int i : {0, 1}) {
+    for (const int j : {2, 3}) {
+      const T size = max_component(relative_motion<T>(query, j, i, frame).x());
+      if (size < smallest) {
+        smallest = size;
+        best = {i, 1 - i, j, 5 - j};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// Whether all vectors of the pair are within B. They are if the pair collides (§4.1) and, for two edges, p
+/// joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative error of at
+/// most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+template <Kind kind, class T>
+auto within_reach(const Pair<kind, T>& pair) {
+  return max_component(pair.p.x()) <= pair.B;
+}
+
+/// The same, with the end points of edges exchanged if necessary. B itself does not depend on the
+/// order.
+template <Kind kind, class T>
+bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
+  if (within_reach(pair)) return true;
+  if (has_triangle(kind)) return false;
+  pair.order = detail::closest_order<T>(query, pair.frame);
+  form_vectors(query, pair);
+  return within_reach(pair);
+}
+
+}  // namespace nearmiss

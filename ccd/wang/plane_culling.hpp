@@ -1,0 +1,86 @@
+// The plane-based culling of Brochu and Bridson (2012), as §5 of the paper uses it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "ccd/query/query.hpp"
+
+namespace nearmiss {
+
+namespace detail {
+
+// The least and the largest coordinate of the first and of the second primitive. `coordinate(time, vertex)` is one number or a
+// vector of numbers.
+template <Kind kind, class Coordinate>
+[[gnu::always_inline]] inline auto extents(const Coordinate& coordinate, std::size_t time) {
+  using std::max;
+  using std::min;
+  const auto range = [&](std::size_t begin, std::size_t end) {
+    auto lo = coordinate(time, begin);
+    auto hi = lo;
+    for (std::size_t vertex = begin + 1; vertex < end; ++vertex) {
+      const auto x = coordinate(time, vertex);
+      lo = min(lo, x);
+      hi = max(hi, x);
+    }
+    return std::array{lo, hi};
+  };
+  const auto first = range(0, split(kind));
+  const auto second = range(split(kind), 4);
+  return std::array{first[0], first[1], second[0], second[1]};
+}
+
+// Whether one primitive lies entirely on one side of the other in the given coordinate, at t = 0 and, on the
+// same side, at t = 1. Every difference of vertices then has one sign at both ends and, because it is linear,
+// at all times between them. The same holds for every convex combination, so the primitives never meet.
+// The answer is one truth value or a vector of them, as the coordinates are.
+template <Kind kind, class Coordinate>
+[[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
+  const auto start = extents<kind>(coordinate, 0);
+  const auto end = extents<kind>(coordinate, 1);
+  const auto above = (start[0] > start[3]) & (end[0] > end[3]);
+  const auto below = (start[1] < start[2]) & (end[1] < end[2]);
+  return above | below;
+}
+
+/// Tests the axes x, y and z; `x(time, vertex, k)` is coordinate k of a point.
+template <Kind kind, class Points>
+[[gnu::always_inline]] inline auto separated_across_axis(const Points& x) {
+  const auto axis = [&](std::size_t k) {
+    return separated<kind>([&x, k](std::size_t time, std::size_t vertex) { return x(time, vertex, k); });
+  };
+  return axis(0) | axis(1) | axis(2);
+}
+
+/// Tests the diagonals x ± y, x ± z and y ± z.
+template <Kind kind, class Points>
+[[gnu::always_inline]] inline auto separated_across_diagonal(const Points& x) {
+  const auto sum = [&](std::size_t k, std::size_t l) {
+    return separated<kind>(
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) + x(time, vertex, l); });
+  };
+  const auto difference = [&](std::size_t k, std::size_t l) {
+    return separated<kind>(
+        [&x, k, l](std::size_t time, std::size_t vertex) { return x(time, vertex, k) - x(time, vertex, l); });
+  };
+  return sum(0, 1) | sum(0, 2) | sum(1, 2) | difference(0, 1) | difference(0, 2) | difference(1, 2);
+}
+
+}  // namespace detail
+
+/// Whether a moving plane across an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably separates the
+/// primitives at all times in [0, 1], so that there is no collision.
+///
+/// The axis tests compare input coordinates. The diagonal tests compare sums and differences that were
+/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error margin is needed.
+/// Overflow is no exception: an infinite sum is rightly above every finite one, and not above another
+/// infinite one.
+template <Kind kind>
+bool separated_by_plane(const Query& query) {
+  const auto x = coordinates(query);
+  return detail::separated_across_axis<kind>(x) != 0 || detail::separated_across_diagonal<kind>(x) != 0;
+}
+
+}  // namespace nearmiss

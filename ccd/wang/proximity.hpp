@@ -1,0 +1,55 @@
+// The area, height and barycentric tests of Algorithms 3 and 4 at one time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "ccd/wang/motion.hpp"
+#include "ccd/wang/tolerances.hpp"
+
+namespace nearmiss {
+
+/// The configuration of a pair at one time: the p, q, r of `Pair`, the normal N = q × r and the barycentric
+/// weights.
+///
+/// Vertex-triangle: the weights of x3 and x2 and their sum (1 minus the weight of x1), each times N·N. x01 =
+/// β x31 + α x21 gives N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N. Edge-edge: the weights α on x0x1 and
+/// β on x2x3. x20 = α x10 - β x32 gives N·(x20 × x32) = α N·N and N·(x20 × x10) = β N·N.
+template <Kind kind, class T>
+struct Configuration {
+  Vector3<T> p, q, r, N;
+  T NN;
+  static constexpr int weight_count = has_triangle(kind) ? 3 : 2;
+  std::array<T, weight_count> weights;
+
+  Configuration(const Pair<kind, T>& pair, T t)
+      : p(pair.p.at(t)), q(pair.q.at(t)), r(pair.r.at(t)), N(q.cross(r)), NN(dot(N, N)) {
+    if constexpr (has_triangle(kind)) {
+      weights[0] = dot(N, q.cross(p));
+      weights[1] = dot(N, p.cross(r));
+      weights[2] = weights[0] + weights[1];
+    } else {
+      weights[0] = dot(N, p.cross(r));
+      weights[1] = dot(N, p.cross(q));
+    }
+  }
+
+  /// Barycentric test: every weight in [0, N·N].
+  [[nodiscard]] auto inside() const {
+    const auto between = [&](const T& w) { return (T(0) <= w) & (w <= NN); };
+    decltype(between(NN)) inside(true);
+    for (const T& w : weights) inside = inside & between(w);
+    return inside;
+  }
+
+  /// Area test ‖N‖∞ >= τ and height test η ‖edge‖∞ <= ‖N‖∞ for every edge (§4.4, §4.5).
+  [[nodiscard]] auto well_shaped(const Tolerances<T>& tol) const {
+    using std::max;
+    const T area = max_component(N);
+    T longest = max(max_component(q), max_component(r));
+    if constexpr (has_triangle(kind)) longest = max(longest, max_component(r - q));
+    return (tol.tau <= area) & (T(longest * tol.eta) <= area);
+  }
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,134 @@
+// Vertex-edge CCD (Algorithm 2).
+#pragma once
+
+#include <cmath>
+
+#include "ccd/wang/motion.hpp"
+#include "ccd/wang/quadratic.hpp"
+#include "ccd/wang/tolerances.hpp"
+#include "ccd/wang/verdict.hpp"
+#include "ccd/wang/vertex_vertex.hpp"
+
+namespace nearmiss {
+
+/// A vertex x0 and an edge xi xj: the x_0i and x_ji of Algorithm 2, and x_0j for its VV tests.
+template <class T>
+struct VertexEdge {
+  Moving<T> x0i, xji, x0j;
+};
+
+namespace detail {
+
+/// The proximity test of Algorithm 2 at one time: the test of F_0ij, the barycentric test and the length
+/// test.
+template <class T>
+bool near_edge(const VertexEdge<T>& ve, T t, const Tolerances<T>& tol) {
+  const Vector3<T> a = ve.x0i.at(t);
+  const Vector3<T> e = ve.xji.at(t);
+  const T ll = dot(e, e);
+  if (!(tol.lambda2 <= ll)) return false;
+  const T w = dot(a, e);
+  if (!(T(0) <= w && w <= ll)) return false;
+  const T F = norm_1(a.cross(e)) - tol.S * max_component(e);
+  return F <= tol.psi;
+}
+
+/// Case 3: times at which two components of x_ji have the same magnitude.
+template <class T>
+CandidateTimes<T, 6> equal_components(const Moving<T>& ji) {
+  CandidateTimes<T, 6> times;
+  for (const auto& [m, n] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{2, 1}}) {
+    add_quotient(times, T(-(ji.x()[m] + ji.x()[n])), T(ji.v()[m] + ji.v()[n]));
+    add_quotient(times, T(-(ji.x()[m] - ji.x()[n])), T(ji.v()[m] - ji.v()[n]));
+  }
+  return times;
+}
+
+/// x_0i × x_ji = a t² + b t + c; components of a and b of at most ρ are dropped (§4.3).
+template <class T>
+struct CrossProduct {
+  Vector3<T> a, b, c;
+
+  CrossProduct(const Moving<T>& x0i, const Moving<T>& xji, T rho)
+      : a(x0i.v().cross(xji.v())),
+        b(x0i.x().cross(xji.v()) + x0i.v().cross(xji.x())),
+        c(x0i.x().cross(xji.x())) {
+    using std::abs;
+    for (int k = 0; k < 3; ++k) {
+      if (abs(a[k]) <= rho) a[k] = 0;
+      if (abs(b[k]) <= rho) b[k] = 0;
+    }
+  }
+};
+
+/// Case 4: times at which a component of x_0i × x_ji is zero.
+template <class T>
+CandidateTimes<T, 6> zero_components(const CrossProduct<T>& g) {
+  CandidateTimes<T, 6> times;
+  for (int k = 0; k < 3; ++k) solve_quadratic(times, g.a[k], g.b[k], g.c[k]);
+  return times;
+}
+
+/// Case 2: the minima of the quadratic pieces of G_0ij, ±Q_x ± Q_y ± Q_z ∓ S e_k. A piece and its negative
+/// have their extremum at the same time, so 4 × 3 × 2 of the 48 pieces represent all. A piece without a t²
+/// term has no minimum.
+template <class T>
+CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji, T S) {
+  CandidateTimes<T, 24> times;
+  for (const T& sy : {T(1), T(-1)}) {
+    for (const T& sz : {T(1), T(-1)}) {
+      const T a = g.a.x() + sy * g.a.y() + sz * g.a.z();
+      const T b = g.b.x() + sy * g.b.y() + sz * g.b.z();
+      for (int k = 0; k < 3; ++k) {
+        add_quotient(times, T(-(b - S * ji.v()[k])), 2 * a);
+        add_quotient(times, T(-(b + S * ji.v()[k])), 2 * a);
+      }
+    }
+  }
+  return times;
+}
+
+}  // namespace detail
+
+/// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1], and never a vertex farther away
+/// than the tolerances' distance bound (§4.3). The verdict's stage is the Karush-Kuhn-Tucker case that
+/// accepted.
+///
+/// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t at
+/// which the computed value of F_0ij is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
+///
+/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of x_0i ×
+/// x_ji without the dropped terms, each with the c' of its roots in place of c (`solve_quadratic`). Let G be
+/// the sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). From t_E, follow G
+/// downwards, or level, until it would rise. The kinks of -S‖x_ji‖∞ are concave and cannot end the descent,
+/// so it ends at a time t' of one of these kinds:
+/// - 0 or 1 (case 1).
+/// - A kink of some |Q_k|, which is a root of Q_k (case 4). Its computed time, or 1 in its place, is within
+///   6ω of it, and G changes at a rate of at most 30 B² + SB.
+/// - The vertex of a piece (case 2). The computed slope of the piece has an error of at most r = (68 B² + 2
+///   SB) ω. So the piece rises by at most r/2 between t' and the computed vertex, or 0 or 1 if the computed
+///   vertex is outside. After a concave kink G continues below the piece. If a kink of some |Q_k| comes
+///   first, go on to the computed time of that root.
+/// Along this path F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square root of an
+/// error, because all times are nearly exact times of one function near F_0ij. The paper's 688 B²ε^½, for the
+/// distance from the computed root of one Q_k to the exact root, is not needed.
+template <class T>
+Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
+  const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };
+  const auto found = [](Stage stage, T t) { return Verdict::accepted(stage, static_cast<double>(t)); };
+
+  if (is_near(T(0))) return found(Stage::ve_end, T(0));
+  if (is_near(T(1))) return found(Stage::ve_end, T(1));
+  for (const T& t : detail::equal_components(ve.xji))
+    if (is_near(t)) return found(Stage::ve_equal, t);
+  const detail::CrossProduct<T> g(ve.x0i, ve.xji, tol.rho);
+  for (const T& t : detail::zero_components(g))
+    if (is_near(t)) return found(Stage::ve_zero, t);
+  for (const T& t : detail::piece_minima(g, ve.xji, tol.S))
+    if (is_near(t)) return found(Stage::ve_minimum, t);
+  for (const Moving<T>* end : {&ve.x0i, &ve.x0j})
+    if (const auto t = vertex_vertex(*end, tol)) return found(Stage::vv, *t);
+  return {};
+}
+
+}  // namespace nearmiss

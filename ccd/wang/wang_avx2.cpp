@@ -1,0 +1,9 @@
+#include "ccd/wang/wang_lanes.hpp"
+
+namespace nearmiss {
+
+[[gnu::flatten]] void wang_with_avx2(const QueryRows& queries, Verdict* verdicts) {
+  decide_batch<4>(queries, verdicts);
+}
+
+}  // namespace nearmiss

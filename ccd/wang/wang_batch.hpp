@@ -1,0 +1,35 @@
+// The failure-proof CCD for many queries at once, compiled once for each instruction set.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "ccd/query/instructions.hpp"
+#include "ccd/query/query_rows.hpp"
+#include "ccd/wang/verdict.hpp"
+
+namespace nearmiss {
+
+/// The verdict on a query that is left to be decided alone.
+inline constexpr Verdict undecided_verdict{};
+constexpr bool is_decided(const Verdict& verdict) {
+  return verdict.hit || verdict.rejection != Rejection::untold;
+}
+
+/// Gives those verdicts of `wang` (wang.hpp) on some queries, with the bounds of the pairs, that need no vertex-edge tests, no
+/// other frame and no other order of end points, and leaves the others undecided. A query with a coordinate that is not
+/// finite is left undecided.
+void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
+                   Instructions instructions = chosen_instructions());
+
+/// The largest number of queries in a batch, whose intermediate results fit into the nearest caches.
+inline constexpr std::size_t wang_batch_size = 128;
+
+/// Decides a batch in the same way, with one instruction set.
+using WangBatch = void(const QueryRows& queries, Verdict* verdicts);
+
+WangBatch wang_with_sse2;
+WangBatch wang_with_avx2;    ///< requires has(Instructions::avx2)
+WangBatch wang_with_avx512;  ///< requires has(Instructions::avx512)
+
+}  // namespace nearmiss

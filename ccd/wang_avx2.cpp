@@ -1,9 +1,0 @@
-#include "ccd/wang_lanes.hpp"
-
-namespace nearmiss {
-
-[[gnu::flatten]] void wang_with_avx2(const QueryRows& queries, Verdict* verdicts) {
-  decide_batch<4>(queries, verdicts);
-}
-
-}  // namespace nearmiss

@@ -1,0 +1,13 @@
+// Whether a query is one for which a subject's contract holds.
+#pragma once
+
+#include "ccd/query/query.hpp"
+#include "ccd/subjects/subject.hpp"
+
+namespace nearmiss {
+
+/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are coplanar at
+/// all times, their volume has more than one root.
+bool keeps_contract(const Query& query, const Contract& contract);
+
+}  // namespace nearmiss

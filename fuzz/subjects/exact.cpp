@@ -1,0 +1,95 @@
+#include "fuzz/subjects/exact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "oracle/filter/filter.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/within_separation.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+struct Entry {
+  SubjectInfo info;
+  bool is_batched, is_timed;
+};
+
+constexpr std::array entries{
+    Entry{{"exact", "the oracle itself, with the time: the certified filter, then exact arithmetic"},
+          true,
+          true},
+    Entry{{"exact-scalar", "the same, one query at a time"}, false, true},
+    Entry{{"exact-decision", "the same as exact, without the time"}, true, false},
+};
+
+/// The oracle as a subject. It omits the box test, which a simulation makes before it asks a CCD.
+class ExactSubject final : public Subject {
+ public:
+  explicit ExactSubject(const Entry& entry) : entry_(entry), name_(entry.info.name) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Verdict decide(const Query& query) const override {
+    return verdict(query, query.separation > 0 ? filter_with_separation(query) : filter(query));
+  }
+
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    const bool any_separation =
+        std::any_of(queries.begin(), queries.end(), [](const Query& query) { return query.separation > 0; });
+    if (any_separation || !entry_.is_batched) {
+      Subject::decide(queries, verdicts);
+      return;
+    }
+    std::array<FilterStage, 256> stages;
+    for (std::size_t first = 0; first < queries.size(); first += stages.size()) {
+      const auto some = queries.subspan(first, std::min(stages.size(), queries.size() - first));
+      filter(some, stages);
+      for (std::size_t i = 0; i < some.size(); ++i) verdicts[first + i] = verdict(some[i], stages[i]);
+    }
+  }
+
+  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
+  [[nodiscard]] bool takes_separation() const override { return true; }
+  [[nodiscard]] TimeSort time_sort() const override {
+    return entry_.is_timed ? TimeSort::lower_bound : TimeSort::none;
+  }
+
+ private:
+  /// The verdict if the filter ended with this stage. A distance of exactly h is reported.
+  [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage) const {
+    if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
+    const Decision decision = settle(query, stage);
+    const bool filtered = stage != FilterStage::undecided;
+    if (!decision.collision && !decision.is_tie)
+      return Verdict::rejected(filtered ? Rejection::filter : Rejection::exact);
+    Verdict hit{.hit = true, .stage = filtered ? Stage::filter : Stage::exact};
+    if (entry_.is_timed) hit.time = EarliestTime(query, decision.known).enclosure().lo;
+    return hit;
+  }
+
+  Entry entry_;
+  std::string name_;
+};
+
+}  // namespace
+
+std::span<const SubjectInfo> exact_subjects() {
+  static const auto infos = [] {
+    std::array<SubjectInfo, entries.size()> all;
+    std::transform(entries.begin(), entries.end(), all.begin(),
+                   [](const Entry& entry) { return entry.info; });
+    return all;
+  }();
+  return infos;
+}
+
+std::unique_ptr<Subject> try_make_exact(std::string_view name) {
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& each) { return each.info.name == name; });
+  return entry == entries.end() ? nullptr : std::make_unique<ExactSubject>(*entry);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,71 @@
+// What the cases that count so far say about the next ones.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "reports/statistics/statistics.hpp"
+
+namespace nearmiss {
+
+/// The number of queries over the time limit after which a subject is set aside: it is not asked about later
+/// queries of the same family and kind.
+inline constexpr std::uint64_t most_slow = 3;
+
+inline std::uint64_t slow_queries(const Counts& counts) {
+  return counts.faults[static_cast<std::size_t>(Fault::time)];
+}
+
+/// Whether a subject with these counts is set aside.
+inline bool is_set_aside(const Counts& counts) { return slow_queries(counts) >= most_slow; }
+
+/// What is known of a subject, kind and family.
+struct Known {
+  std::uint64_t slow = 0;  ///< the number of queries over the time limit
+  /// The ratio that a false positive needs to be among the farthest, which are kept. The distance of others
+  /// need not be precise.
+  double least_kept = 0;
+
+  [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
+};
+
+/// The cases that count so far. Many threads use it at once.
+class SoFar {
+ public:
+  [[nodiscard]] Known of(const CountsKey& key) const {
+    const std::lock_guard lock(mutex_);
+    const auto known = sums_.find(key);
+    if (known == sums_.end()) return {};
+    const auto& [slow, farthest] = known->second;
+    return {slow, farthest.size() < Counts::far_cases ? 0 : farthest.back()};
+  }
+
+  /// Adds the counters of further cases.
+  void take(const std::map<CountsKey, Counts>& all) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, counts] : all) {
+      if (counts.farthest.empty() && slow_queries(counts) == 0) continue;
+      auto& [slow, farthest] = sums_[key];
+      slow += slow_queries(counts);
+      for (const FarCase& each : counts.farthest) farthest.push_back(each.ratio);
+      std::sort(farthest.begin(), farthest.end(), std::greater<>());
+      if (farthest.size() > Counts::far_cases) farthest.resize(Counts::far_cases);
+    }
+  }
+
+ private:
+  struct Sum {
+    std::uint64_t slow = 0;
+    std::vector<double> farthest = {};  ///< the largest ratios, descending, at most far_cases
+  };
+
+  mutable std::mutex mutex_;
+  std::map<CountsKey, Sum> sums_;
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,170 @@
+#include "fuzz/trial/trials.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+#include "fuzz/parallel.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// The queries [first, last) of a batch, which must outlive them.
+Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
+  const auto part = [&](const auto& all) {
+    using All = std::decay_t<decltype(all)>;
+    const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+    return all.empty() ? All{} : All(at(first), at(last));
+  };
+  Batch own{.kind = batch.kind,
+            .family = batch.family,
+            .queries = part(batch.queries),
+            .truths = part(batch.truths),
+            .first_number = batch.number(first),
+            .step = batch.step,
+            .timed = batch.timed,
+            .compare_all = batch.compare_all};
+  const auto take_over = [first](auto& function, const auto& whole) {
+    if (whole)
+      function = [&whole, first](std::size_t i, const auto&... more) { return whole(first + i, more...); };
+  };
+  take_over(own.provenance, batch.provenance);
+  take_over(own.place, batch.place);
+  take_over(own.factors, batch.factors);
+  take_over(own.observe, batch.observe);
+  return own;
+}
+
+/// The number of queries over the time limit in some counters.
+std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
+  const auto found = statistics.counts.find(key);
+  return found == statistics.counts.end() ? 0 : slow_queries(found->second);
+}
+
+}  // namespace
+
+struct Trials::OnItsWay {
+  Work work;
+  TrialResult result = {};
+  std::map<CountsKey, Known> before = {};  ///< what was known when the work began to ask
+  bool complete = true;
+  Clock::time_point since = {};  ///< the end of the last trial
+};
+
+Trials::Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop,
+               std::size_t shrink, TrialSink sink)
+    : subjects_(subjects),
+      comparison_(std::move(comparison)),
+      jobs_(jobs),
+      stop_(stop),
+      sink_(std::move(sink)),
+      shrinking_(subjects, jobs, stop, shrink) {}
+
+void Trials::resume(const Statistics& before, const std::vector<Finding>& findings) {
+  so_far_.take(before.counts);
+  for (const Finding& finding : findings) shrinking_.add(finding);
+}
+
+void Trials::run(const std::function<std::optional<Work>()>& next) {
+  const auto begin = [&]() -> std::optional<OnItsWay> {
+    auto work = stop_.is_due() ? std::nullopt : next();
+    if (!work) return std::nullopt;
+    return OnItsWay{*std::move(work)};
+  };
+  in_order<OnItsWay>(
+      jobs_, begin, [&](OnItsWay& item) { hold(item); }, [&](OnItsWay& item) { take(item); });
+  pass_on();
+}
+
+void Trials::hold(OnItsWay& item) {
+  item.result = {};
+  item.before.clear();
+  item.complete = true;
+  item.since = Clock::now();
+  try {
+    item.work.hold([&](const Batch& batch) { ask(item, batch); });
+  } catch (const Stopped&) {
+    item.complete = false;
+  }
+  std::stable_sort(item.result.findings.begin(), item.result.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.place < b.place; });
+}
+
+void Trials::ask(OnItsWay& item, const Batch& batch) {
+  const std::size_t count = batch.queries.size();
+  try {
+    for (std::size_t first = 0, last = 0; first < count; first = last) {
+      stop_.check();
+      last = first + std::min(count - first, pace_.cases(batch.family));
+      auto known = known_before(item, batch);
+      const bool is_whole = last - first == count;
+      item.result.merge(
+          is_whole ? hold_trial(subjects_, batch, comparison_, std::move(known))
+                   : hold_trial(subjects_, slice(batch, first, last), comparison_, std::move(known)));
+      const auto now = Clock::now();
+      pace_.took(batch.family, last - first, now - std::exchange(item.since, now));
+    }
+  } catch (const Stopped&) {
+    item.complete = false;
+  }
+}
+
+/// What is known of each subject before the next trial of a piece of work: from what counted when the work
+/// began, and from the work itself.
+std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
+  std::vector<Known> known;
+  for (const auto& subject : subjects_) {
+    const CountsKey key{subject->name(), batch.kind, batch.family};
+    const auto [before, is_new] = item.before.try_emplace(key);
+    if (is_new) before->second = so_far_.of(key);
+    known.push_back(before->second);
+    known.back().slow += slow_in(item.result.statistics, key);
+  }
+  return known;
+}
+
+/// Whether a piece of work, in its turn, would ask the subjects about the same queries again.
+bool Trials::knew_enough(const OnItsWay& item) const {
+  return std::all_of(item.before.begin(), item.before.end(), [&](const auto& each) {
+    const auto& [key, before] = each;
+    const std::uint64_t slow = so_far_.of(key).slow;
+    return before.is_set_aside() || slow == before.slow ||
+           slow + slow_in(item.result.statistics, key) < most_slow;
+  });
+}
+
+void Trials::take(OnItsWay& item) {
+  if (!knew_enough(item)) hold(item);
+  if (!item.work.counts(item.complete)) return;
+  so_far_.take(item.result.statistics.counts);
+  sum_.merge(std::move(item.result));
+  pass_on_now_and_then();
+}
+
+void Trials::add(TrialResult&& result) {
+  sum_.merge(std::move(result));
+  pass_on();
+}
+
+void Trials::pass_on() {
+  shrinking_.sift(sum_);
+  sink_(std::exchange(sum_, {}));
+  passed_on_ = Clock::now();
+}
+
+void Trials::pass_on_now_and_then() {
+  if (constexpr std::chrono::milliseconds interval{100}; Clock::now() - passed_on_ >= interval) pass_on();
+}
+
+void Trials::finish(const std::function<void()>& report) {
+  shrinking_.finish([&] {
+    pass_on_now_and_then();
+    report();
+  });
+  pass_on();
+}
+
+}  // namespace nearmiss

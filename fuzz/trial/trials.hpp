@@ -1,0 +1,86 @@
+// Runs many trials on all cores, and keeps and shrinks the first findings of each signature and class.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fuzz/stop.hpp"
+#include "fuzz/trial/pace.hpp"
+#include "fuzz/trial/shrinking.hpp"
+#include "fuzz/trial/so_far.hpp"
+#include "fuzz/trial/trial.hpp"
+
+namespace nearmiss {
+
+/// Puts the subjects on trial over a batch, slice by slice. Does nothing more after a stop.
+using AskBatch = std::function<void(const Batch&)>;
+
+/// A piece of work: one thread asks about some batches, one after the other.
+struct Work {
+  /// Calls ask(batch) for each batch; may throw Stopped. It is called again, and must start anew, if earlier work
+  /// has set a subject aside meanwhile.
+  std::function<void(const AskBatch& ask)> hold;
+  /// Called afterwards, in the order of the pieces: whether the result counts. `complete` is false if a stop came
+  /// before the end.
+  std::function<bool(bool complete)> counts = [](bool /*complete*/) { return true; };
+};
+
+/// Runs many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
+class Trials {
+ public:
+  /// Shrinks the first `shrink` findings of each signature and class. The sink receives results several times
+  /// a second, in order, with the first findings of each signature and class (FirstFindings), and those that
+  /// have been shrunk meanwhile. The subjects and `stop` must outlive this object.
+  Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, std::size_t shrink,
+         TrialSink sink);
+
+  [[nodiscard]] const Subjects& subjects() const { return subjects_; }
+  [[nodiscard]] const Stop& stop() const { return stop_; }
+  [[nodiscard]] int jobs() const { return jobs_; }
+  /// How many queries of a family to make at once.
+  [[nodiscard]] const Pace& pace() const { return pace_; }
+  /// The number of findings that are still to be shrunk.
+  [[nodiscard]] std::size_t to_shrink() const { return shrinking_.left(); }
+
+  /// Takes on the results of earlier runs, which the sink does not receive.
+  void resume(const Statistics& before, const std::vector<Finding>& findings);
+
+  /// Does all pieces of work that next() returns, until it returns none or the stop is due.
+  void run(const std::function<std::optional<Work>()>& next);
+
+  /// Adds a result that is known without a trial.
+  void add(TrialResult&& result);
+
+  /// Passes on the results that have come since the last time.
+  void pass_on();
+
+  /// Shrinks the findings that are not shrunk yet, and passes them on. Calls `report` several times a second
+  /// meanwhile.
+  void finish(const std::function<void()>& report = [] {});
+
+ private:
+  using Clock = Stop::Clock;
+  struct OnItsWay;
+
+  void hold(OnItsWay& item);
+  void ask(OnItsWay& item, const Batch& batch);
+  void take(OnItsWay& item);
+  std::vector<Known> known_before(OnItsWay& item, const Batch& batch) const;
+  [[nodiscard]] bool knew_enough(const OnItsWay& item) const;
+  void pass_on_now_and_then();
+
+  const Subjects& subjects_;
+  Comparison comparison_;
+  int jobs_;
+  const Stop& stop_;
+  TrialSink sink_;
+  Pace pace_;
+  SoFar so_far_;
+  Shrinking shrinking_;
+  TrialResult sum_;  // not passed on yet
+  Clock::time_point passed_on_ = Clock::now();
+};
+
+}  // namespace nearmiss

@@ -1,0 +1,151 @@
+#include "reports/sections/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include "reports/statistics/confidence.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+Value as_value(std::uint64_t count) { return count; }
+Value as_value(double number) { return number; }
+Value as_value(const std::optional<double>& number) { return number ? Value(*number) : Value(); }
+Value as_value(DistanceUnit unit) { return name(unit); }
+Value as_value(TimeSort sort) { return name(sort); }
+
+/// The value of a member, or of a member function, of Counts.
+template <auto member>
+Value of(const CountsSum& sum) {
+  return as_value(std::invoke(member, sum.counts));
+}
+
+/// The bin of a quantile, of which `quantile` is a member function of Counts.
+template <auto quantile, int hundredths>
+Value quantile_of(const CountsSum& sum) {
+  return std::invoke(quantile, sum.counts, hundredths / 100.0);
+}
+
+/// The bin of the distance that all but one per cent of the early times do not exceed.
+Value far_travelled(const CountsSum& sum) { return sum.counts.travelled.quantile(0.99); }
+
+Value ns_per_query(const CountsSum& sum) { return as_value(sum.counts.times.ns_per_query()); }
+
+/// A quantile of the run times of single queries.
+template <int hundredths>
+Value ns_of_single(const CountsSum& sum) {
+  return as_value(sum.counts.times.each.quantile(hundredths / 100.0));
+}
+
+Value invalid_answers(const CountsSum& sum) {
+  return sum.counts.faults[static_cast<std::size_t>(Fault::invalid)];
+}
+
+Value upper_bound_of_misses(const CountsSum& sum) {
+  if (!sum.is_sample) return {};
+  return clopper_pearson_upper(sum.counts.false_negatives, sum.counts.collisions);
+}
+
+/// The 95 % confidence interval of a rate; nothing unless the queries are a random sample.
+template <auto count, auto total>
+Value interval(const CountsSum& sum) {
+  if (!sum.is_sample) return {};
+  const auto [lo, hi] = clopper_pearson(std::invoke(count, sum.counts), std::invoke(total, sum.counts));
+  return Bin{lo, hi};
+}
+
+/// "-" if no time was to be a lower bound.
+std::string late_text(const CountsSum& sum) {
+  return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
+}
+
+std::string time_text(const CountsSum& sum) { return whole_ns(sum.counts.times.ns_per_query()); }
+
+std::string farthest_text(const CountsSum& sum) {
+  return marked_fraction_of_bound(sum.counts.max_ratio(), sum.counts.distance_unit());
+}
+
+constexpr std::array measures_of_every_sum{
+    Measure{"queries", of<&Counts::queries>, "queries"},
+    Measure{"collisions", of<&Counts::collisions>, "collisions"},
+    Measure{"false_negatives", of<&Counts::false_negatives>, "false neg."},
+    Measure{"false_negative_rate", of<&Counts::false_negative_rate>},
+    Measure{"false_negative_rate_upper_95", upper_bound_of_misses, "rate below*", "false_negatives"},
+    Measure{"false_negative_rate_interval_95", interval<&Counts::false_negatives, &Counts::collisions>},
+    Measure{"false_positives", of<&Counts::false_positives>, "false pos."},
+    Measure{"false_positive_rate", of<&Counts::false_positive_rate>, "rate", "false_positives"},
+    Measure{"false_positive_rate_interval_95", interval<&Counts::false_positives, &Counts::others>},
+    Measure{"refuted_bounds", of<&Counts::refuted_bounds>},
+    Measure{"false_positives_measured_by_wang", of<&Counts::measured_by_wang>},
+    Measure{"times_given", of<&Counts::times_given>, "times"},
+    Measure{"times_promised", of<&Counts::times_promised>},
+    Measure{"late", of<&Counts::late>, "late", "", late_text},
+    Measure{"stuck", of<&Counts::stuck>, "stuck"},
+    Measure{"median_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 50>, "", "refuted_bounds"},
+    Measure{"q99_fp_distance_over_bound", quantile_of<&Counts::ratio_quantile, 99>, "", "refuted_bounds"},
+    Measure{"max_fp_distance_over_bound", of<&Counts::max_ratio>, "max dist/bound", "refuted_bounds",
+            farthest_text},
+    Measure{"bound_of_distances", of<&Counts::distance_unit>},
+    Measure{"unknown", of<&Counts::unknown>, "unknown", "stuck"},
+    Measure{"time_sort", of<&Counts::time_sort>, "sort"},
+    Measure{"median_early", quantile_of<&Counts::early_quantile, 50>, "early: median", "stuck"},
+    Measure{"q99_early", quantile_of<&Counts::early_quantile, 99>, "99 %", "stuck"},
+    Measure{"max_early", of<&Counts::max_early>, "most", "stuck"},
+    Measure{"max_after", of<&Counts::max_after>, "after t*", "stuck"},
+    Measure{"q99_travelled", far_travelled, "", "stuck"},
+    Measure{"ns_per_query", ns_per_query, "ns/query", "refuted_bounds", time_text},
+};
+
+constexpr std::array other_measures{
+    Measure{"without_answer", of<&Counts::faults_total>, "no answer"},
+    Measure{"invalid", invalid_answers, "invalid"},
+    Measure{"median_ns", ns_of_single<50>},
+    Measure{"q99_ns", ns_of_single<99>},
+    Measure{"median_time_error", quantile_of<&Counts::time_error_quantile, 50>},
+    Measure{"q99_time_error", quantile_of<&Counts::time_error_quantile, 99>},
+    Measure{"max_time_error", of<&Counts::max_time_error>},
+};
+
+/// A value on the terminal; the upper end of a range.
+struct AsText {
+  std::string operator()(std::monostate /*nothing*/) const { return "-"; }
+  std::string operator()(std::uint64_t count) const { return with_separators(count); }
+  std::string operator()(double number) const { return fmt::format("{:.2g}", number); }
+  std::string operator()(const Bin& range) const { return fmt::format("{:.2g}", range.to); }
+  std::string operator()(std::string_view word) const { return std::string(word); }
+};
+
+std::string text_of(const Measure& shown, const CountsSum& sum) {
+  return shown.text == nullptr ? std::visit(AsText(), shown.value(sum)) : shown.text(sum);
+}
+
+}  // namespace
+
+std::span<const Measure> rate_measures() { return measures_of_every_sum; }
+
+const Measure& measure(std::string_view key) {
+  const auto has_key = [&](const Measure& each) { return each.key == key; };
+  for (const std::span<const Measure> list : {rate_measures(), std::span<const Measure>(other_measures)})
+    if (const auto found = std::find_if(list.begin(), list.end(), has_key); found != list.end())
+      return *found;
+  throw std::out_of_range(fmt::format("no measure has the key {}", key));
+}
+
+std::vector<std::string> headings(std::vector<std::string> cells, const MeasureKeys& measures) {
+  for (const std::string_view key : measures) cells.emplace_back(measure(key).heading);
+  return cells;
+}
+
+std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
+                                const CountsSum& sum) {
+  for (const std::string_view key : measures) cells.push_back(text_of(measure(key), sum));
+  return cells;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,58 @@
+// What reports show of a subject's counters: the table of measures. A section is a key by which counters are summed
+// (sums_by), and a list of measures that it shows of each sum.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reports/statistics/statistics.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+/// The value of a measure: nothing, a count, a number, a range that contains a number, or a word.
+using Value = std::variant<std::monostate, std::uint64_t, double, Bin, std::string_view>;
+
+/// A measure of a sum of counters, declared once for all files and tables.
+struct Measure {
+  std::string_view key;              ///< in report.json
+  Value (*value)(const CountsSum&);  ///< as files show it
+  std::string_view heading = "";     ///< in tables on the terminal
+  std::string_view csv_after = "";   ///< counter whose column its own follows in CSV files; "" for no column
+  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal, if it is not the value as text
+};
+
+/// The measures that report.json shows of every sum, in its order.
+std::span<const Measure> rate_measures();
+
+/// The measure with this key: of rate_measures(), or of the few others. Throws std::out_of_range if there is none.
+const Measure& measure(std::string_view key);
+
+/// Keys of measures.
+using MeasureKeys = std::vector<std::string_view>;
+
+/// The headings of a table on the terminal: the given cells, then the measures.
+std::vector<std::string> headings(std::vector<std::string> cells, const MeasureKeys& measures);
+
+/// A row of such a table.
+std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
+                                const CountsSum& sum);
+
+/// A table on the terminal with a row for each sum. `cells_of` makes the first cells of a row from the sum's key; `first` are their
+/// headings. The first `left_aligned` columns are aligned left.
+template <class Key, class CellsOf>
+std::string table(const std::map<Key, CountsSum>& sums, std::vector<std::string> first,
+                  const CellsOf& cells_of, const MeasureKeys& measures, std::size_t left_aligned) {
+  std::vector<std::vector<std::string>> rows{headings(std::move(first), measures)};
+  for (const auto& [key, sum] : sums) rows.push_back(row_of(cells_of(key), measures, sum));
+  return columns(rows, left_aligned);
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,130 @@
+#include "reports/sections/sweeps.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "reports/sections/counts_json.hpp"
+#include "reports/statistics/family_name.hpp"
+#include "reports/text/text.hpp"
+
+namespace nearmiss {
+
+namespace {
+
+/// A place in a sweep: what is swept, and the value there.
+struct Step {
+  std::string of;
+  double value;
+};
+
+/// The step of a family "NAME@VALUE"; nothing for other families.
+std::optional<Step> step_of_family(std::string_view name) {
+  const FamilyName of(name);
+  const auto value = of.separation.empty() ? number_in(of.value) : std::nullopt;
+  return value ? std::optional(Step{std::string(of.base), *value}) : std::nullopt;
+}
+
+/// A step for each option of the subject that is a number.
+std::vector<Step> steps_of_options(std::string_view subject) {
+  std::vector<Step> steps;
+  for (auto at = subject.find(':'); at != std::string_view::npos; at = subject.find(':', at + 1)) {
+    const std::string_view option = subject.substr(at, subject.find(':', at + 1) - at);
+    const auto key = option.substr(0, option.find('=') + 1);
+    const auto value = key.empty() ? std::nullopt : number_in(option.substr(key.size()));
+    if (!value) continue;
+    const auto before = subject.substr(0, at + key.size());
+    const auto after = subject.substr(at + option.size());
+    steps.push_back({fmt::format("{}*{}", before, after), *value});
+  }
+  return steps;
+}
+
+bool has_one_value(const OptionSweep& sweep) {
+  std::set<double> values;
+  for (const auto& [key, sum] : sweep) values.insert(key.second);
+  return values.size() == 1;
+}
+
+}  // namespace
+
+std::map<std::pair<std::string, std::string>, Sweep> sweeps(const Statistics& statistics) {
+  std::map<std::pair<std::string, std::string>, Sweep> found;
+  for (const auto& [key, counts] : statistics.counts)
+    if (const auto step = step_of_family(key.family))
+      found[{step->of, key.subject}][step->value].add(key.family, counts);
+  std::erase_if(found, [](const auto& each) { return each.second.size() < 2; });
+  return found;
+}
+
+std::map<std::string, OptionSweep> option_sweeps(const Statistics& statistics) {
+  std::map<std::string, OptionSweep> found;
+  for (const auto& [key, counts] : statistics.counts)
+    for (const Step& step : steps_of_options(key.subject))
+      found[step.of][{class_of(key.family), step.value}].add(key.family, counts);
+  std::erase_if(found, [](const auto& each) { return has_one_value(each.second); });
+  return found;
+}
+
+std::string sweep_tables(const Statistics& statistics) {
+  const auto as_text = [](double value) { return fmt::format("{:.6g}", value); };
+  const auto cells = [&](double value) { return std::vector{as_text(value)}; };
+  const auto cells_of_option = [&](const std::pair<QueryClass, double>& key) {
+    return std::vector{std::string(name(key.first)), as_text(key.second)};
+  };
+  std::string text;
+  for (const auto& [key, sweep] : sweeps(statistics))
+    text += fmt::format("\n{} along {}@x\n{}", key.second, key.first,
+                        table(sweep, {"x"}, cells,
+                              {"queries", "collisions", "false_negatives", "false_positives",
+                               "false_positive_rate", "max_fp_distance_over_bound", "ns_per_query"},
+                              0));
+  for (const auto& [pattern, sweep] : option_sweeps(statistics))
+    text += fmt::format("\n{}\n{}", pattern,
+                        table(sweep, {"class", "*"}, cells_of_option,
+                              {"queries", "collisions", "false_negatives", "late", "stuck", "unknown",
+                               "without_answer", "median_early", "q99_early", "max_early", "false_positives",
+                               "false_positive_rate", "ns_per_query"},
+                              1));
+  return text;
+}
+
+nlohmann::ordered_json sweeps_json(const Statistics& statistics) {
+  const MeasureKeys shown{"queries",
+                          "collisions",
+                          "false_negatives",
+                          "false_negative_rate",
+                          "false_positives",
+                          "false_positive_rate",
+                          "max_fp_distance_over_bound",
+                          "bound_of_distances",
+                          "ns_per_query"};
+  auto json = nlohmann::ordered_json::object();
+  for (const auto& [key, sweep] : sweeps(statistics)) {
+    auto& steps = json[key.first][key.second];
+    for (const auto& [value, sum] : sweep) {
+      steps.push_back({{"value", value}});
+      add_measures(steps.back(), shown, sum);
+    }
+  }
+  return json;
+}
+
+nlohmann::ordered_json option_sweeps_json(const Statistics& statistics) {
+  auto json = nlohmann::ordered_json::object();
+  for (const auto& [pattern, sweep] : option_sweeps(statistics)) {
+    auto& steps = json[pattern];
+    for (const auto& [key, sum] : sweep) {
+      steps.push_back({{"class", name(key.first)}, {"value", key.second}});
+      steps.back().update(rates_json(sum));
+      add_measures(steps.back(), {"without_answer"}, sum);
+    }
+  }
+  return json;
+}
+
+}  // namespace nearmiss

@@ -1,0 +1,128 @@
+// The table of what kinds are made of. Oracle and wang both read it, so nothing that compares them would notice an error in it. Here, each
+// list is compared with what it must contain, made from the numbers of vertices alone.
+#include "ccd/query/kind.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "ccd/nearmiss_subject.h"
+
+namespace nearmiss {
+namespace {
+
+using Vertices = std::vector<int>;
+
+/// The vertices of both primitives, from the definition of a kind in the interface for plug-ins.
+std::pair<Vertices, Vertices> primitives(Kind kind) {
+  return kind == Kind::vertex_triangle ? std::pair<Vertices, Vertices>{{0}, {1, 2, 3}}
+                                       : std::pair<Vertices, Vertices>{{0, 1}, {2, 3}};
+}
+
+std::set<std::pair<int, int>> pairs_in(const Vertices& primitive) {
+  std::set<std::pair<int, int>> pairs;
+  for (const int a : primitive)
+    for (const int b : primitive)
+      if (a < b) pairs.emplace(a, b);
+  return pairs;
+}
+
+template <class Pair>
+std::pair<int, int> ordered(const Pair& pair) {
+  return std::minmax<int>(pair.from, pair.to);
+}
+
+std::set<std::pair<int, int>> ordered_edges(std::span<const VertexPair> pairs) {
+  std::set<std::pair<int, int>> all;
+  for (const VertexPair& pair : pairs) all.insert(ordered(pair));
+  return all;
+}
+
+TEST(Topology, HasEveryEdgeOnce) {
+  for (const Kind kind : kinds) {
+    const auto [first, second] = primitives(kind);
+    auto expected = pairs_in(first);
+    expected.merge(pairs_in(second));
+    EXPECT_EQ(ordered_edges(topology(kind).edges), expected) << short_name(kind);
+    EXPECT_EQ(topology(kind).edges.size(), expected.size()) << short_name(kind);
+  }
+}
+
+TEST(Topology, HasEveryPairOfVerticesOfBothPrimitivesOnce) {
+  for (const Kind kind : kinds) {
+    const auto [first, second] = primitives(kind);
+    std::set<std::pair<int, int>> expected, found;
+    for (const int a : first)
+      for (const int b : second) expected.emplace(a, b);
+    for (const auto& [from, to] : topology(kind).gaps) found.emplace(from, to);
+    EXPECT_EQ(found, expected) << short_name(kind);
+    EXPECT_EQ(topology(kind).gaps.size(), expected.size()) << short_name(kind);
+  }
+}
+
+TEST(Topology, HasEveryVertexWithEveryEdgeOfTheOtherPrimitiveOnce) {
+  using Triple = std::tuple<int, int, int>;
+  const auto expect = [](Kind kind, const Vertices& vertices, const Vertices& other,
+                         std::span<const VertexAndEdge> listed) {
+    std::set<Triple> expected, found;
+    for (const int vertex : vertices)
+      for (const auto& [a, b] : pairs_in(other)) expected.emplace(vertex, a, b);
+    for (const VertexAndEdge& each : listed) {
+      const auto [a, b] = ordered(each);
+      found.emplace(each.vertex, a, b);
+    }
+    EXPECT_EQ(found, expected) << short_name(kind);
+    EXPECT_EQ(listed.size(), expected.size()) << short_name(kind);
+  };
+  for (const Kind kind : kinds) {
+    const auto [first, second] = primitives(kind);
+    expect(kind, first, second, topology(kind).first_to_second);
+    expect(kind, second, first, topology(kind).second_to_first);
+  }
+}
+
+// §3.3 and §3.4 of the paper: F = x01 · (x21 × x31), and x20 · (x10 × x32).
+TEST(Topology, HasTheVectorsOfThePapersF) {
+  const auto vectors = [](Kind kind) {
+    std::vector<std::pair<int, int>> all;
+    for (const auto& [from, to] : topology(kind).pqr) all.emplace_back(to, from);
+    return all;
+  };
+  EXPECT_THAT(vectors(Kind::vertex_triangle),
+              ::testing::ElementsAre(std::pair{0, 1}, std::pair{2, 1}, std::pair{3, 1}));
+  EXPECT_THAT(vectors(Kind::edge_edge),
+              ::testing::ElementsAre(std::pair{2, 0}, std::pair{1, 0}, std::pair{3, 2}));
+}
+
+TEST(Topology, SplitsTheVerticesBetweenThePrimitives) {
+  for (const Kind kind : kinds) {
+    const auto [first, second] = primitives(kind);
+    EXPECT_EQ(split(kind), static_cast<int>(first.size()));
+    EXPECT_EQ(static_cast<std::size_t>(topology(kind).second), second.size());
+    EXPECT_EQ(has_triangle(kind), second.size() == 3);
+  }
+}
+
+TEST(Kind, HasItsNumberInC) {
+  EXPECT_EQ(bit_of(Kind::vertex_triangle), NEARMISS_VERTEX_TRIANGLE);
+  EXPECT_EQ(bit_of(Kind::edge_edge), NEARMISS_EDGE_EDGE);
+  EXPECT_EQ(bits_of_all_kinds, NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE);
+  for (const Kind kind : kinds) EXPECT_EQ(kind_of_bit(bit_of(kind)), kind);
+  for (const int bit : {-1, 0, NEARMISS_VERTEX_TRIANGLE | NEARMISS_EDGE_EDGE, 4})
+    EXPECT_EQ(kind_of_bit(bit), std::nullopt) << bit;
+}
+
+TEST(WithKind, CallsForTheKindThatIsGiven) {
+  for (const Kind kind : kinds) EXPECT_EQ(with_kind(kind, []<Kind known>() { return known; }), kind);
+  std::vector<Kind> called;
+  for_each_kind([&]<Kind known>() { called.push_back(known); });
+  EXPECT_THAT(called, ::testing::ElementsAreArray(kinds));
+}
+
+}  // namespace
+}  // namespace nearmiss

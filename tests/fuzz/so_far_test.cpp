@@ -1,0 +1,69 @@
+// What trials know from the cases that count so far, and the samples of their queries.
+#include "fuzz/trial/so_far.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "fuzz/trial/sample.hpp"
+
+namespace nearmiss {
+namespace {
+
+const CountsKey key{"subject", Kind::edge_edge, "family"};
+
+/// Counters of false positives at the distances first, first + 1, ...
+std::map<CountsKey, Counts> counters(double first, std::size_t cases) {
+  Counts counts;
+  for (std::size_t i = 0; i < cases; ++i)
+    add_up(counts.farthest, {{.ratio = first + static_cast<double>(i), .query = {}, .provenance = ""}});
+  return {{key, counts}};
+}
+
+TEST(SoFar, KeepsEveryDistanceUntilAllPlacesAreTaken) {
+  SoFar so_far;
+  EXPECT_EQ(so_far.of(key).least_kept, 0);
+  so_far.take(counters(1, Counts::far_cases - 1));
+  EXPECT_EQ(so_far.of(key).least_kept, 0);
+  so_far.take(counters(1000, 1));
+  EXPECT_EQ(so_far.of(key).least_kept, 1);
+}
+
+TEST(SoFar, KeepsTheFarthestOfAllCounters) {
+  SoFar so_far;
+  so_far.take(counters(1, Counts::far_cases));
+  so_far.take(counters(1000, Counts::far_cases - 1));
+  EXPECT_EQ(so_far.of(key).least_kept, Counts::far_cases) << "one of the first counters is still kept";
+  so_far.take(counters(1, Counts::far_cases));
+  EXPECT_EQ(so_far.of(key).least_kept, Counts::far_cases);
+  CountsKey other = key;
+  other.kind = Kind::vertex_triangle;
+  EXPECT_EQ(so_far.of(other).least_kept, 0);
+}
+
+TEST(SoFar, SetsASubjectAsideAfterThreeQueriesOverTheTimeLimit) {
+  SoFar so_far;
+  for (std::uint64_t slow = 0; slow < 5; ++slow) {
+    EXPECT_EQ(so_far.of(key).slow, slow);
+    EXPECT_EQ(so_far.of(key).is_set_aside(), slow >= 3);
+    Counts counts;
+    counts.faults[static_cast<std::size_t>(Fault::time)] = 1;
+    so_far.take({{key, counts}});
+  }
+}
+
+TEST(Sample, HasTheExpectedPartOfAnyProgression) {
+  constexpr std::uint64_t numbers = 100'000;
+  for (const std::uint64_t step : {1U, 2U, 256U, 1U << 24})
+    for (const std::uint64_t one_in : {1U, 2U, 16U, 256U}) {
+      std::uint64_t sampled = 0;
+      for (std::uint64_t i = 0; i < numbers; ++i) sampled += is_sampled(7 + step * i, one_in) ? 1 : 0;
+      const double expected = static_cast<double>(numbers) / static_cast<double>(one_in);
+      EXPECT_NEAR(static_cast<double>(sampled), expected, 5 * std::sqrt(expected)) << step << ' ' << one_in;
+    }
+}
+
+}  // namespace
+}  // namespace nearmiss

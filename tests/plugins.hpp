@@ -1,0 +1,62 @@
+// Plug-ins of tests/plugin/, the queries that they are asked, and copies of them whose processes a test can count.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "ccd/subjects/subject.hpp"
+#include "tests/queries.hpp"
+
+namespace nearmiss::testing {
+
+inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
+
+/// A hundred queries; a plug-in acts at number 40.
+inline constexpr std::size_t chosen = 40;
+inline std::vector<Query> queries() {
+  std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));
+  some[chosen].x[0] = 0.95;
+  return some;
+}
+
+inline std::vector<Verdict> answers_of(const Subject& subject, const std::vector<Query>& asked) {
+  std::vector<Verdict> verdicts(asked.size());
+  subject.decide(asked, verdicts);
+  return verdicts;
+}
+
+/// A copy of a plug-in, by whose path its processes are known.
+class CopiedPlugin {
+ public:
+  explicit CopiedPlugin(const std::string& name) {
+    std::string folder = std::filesystem::temp_directory_path() / "nearmiss-XXXXXX";
+    path_ = std::filesystem::path(mkdtemp(folder.data())) / (name + ".so");
+    std::filesystem::copy(plugin(name), path_);
+  }
+  CopiedPlugin(const CopiedPlugin&) = delete;
+  CopiedPlugin& operator=(const CopiedPlugin&) = delete;
+  ~CopiedPlugin() { std::filesystem::remove_all(path_.parent_path()); }
+
+  [[nodiscard]] std::string path() const { return path_; }
+
+  /// The number of processes with this path among their arguments.
+  [[nodiscard]] int processes() const {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+      const std::string arguments(std::istreambuf_iterator<char>(file), {});
+      count += arguments.find(path_) != std::string::npos ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace nearmiss::testing

@@ -1,0 +1,132 @@
+// The names of families are enough to recognise sweeps, and those of subjects to recognise sweeps of an option.
+#include "reports/sections/sweeps.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "reports/json.hpp"
+
+namespace nearmiss {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+Counts some_counts(std::uint64_t queries, std::uint64_t false_negatives, std::uint64_t late = 0) {
+  Counts counts;
+  counts.queries = queries;
+  counts.collisions = 4;
+  counts.false_negatives = false_negatives;
+  counts.times_given = counts.times_promised = 3;
+  counts.late = late;
+  counts.early.add(0.25);
+  counts.earliest.push_back({0.25, {}, "p"});
+  counts.false_positives = 3;
+  counts.farthest.push_back({0.25, {}, "p"});
+  counts.times.add(Kind::edge_edge, "aspect", {queries, 50 * queries});
+  return counts;
+}
+
+Statistics sweep_of_family() {
+  Statistics statistics;
+  statistics.counts[{"wang", Kind::vertex_triangle, "aspect@8"}] = some_counts(10, 0);
+  statistics.counts[{"wang", Kind::edge_edge, "aspect@8"}] = some_counts(10, 1);
+  statistics.counts[{"wang", Kind::vertex_triangle, "aspect@-0.5"}] = some_counts(10, 0);
+  return statistics;
+}
+
+TEST(Sweeps, AreInTheOrderOfTheValuesWithBothKindsTogether) {
+  const auto found = sweeps(sweep_of_family());
+  ASSERT_EQ(found.size(), 1);
+  const Sweep& sweep = found.at({"aspect", "wang"});
+  EXPECT_THAT(sweep, ElementsAre(Pair(-0.5, ::testing::_), Pair(8, ::testing::_)));
+  EXPECT_EQ(sweep.at(8).counts.queries, 20);
+  EXPECT_EQ(sweep.at(8).counts.false_negatives, 1);
+}
+
+TEST(Sweeps, OneValueIsNone) {
+  Statistics statistics;
+  for (const char* family : {"uniform", "aspect@8", "a@b", "needle@1", "@"})
+    statistics.counts[{"wang", Kind::edge_edge, family}] = some_counts(10, 0);
+  EXPECT_TRUE(sweeps(statistics).empty());
+  EXPECT_EQ(sweep_tables(statistics), "");
+  EXPECT_FALSE(summary_json({{}, statistics}).contains("sweeps"));
+}
+
+TEST(Sweeps, StandInTheTableAndInTheJson) {
+  EXPECT_EQ(sweep_tables(sweep_of_family()),
+            "\nwang along aspect@x\n"
+            "   x  queries  collisions  false neg.  false pos.  rate  max dist/bound  ns/query\n"
+            "-0.5       10           4           0           3   0.5            0.25        50\n"
+            "   8       20           8           1           6   0.5            0.25        50\n");
+  const auto json = summary_json({{}, sweep_of_family()})["sweeps"]["aspect"]["wang"];
+  ASSERT_EQ(json.size(), 2);
+  EXPECT_EQ(json[1].dump(),
+            R"({"value":8.0,"queries":20,"collisions":8,"false_negatives":1,"false_negative_rate":0.125,)"
+            R"("false_positives":6,"false_positive_rate":0.5,"max_fp_distance_over_bound":0.25,)"
+            R"("bound_of_distances":"claimed","ns_per_query":50.0})");
+}
+
+Statistics statistics_of(const std::vector<std::string>& subjects) {
+  Statistics statistics;
+  for (const std::string& subject : subjects)
+    statistics.counts[{subject, Kind::edge_edge, "uniform"}] = some_counts(10, 1);
+  return statistics;
+}
+
+std::vector<std::string> patterns(const std::vector<std::string>& subjects) {
+  std::vector<std::string> found;
+  for (const auto& [pattern, sweep] : option_sweeps(statistics_of(subjects))) found.push_back(pattern);
+  return found;
+}
+
+TEST(OptionSweeps, AreThoseOfSubjectsThatDifferInOneNumberAlone) {
+  EXPECT_THAT(patterns({"a:x=1", "a:x=2", "b:x=1"}), ElementsAre("a:x=*"));
+  EXPECT_THAT(patterns({"a:x=1:y=2", "a:x=1:y=3", "a:x=4:y=3"}), ElementsAre("a:x=*:y=3", "a:x=1:y=*"));
+  EXPECT_THAT(patterns({"a", "a:x=1", "a:x=one", "a:x=", "a:=", "a:1", "a:2", "wang:p40", "c:1e0=2"}),
+              ElementsAre());
+  EXPECT_FALSE(summary_json({{}, statistics_of({"a", "a:x=1"})}).contains("option_sweeps"));
+}
+
+Statistics sweep_of_option() {
+  Statistics statistics = statistics_of({"a:x=1e1", "a:x=2"});
+  statistics.counts[{"a:x=1e1", Kind::vertex_triangle, "uniform-end"}] = some_counts(10, 1, 3);
+  statistics.counts[{"a:x=2", Kind::vertex_triangle, "sliver"}] = some_counts(30, 1);
+  for (auto& [key, counts] : statistics.counts) counts.faults[static_cast<std::size_t>(Fault::time)] = 1;
+  return statistics;
+}
+
+TEST(OptionSweeps, AreInTheOrderOfClassesAndValuesWithBothKindsTogether) {
+  const OptionSweep sweep = option_sweeps(sweep_of_option()).at("a:x=*");
+  std::vector<std::uint64_t> queries;
+  for (const auto& [key, sum] : sweep) queries.push_back(sum.counts.queries);
+  EXPECT_THAT(queries, ElementsAre(10, 20, 30));
+  EXPECT_EQ(sweep.at({QueryClass::ordinary, 10}).counts.late, 3);
+}
+
+TEST(OptionSweeps, StandInTheTableAndInTheJson) {
+  const std::string table = sweep_tables(sweep_of_option());
+  EXPECT_THAT(table,
+              HasSubstr("\na:x=*\nclass        *  queries  collisions  false neg.  late  stuck  unknown  "
+                        "no answer  early: median  99 %  most  false pos.  rate  ns/query\n"));
+  EXPECT_THAT(table,
+              HasSubstr("\nordinary    10       20           8           2     3      0        0          "
+                        "2           0.25  0.25  0.25           6   0.6        50\n"));
+  const auto json = summary_json({{}, sweep_of_option()})["option_sweeps"]["a:x=*"];
+  ASSERT_EQ(json.size(), 3);
+  EXPECT_EQ(json[1]["class"], "ordinary");
+  EXPECT_EQ(json[1]["value"], 10);
+  EXPECT_EQ(json[1]["false_negatives"], 2);
+  EXPECT_EQ(json[1]["late"], 3);
+  EXPECT_EQ(json[1]["without_answer"], 2);
+  EXPECT_EQ(json[1]["max_early"], 0.25);
+  EXPECT_EQ(json[1]["ns_per_query"], 50);
+  EXPECT_EQ(json[2]["class"], "degenerate");
+}
+
+}  // namespace
+}  // namespace nearmiss

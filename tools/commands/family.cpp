@@ -1,0 +1,142 @@
+// nearmiss family: prints the queries of a family as text.
+#include "fuzz/families/families.hpp"
+
+#include <fmt/format.h>
+
+#include "ccd/query/error.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/families/coverage.hpp"
+#include "fuzz/families/crossed.hpp"
+#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "oracle/oracle.hpp"
+#include "reports/sections/common_factors_table.hpp"
+#include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/values.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::string name, kind;
+  std::uint64_t seed = 1;
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+  bool factors = false, coverage = false;
+  std::string subject;
+  PluginLimitOptions limits;
+};
+
+/// Prints a line for each of `count` queries of one kind, from the index `first` on: the query or, with --factors, its
+/// factors.
+void print_queries(const Options& options, const Family& family) {
+  const Kind kind = parse_kind(options.kind, "--kind");
+  std::uint64_t printed = 0;
+  for (std::uint64_t index = options.first; printed < options.count; ++index) {
+    if (kind_of(index) != kind) continue;
+    ++printed;
+    fmt::print("{}\n", options.factors ? crossed::to_text(crossed::levels_of(options.seed, index))
+                                       : to_line(make_query(family, options.seed, index)));
+  }
+}
+
+void print_combinations(std::string_view name, const crossed::Combinations& combinations,
+                        std::uint64_t queries) {
+  fmt::print("{}: {} of the {} that are made occur in {}\n", name, with_separators(combinations.seen),
+             with_separators(combinations.made), counted(queries, "query", "queries"));
+  for (const std::string& missing : combinations.missing) fmt::print("never: {}\n", missing);
+}
+
+void print_coverage(const Options& options) {
+  const crossed::Coverage found = crossed::coverage(options.seed, options.first, options.count);
+  for (const std::string& pair : found.pairs_not_made) fmt::print("not made: {}\n", pair);
+  print_combinations("pairs", found.pairs, options.count);
+  print_combinations("triples", found.triples, options.count);
+}
+
+/// Asks a subject about the queries, and prints for each kind what the missed ones have in common. Queries without an
+/// answer do not count.
+void print_common_factors(const Options& options, const Family& family) {
+  const auto asked =
+      keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);
+  const Subject& subject = *asked.front();
+  FactorTable table;
+  for (std::uint64_t index = options.first; index < options.first + options.count; ++index) {
+    const Query query = make_query(family, options.seed, index);
+    const Verdict verdict = subject.decide(query);
+    if (verdict.fault == Fault::none && collides(subject.rounded(query)))
+      count_collision(table, {subject.name(), query.kind, family.name, ""},
+                      family.factors(options.seed, index), !verdict.hit);
+  }
+  const std::vector<CommonFactors> common = common_factors(table);
+  for (const auto& [key, each] : table) {
+    if (!key.values.empty()) continue;
+    fmt::print("{} {}: {} of {} missed", key.subject, short_name(key.kind),
+               with_separators(each.false_negatives), counted(each.collisions, "collision", "collisions"));
+    for (const CommonFactors& of_kind : common)
+      if (of_kind.key.kind == key.kind) fmt::print("; {}", to_text(of_kind));
+    fmt::print("\n");
+  }
+}
+
+void run(const Options& options) {
+  const Family family = find_family(options.name);
+  const char* needs_factors = options.factors ? "--factors" : options.coverage ? "--coverage" : "--missed-by";
+  const bool is_plain = !options.factors && !options.coverage && options.subject.empty();
+  if (!is_plain && family.name != "crossed")
+    throw Error(fmt::format("found the family '{}', expected crossed with {}", family.name, needs_factors));
+  if (is_plain && options.kind.empty()) throw CLI::RequiredError("--kind");
+  if (options.coverage)
+    print_coverage(options);
+  else if (!options.subject.empty())
+    print_common_factors(options, family);
+  else
+    print_queries(options, family);
+}
+
+}  // namespace
+
+void add_family(CLI::App& app, int& /*exit_code*/) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "family",
+      "Print queries of a family, one a line, in the format that nearmiss oracle and nearmiss verdict read");
+  command
+      ->add_option("NAME", options->name, "The family, NAME or NAME@VALUE; nearmiss fuzz --help lists them")
+      ->required();
+  auto* kind = command
+                   ->add_option("--kind", options->kind,
+                                "Print the queries of this kind: even indices are vt, odd ones ee")
+                   ->check(CLI::IsMember({"vt", "ee"}));
+  auto* coverage = command
+                       ->add_flag("--coverage", options->coverage,
+                                  "Print which pairs and triples of factors occur in the queries of both "
+                                  "kinds; crossed only")
+                       ->excludes(kind);
+  command
+      ->add_option("--missed-by", options->subject,
+                   "Print which factors the collisions have in common that this subject misses; crossed only")
+      ->excludes(kind)
+      ->excludes(coverage);
+  options->limits.add_to(*command);
+  command
+      ->add_flag("--factors", options->factors,
+                 "Print each query's factors instead of the query; crossed only")
+      ->needs(kind);
+  add_seed_option(*command, options->seed);
+  add_count_option(*command, "--count", options->count, 1, most_queries,
+                   "Number of queries, of --kind or, with --coverage and --missed-by, of both kinds")
+      ->required()
+      ->default_str("");
+  add_count_option(*command, "--first", options->first, 0, most_queries,
+                   "The first index; a campaign begins with 0");
+  command->footer(
+      "\nThe provenance NAME:S:I in a report is query I of family NAME with seed S.\n"
+      "Example: nearmiss family uniform --kind vt --count 1000 | nearmiss oracle --kind vt");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,144 @@
+// nearmiss oracle: exact answers to queries.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "corpus/query_text.hpp"
+#include "oracle/agreement.hpp"
+#include "oracle/distance.hpp"
+#include "oracle/oracle.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+// Choices of --method in addition to the methods' names.
+constexpr const char* filtered = "filtered";
+constexpr const char* all = "all";
+
+struct Options {
+  QueryInput input;
+  std::string method = filtered;
+  bool toi = false;
+  bool rational = false;
+  double width = 0;
+  bool distance = false;
+};
+
+/// The oracle's own answers disagree: a defect of the oracle.
+class Disagreement : public std::exception {
+ public:
+  explicit Disagreement(const Query& query)
+      : what_(fmt::format("the oracle's answers disagree on {} {}", short_name(query.kind), to_line(query))) {
+  }
+  [[nodiscard]] const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  std::string what_;
+};
+
+std::string show(const Enclosure& enclosure) {
+  return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
+}
+
+/// Yes also for a smallest distance of exactly h > 0, as the library says.
+bool is_yes(const Answer& answer) { return answer.at_most.value_or(answer.collision.value_or(false)); }
+
+/// The answer that trials use, the answer of one method, or the answer of all. Throws Disagreement if all
+/// methods are asked and differ.
+bool collides_by(const std::string& method, const Query& query) {
+  if (method == filtered) return is_yes(to_answer(query, decide(query)));
+  if (method == all) {
+    const Answers answers = ask_all(query);
+    if (!answers.disagreement(decide(query).by_filter()).empty()) throw Disagreement(query);
+    return is_yes(answers.all().front());
+  }
+  const auto named = [&](const Method& each) { return each.name == method; };
+  const auto chosen = std::find_if(methods().begin(), methods().end(), named);
+  return is_yes(chosen->ask(query));
+}
+
+std::vector<std::string> choices() {
+  std::vector<std::string> names{filtered};
+  for (const Method& method : methods()) names.emplace_back(method.name);
+  names.emplace_back(all);
+  return names;
+}
+
+std::string help_on_methods() {
+  std::string help =
+      fmt::format("{}: the answer that trials use, from the filter or, if the filter is unsure, from {}; ",
+                  filtered, methods().front().name);
+  for (const Method& method : methods())
+    help += fmt::format("{} ({}): {}; ", method.name, name(method.claim), method.about);
+  return help + fmt::format(
+                    "{}: all of these, compared. A parity method cannot distinguish an even number of roots "
+                    "from no root",
+                    all);
+}
+
+std::string answer(const Query& query, const Options& options) {
+  std::string line = collides_by(options.method, query) ? "1" : "0";
+  if (options.toi || options.rational) {
+    auto time = earliest_time(query);
+    line += time ? show(time->enclosure(options.width)) : " inf inf";
+    if (options.rational)
+      line += !time ? " -" : time->rational().empty() ? " irrational" : " " + time->rational();
+  }
+  if (options.distance) line += show(minimum_distance(query));
+  return line;
+}
+
+}  // namespace
+
+void add_oracle(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "oracle",
+      "Decide queries exactly: one line each, 1 for a collision or a distance of at most h, 0 for none");
+  options->input.add_to(*command);
+  command->add_option("--method", options->method, help_on_methods())
+      ->check(CLI::IsMember(choices()))
+      ->capture_default_str();
+  command->add_flag("--toi", options->toi,
+                    "Add 'lo hi', which enclose the earliest time of contact; inf inf if there is none");
+  command
+      ->add_option("--width", options->width,
+                   "Largest width of this enclosure; 0: as narrow as doubles allow")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            double width = -1;
+            std::from_chars(text.data(), text.data() + text.size(), width);
+            return width >= 0 && width <= 1
+                       ? ""
+                       : fmt::format("found '{}', expected a number from 0 to 1", excerpt(text));
+          },
+          ""))
+      ->capture_default_str()
+      ->type_name("W");
+  command->add_flag("--rational", options->rational,
+                    "Add --toi, and the time as a fraction, 'irrational', or '-' if there is none");
+  command->add_flag("--distance", options->distance,
+                    "Add 'lo hi', which enclose the smallest distance over [0, 1]");
+  command->footer(
+      "\nNumbers are decimal or C hex floats, separated by blanks or commas; '#' starts a comment.\n"
+      "Example: echo '0 0 1 0 0 0 1 0 0 0 1 0  0 0 -1 0 0 0 1 0 0 0 1 0' | "
+      "nearmiss oracle --kind vt --toi");
+  command->callback([options, &exit_code] {
+    try {
+      options->input.read([&](const Query& query) { fmt::print("{}\n", answer(query, *options)); });
+    } catch (const Disagreement& disagreement) {
+      fmt::print(stderr, "nearmiss: {}\n", disagreement.what());
+      exit_code = exit_found;
+    }
+  });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,212 @@
+// nearmiss power: measures how soon each way to hunt finds each of the known defects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "ccd/query/error.hpp"
+#include "fuzz/libfuzzer/targets.hpp"
+#include "fuzz/search/search.hpp"
+#include "fuzz/studies/power.hpp"
+#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "reports/sections/other_tables.hpp"
+#include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/json_output.hpp"
+#include "tools/terminal.hpp"
+#include "tools/values.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> subjects;
+  std::vector<std::string> ways;
+  std::string time = "60s", libfuzzer;
+  JsonOutput json;
+  std::uint64_t seed = 1;
+  int jobs = 1;
+};
+
+constexpr std::string_view uniform = "uniform";
+constexpr std::string_view all_families = "families";
+constexpr std::string_view search = "search";
+constexpr std::string_view coverage_guided = "libfuzzer";
+
+Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
+  Stop stop(interrupted());
+  Subjects subjects;
+  subjects.push_back(std::move(keep_contract(make_any_subject(subject), false).front()));
+  CampaignPlan plan;
+  const Subject& defect = *subjects.front();
+  if (way == uniform) plan.families = families_for(defect, std::array{find_family("uniform")});
+  if (way == all_families) plan.families = families_for(defect, families());
+  if (way == all_families && defect.takes_separation())
+    plan.families.insert(plan.families.end(), separation_families().begin(), separation_families().end());
+  if (way == search) plan.families = searches(defect, stop);
+  if (way == search && defect.takes_separation()) {
+    auto separated = searches(defect, stop, drawn_separation);
+    std::move(separated.begin(), separated.end(), std::back_inserter(plan.families));
+  }
+  plan.seed = options.seed;
+  plan.shrink = 0;
+  plan.jobs = options.jobs;
+  stop.limit(parse_duration(options.time, "--time"));
+  Hunt result{.subject = subject, .way = way};
+  if (const auto first = find_first_failure(plan, subjects, stop)) {
+    result.failure = name(first->finding.what);
+    result.seconds = first->seconds;
+    result.cases = first->cases * (way == search ? search_evaluations : 1);
+    result.provenance = first->finding.provenance;
+  }
+  return result;
+}
+
+/// Hunts with one target. Runs the command, and reads its last line: "found after S s, N executions: PATH" or "nothing in
+/// ...".
+Hunt hunt_with_target(const Options& options, const std::string& subject,
+                      const libfuzzer::PromiseTarget& target, int seconds) {
+  const std::string command =
+      fmt::format("{} --first {} {}s '{}'", options.libfuzzer, target.name, seconds, subject);
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw Error(fmt::format("'{}': cannot be run", command));
+  std::string text;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    text.append(buffer.data(), n);
+  pclose(pipe);
+  Hunt result{.subject = subject, .way = std::string(coverage_guided)};
+  static const std::regex found("found after ([0-9.]+) s, ([0-9]+) executions: (.*)");
+  if (std::smatch match; std::regex_search(text, match, found)) {
+    result.failure = name(target.finds);
+    result.seconds = std::stod(match[1]);
+    result.cases = std::stoull(match[2]);
+    result.provenance = match[3].str();
+  } else if (text.find("nothing in") == std::string::npos) {
+    throw Error(
+        fmt::format("'{}': printed '{}', expected 'found after ...' or 'nothing in ...'", command, text));
+  }
+  return result;
+}
+
+/// Gives each target of the subject an equal share of the time, and returns the failure that its target found soonest.
+Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+  const auto targets = libfuzzer::targets_for(*make_any_subject(subject));
+  const double share = parse_duration(options.time, "--time").count() / static_cast<double>(targets.size());
+  const int seconds = std::max(1, static_cast<int>(share));
+  Hunt soonest{.subject = subject, .way = std::string(coverage_guided)};
+  for (const libfuzzer::PromiseTarget& target : targets) {
+    if (interrupted()) break;
+    Hunt hunt = hunt_with_target(options, subject, target, seconds);
+    if (hunt.failure && (!soonest.failure || hunt.seconds < soonest.seconds)) soonest = std::move(hunt);
+  }
+  return soonest;
+}
+
+/// "0.12 s  12,345", with a mark for a failure that is no miss; "-" if nothing was found.
+std::string cell(const Hunt& hunt) {
+  if (!hunt.failure) return "-";
+  const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"
+                                : *hunt.failure == name(Finding::What::late)        ? "+"
+                                                                                    : "";
+  return fmt::format("{:.2f} s {:>12}{}", hunt.seconds, with_separators(hunt.cases), mark);
+}
+
+std::string table(const std::vector<Hunt>& results, const std::vector<std::string>& ways) {
+  std::string text = fmt::format("{:<24}", "defect");
+  for (const std::string& way : ways) text += fmt::format(" {:>22}", way);
+  text += "\n";
+  std::vector<std::string> subjects;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  std::map<std::string, int> found;
+  for (const Hunt& hunt : results) {
+    if (std::find(subjects.begin(), subjects.end(), hunt.subject) == subjects.end())
+      subjects.push_back(hunt.subject);
+    cells[{hunt.subject, hunt.way}] = cell(hunt);
+    found[hunt.way] += hunt.failure ? 1 : 0;
+  }
+  for (const std::string& subject : subjects) {
+    text += fmt::format("{:<24}", subject);
+    for (const std::string& way : ways) text += fmt::format(" {:>22}", cells[{subject, way}]);
+    text += "\n";
+  }
+  text += fmt::format("{:<24}", fmt::format("found, of {}", subjects.size()));
+  for (const std::string& way : ways) text += fmt::format(" {:>22}", found[way]);
+  return text +
+         "\n\nTime and cases up to the first miss; *: up to the first refuted bound; +: up to the first late "
+         "time. Of a directed search, evaluations: at most this many. Of libFuzzer, those of "
+         "the target that was soonest.\n";
+}
+
+int run(const Options& options) {
+  (void)parse_duration(options.time, "--time");  // a bad one is refused before any work
+  std::vector<Hunt> results;
+  const std::filesystem::path stored = options.json.file();
+  if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);
+  std::vector<std::string> subjects = options.subjects;
+  if (subjects.empty())
+    for (const Defect& defect : defects()) subjects.push_back(defect.name);
+  for (const std::string& subject : subjects) (void)make_any_subject(subject);  // likewise
+  std::vector<std::string> ways = options.ways;
+  if (ways.empty()) {
+    ways = {std::string(uniform), std::string(all_families), std::string(search)};
+    if (!options.libfuzzer.empty()) ways.emplace_back(coverage_guided);
+  }
+  const auto is_done = [&](const std::string& subject, const std::string& way) {
+    return std::any_of(results.begin(), results.end(),
+                       [&](const Hunt& each) { return each.subject == subject && each.way == way; });
+  };
+  Progress progress;
+  for (const std::string& subject : subjects) {
+    for (const std::string& way : ways) {
+      if (interrupted() || is_done(subject, way)) continue;
+      progress.show(fmt::format("{}: {}", subject, way));
+      auto result =
+          way == coverage_guided ? hunt_with_libfuzzer(options, subject) : hunt(options, subject, way);
+      if (interrupted()) continue;
+      results.push_back(std::move(result));
+      if (!stored.empty()) options.json.write(hunts_json(results));
+    }
+  }
+  if (options.json.is_stdout()) options.json.write(hunts_json(results));
+  fmt::print(options.json.text(), "{}", table(results, ways));
+  return interrupted() ? exit_interrupted : exit_fine;
+}
+
+}  // namespace
+
+void add_power(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("power", "Measure how soon each way to hunt finds each known defect");
+  command->add_option("--subject", options->subjects, "Defects, separated by commas; all by default")
+      ->delimiter(',')
+      ->type_name("defect:A,...");
+  command->add_option("--way", options->ways, "Ways to hunt, separated by commas; all by default")
+      ->delimiter(',')
+      ->check(CLI::IsMember({std::string(uniform), std::string(all_families), std::string(search),
+                             std::string(coverage_guided)}));
+  command->add_option("--time", options->time, "Time limit for each defect and way: 10s, 2m")
+      ->capture_default_str()
+      ->type_name("T");
+  command
+      ->add_option("--libfuzzer", options->libfuzzer,
+                   "Also hunt with this command, tools/libfuzzer, whose targets share the time")
+      ->type_name("COMMAND");
+  options->json.add_to(*command, "Store the measurements in this file, and skip those that it already has");
+  command->add_option("--seed", options->seed, "Seed; queries are a pure function of family, seed and index")
+      ->capture_default_str()
+      ->type_name("S");
+  add_jobs_option(*command, options->jobs);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,101 @@
+// nearmiss replay: lets subjects decide recorded cases.
+#include <fmt/format.h>
+
+#include "corpus/readers.hpp"
+#include "fuzz/trial/trial_stream.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
+#include "tools/arguments.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<fs::path> paths;
+  TrialOptions trial;
+  std::string bound;
+  SeparationOption separation;
+  RecordOptions record;
+};
+
+/// The family under which a case is counted: the name of its folder, "NAME/". For edge-edge and vertex-face,
+/// it is the folder above.
+std::string family_of(const std::string& name) {
+  fs::path folder = fs::absolute(name).lexically_normal().parent_path();
+  if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
+  return folder.filename().string() + "/";
+}
+
+int run(const Options& options) {
+  const Stop stop(interrupted());
+  const Subjects subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
+  if (options.separation.apply({}).separation > 0) expect_separations(subjects);
+  for (const fs::path& path : options.paths)  // checks all files before anything is written
+    read_cases(path, [&](const Case&) { stop.check(); });
+  std::string command = "replay";
+  for (const fs::path& path : options.paths) command += " " + shell_quoted(path.string());
+  RunInfo info = options.trial.run_info(command, subjects);
+  if (!options.bound.empty()) note_option(info, "bound", "--bound", options.bound);
+  if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
+  Record record(options.record, std::move(info), {.environment = plugin_environment(subjects)});
+  std::uint64_t with_separation = 0;
+  {
+    Progress progress(options.record.quiet);
+    std::uint64_t count = 0;
+    Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+                  [&](TrialResult&& result) { record.add(std::move(result)); });
+    TrialStream stream(trials);
+    const auto add = [&](const Case& each) {
+      stop.check();
+      // A recorded truth is that of the recorded question.
+      const Query query = options.separation.apply(each.query);
+      stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
+                 [name = each.name] { return name; });
+      ++count;
+      with_separation += query.separation > 0 ? 1 : 0;
+      if (progress.due())
+        progress.show(fmt::format("{} cases, {} false negatives", with_separators(count),
+                                  with_separators(record.statistics().false_negatives())));
+    };
+    try {
+      for (const fs::path& path : options.paths) read_cases(path, add);
+    } catch (const Stopped&) {  // what was asked counts
+    }
+    stream.finish();
+    trials.finish([&] {
+      if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
+    });
+  }
+  for (const auto& subject : subjects)
+    if (with_separation > 0 && !subject->takes_separation())
+      fmt::print(options.record.json.text(), "{}: not asked about {}, because it answers for contact only\n",
+                 subject->name(),
+                 counted(with_separation, "case with a separation", "cases with a separation"));
+  if (!stop.is_requested()) record.add_unasked(subjects);
+  return record.finish(stop.is_requested(), !stop.is_requested());
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("replay", "Let subjects and the oracle decide the cases in files and folders");
+  command->add_option("PATH", options->paths, "*.case, *.csv, *.vt and *.ee files, or folders of them")
+      ->required();
+  options->trial.add_to(*command);
+  add_bound_option(*command, options->bound);
+  options->separation.add_to(*command);
+  options->record.add_to(*command);
+  command->footer("\nExample: nearmiss replay corpus --subject basic,wang");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nearmiss::tools

@@ -1,0 +1,311 @@
+// nearmiss scene: decides the pairs of a moving mesh.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "ccd/query/error.hpp"
+#include "corpus/file.hpp"
+#include "corpus/query_text.hpp"
+#include "fuzz/scenes/built_in/built_in_scenes.hpp"
+#include "fuzz/scenes/plan.hpp"
+#include "fuzz/scenes/scene.hpp"
+#include "fuzz/scenes/scene_trial.hpp"
+#include "fuzz/scenes/verify.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "reports/text/shell.hpp"
+#include "reports/text/text.hpp"
+#include "tools/commands.hpp"
+#include "tools/record.hpp"
+#include "tools/scene_subjects.hpp"
+#include "tools/terminal.hpp"
+#include "tools/trial_options.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> scene;
+  TrialOptions trial{.subjects = {"basic", "wang"}};
+  std::vector<std::string> bounds{"pair"};
+  std::string leave_out = "all", thickness;
+  SeparationOption separation;
+  bool list = false, weld = false, plan_only = false, verify_plan = false;
+  fs::path export_to;
+  RecordOptions record;
+};
+
+const std::map<std::string, LeaveOut> leave_outs{
+    {"nothing", LeaveOut::nothing}, {"boxes", LeaveOut::boxes}, {"all", LeaveOut::all}};
+
+Scene open_scene(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 2) return scene_of_files(arguments[0], arguments[1]);
+  if (is_built_in_scene(arguments[0])) return built_in_scene(arguments[0]);
+  if (std::error_code error; !fs::exists(arguments[0], error))
+    throw Error(fmt::format(
+        "{}: found neither a folder nor a scene with this name (see nearmiss scene --list)", arguments[0]));
+  return scene_of_folder(arguments[0]);
+}
+
+/// Prints a line for each built-in scene.
+void list_scenes(std::FILE* out) {
+  fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
+  for (const BuiltInScene& scene : built_in_scenes())
+    fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest,
+               scene.largest, scene.description);
+}
+
+/// Writes files for nearmiss replay: FILE.vt and FILE.ee, with a query on each line.
+class Export {
+ public:
+  explicit Export(const fs::path& file) {
+    if (file.empty()) return;
+    for (const Kind kind : kinds) {
+      const std::string name = fmt::format("{}.{}", file.string(), short_name(kind));
+      if (fs::exists(name)) throw Error(fmt::format("{}: exists already, expected a new file", name));
+      files_.try_emplace(kind, name);
+    }
+  }
+  /// Writes the pairs of a step that subjects are asked about.
+  void add_all(const MovingMesh& mesh, LeaveOut leave_out, const Stop& stop) {
+    if (files_.empty()) return;
+    const auto write = [&](const AskedPairs& pairs) {
+      for (const Query& query : pairs.queries) files_.at(pairs.kind).out << to_line(query) << '\n';
+    };
+    follow_plan(Plan(mesh, leave_out), write, {}, [&] { return stop.is_due(); });
+  }
+  /// Gives the files their names, except empty ones. Throws Error if something could not be written.
+  void finish() {
+    for (auto& [kind, file] : files_) {
+      const bool empty = file.out.tellp() == 0;
+      file.out.close();
+      if (!file.out) throw Error(fmt::format("{}: cannot be written", file.name));
+      if (!empty) file.part.put_in_place();
+    }
+  }
+
+ private:
+  struct File {
+    explicit File(const std::string& place) : name(place), part(place), out(part.path()) {}
+
+    std::string name;
+    PartFile part;
+    std::ofstream out;
+  };
+
+  std::map<Kind, File> files_;
+};
+
+/// The options that the results of a run depend on, and the command that repeats the run.
+RunInfo run_info(const Options& options, const SceneSubjects& all) {
+  std::string command = "scene";
+  for (const std::string& each : options.scene) command += " " + shell_quoted(each);
+  RunInfo info = options.trial.run_info(command, all.subjects);
+  info["again"] +=
+      fmt::format(" --bound {} --leave-out {}", fmt::join(options.bounds, ","), options.leave_out);
+  info["left out"] = options.leave_out;
+  if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
+  if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
+  if (!options.thickness.empty()) note_option(info, "thickness", "--thickness", options.thickness);
+  if (options.weld) {
+    info["welded"] = "yes";
+    info["again"] += " --weld";
+  }
+  return info;
+}
+
+/// Shows the progress of a scene. In each step, subjects are asked; with --verify-plan, the plan is then
+/// verified, which takes most of the time.
+class SceneProgress {
+ public:
+  SceneProgress(const Options& options, std::size_t steps, const Record& record)
+      : progress_(options.record.quiet),
+        asking_(options.verify_plan ? 0.03 : 1),
+        steps_(steps),
+        record_(record) {}
+
+  void asking(std::size_t step, double part) { show("asking", step, asking_ * part); }
+  void shrinking(std::size_t left) {
+    if (progress_.due()) progress_.show(shrinking_line(left));
+  }
+  void verifying(std::size_t step, double part) { show("verifying", step, asking_ + (1 - asking_) * part); }
+
+ private:
+  void show(const std::string& what, std::size_t step, double part) {
+    if (!progress_.due()) return;
+    const double done = (static_cast<double>(step) + part) / static_cast<double>(steps_);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    progress_.show(fmt::format("{} step {} of {}, {} false negatives, {} left", what, step + 1, steps_,
+                               with_separators(record_.statistics().false_negatives()),
+                               show_duration(elapsed * ((1 - done) / done))),
+                   done);
+  }
+
+  Progress progress_;
+  double asking_;
+  std::size_t steps_;
+  const Record& record_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Verified {
+  Verification verification;
+  std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
+};
+
+/// Goes through all steps of a scene.
+Verified hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
+                     const Stop& stop) {
+  const LeaveOut leave_out = leave_outs.at(options.leave_out);
+  Export exported(options.export_to);
+  Verified verified;
+  SceneProgress progress(options, scene.steps(), record);
+  Trials trials(subjects, options.trial.comparison, options.trial.jobs, stop, options.trial.shrink,
+                [&](TrialResult&& result) { record.add(std::move(result)); });
+  SceneTrial trial(scene, leave_out, trials);
+  const auto is_over = [&] { return stop.is_due(); };
+  for_each_step(scene, is_over, [&](std::size_t step, const MovingMesh& mesh) {
+    exported.add_all(mesh, leave_out, stop);
+    const auto start = std::chrono::steady_clock::now();
+    trial.hold(step, mesh, [&](double part) { progress.asking(step, part); });
+    verified.asking += std::chrono::steady_clock::now() - start;
+    if (options.verify_plan && !stop.is_due())
+      verified.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
+        progress.verifying(step, part);
+        return !stop.is_due();
+      }));
+  });
+  trials.finish([&] { progress.shrinking(trials.to_shrink()); });
+  if (!stop.is_due()) exported.finish();
+  if (const auto picture = trial.picture()) record.add(*picture);
+  return verified;
+}
+
+/// The scene's name and size, for the terminal.
+std::string describe(const Scene& scene) {
+  const MovingMesh mesh = moving_mesh(scene, 0);
+  return fmt::format("{}: {}, {}, {}, {}, {}\n", scene.name, counted(scene.frames, "frame", "frames"),
+                     counted(mesh.start.size(), "vertex", "vertices"),
+                     counted(mesh.triangles.size(), "triangle", "triangles"),
+                     counted(mesh.edges.size(), "edge", "edges"),
+                     counted(static_cast<std::size_t>(bodies(scene.mesh).count), "body", "bodies"));
+}
+
+int run(Options options) {
+  const double h = options.separation.apply({}).separation;
+  if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
+  options.record.summary = !options.plan_only;
+  const Stop stop(interrupted());
+  (void)options.trial.make_subjects(stop);  // unknown names are refused before meshes are read
+  Scene scene = open_scene(options.scene);
+  if (options.weld) scene = welded(std::move(scene));
+  if (h > 0) scene = with_separation(std::move(scene), h);
+  SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
+  if (h > 0) expect_separations(all.subjects);
+  const RunInfo info = run_info(options, all);
+  const RunInfo plugins = plugin_environment(all.subjects);
+  std::FILE* const text = options.record.json.text();
+  if (!options.thickness.empty())
+    keep_cheapest_within(options.thickness, scene, leave_outs.at(options.leave_out), all.subjects, text);
+
+  Record record(options.record, info, {.environment = plugins});
+  const Verified verified = hold_trials(options, scene, all.subjects, record, stop);
+  fmt::print(text, "{}", describe(scene));
+  if (record.statistics().counts.empty())
+    fmt::print(text, "no subject was asked: the plan decides all pairs\n");
+  if (!stop.is_requested()) record.add_unasked(all.subjects);
+  const int code = record.finish(stop.is_requested(), !stop.is_requested());
+  if (!options.verify_plan || stop.is_requested()) return code;
+  const double asking = verified.asking.count();
+  const double verifying = verified.verification.seconds;
+  fmt::print(
+      text,
+      "\n{}following the plan took {:.3g} s; asking about all that it leaves out {:.3g} s, {:.3g} times as "
+      "long\n",
+      describe(verified.verification), asking, verifying, verifying / asking);
+  return verified.verification.fine() ? code : exit_found;
+}
+
+void add_scene_options(CLI::App& command, Options& options) {
+  command
+      .add_option(
+          "SCENE", options.scene,
+          "The mesh at t = 0 and the same mesh at t = 1 (START END); a folder of frames: *.obj, *.off, *.ply "
+          "or "
+          "*.stl; or a built-in scene, NAME or NAME@SIZE, where SIZE is the approximate number of triangles, "
+          "lines of hair or points (a folder of that name is ./NAME)")
+      ->expected(1, 2);
+  command.add_flag("--list", options.list, "List the built-in scenes and their sizes");
+  command.add_flag("--weld", options.weld, "Merge points that coincide in the first frame");
+}
+
+void add_bound_options(CLI::App& command, Options& options) {
+  command
+      .add_option("--bound", options.bounds,
+                  "The bound B: each pair's own, the largest of the scene's pairs, or a number; several, "
+                  "separated by "
+                  "commas, are compared side by side")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("pair|scene|B,...");
+  command
+      .add_option("--thickness", options.thickness,
+                  "The thickness of contact: ask only the cheapest of the subjects (all, if none is named) "
+                  "whose claimed "
+                  "distance of false positives does not exceed it")
+      ->type_name("H");
+}
+
+void add_plan_options(CLI::App& command, Options& options) {
+  command
+      .add_option("--leave-out", options.leave_out,
+                  "Pairs that subjects are not asked about: none; those whose swept boxes do not meet; or "
+                  "also those at "
+                  "rest or in translation relative to each other")
+      ->check(CLI::IsMember({"nothing", "boxes", "all"}))
+      ->capture_default_str();
+  command.add_flag(
+      "--plan-only", options.plan_only,
+      "Show only which pairs are left out and why, and how much work wang (with a separation: exact) and "
+      "the oracle have with the others");
+  command.add_flag(
+      "--verify-plan", options.verify_plan,
+      "Also ask the oracle about all pairs that are left out; exit code 1 if a collision is lost");
+  command
+      .add_option("--export", options.export_to,
+                  "Write the pairs that subjects are asked about to FILE.vt and FILE.ee, for nearmiss replay")
+      ->type_name("FILE");
+}
+
+/// With --thickness, makes all subjects available unless some are named.
+void name_subjects(const CLI::App& command, Options& options) {
+  if (options.thickness.empty() || command.count("--subject") > 0) return;
+  options.trial.subjects.clear();
+  for (const SubjectInfo& info : built_in_subjects()) options.trial.subjects.emplace_back(info.name);
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("scene", "Decide the pairs of a moving mesh, except those that need no subject");
+  add_scene_options(*command, *options);
+  options->trial.add_to(*command);
+  add_bound_options(*command, *options);
+  options->separation.add_to(*command);
+  add_plan_options(*command, *options);
+  options->record.add_to(*command);
+  command->callback([options, command, &exit_code] {
+    if (options->list) return list_scenes(options->record.json.text());
+    if (options->scene.empty()) throw CLI::RequiredError("SCENE");
+    name_subjects(*command, *options);
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace nearmiss::tools

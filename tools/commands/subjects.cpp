@@ -1,0 +1,118 @@
+// nearmiss subjects: lists the CCDs that can be put on trial.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ccd/query/error.hpp"
+#include "ccd/query/excerpt.hpp"
+#include "ccd/subjects/plugin.hpp"
+#include "fuzz/libfuzzer/targets.hpp"
+#include "fuzz/subjects/contracted.hpp"
+#include "fuzz/subjects/defects.hpp"
+#include "fuzz/subjects/ladder/scalars.hpp"
+#include "fuzz/subjects/peers.hpp"
+#include "fuzz/subjects/subjects.hpp"
+#include "tools/commands.hpp"
+
+namespace nearmiss::tools {
+
+namespace {
+
+/// Prints some lines about a plug-in.
+void print(const Subject& subject) {
+  const DetectorInfo& info = *plugin_info(subject);
+  constexpr std::array<const char*, 3> times{"no time", "an estimate of the time",
+                                             "a lower bound of the time"};
+  std::vector<std::string> kinds_decided;
+  for (const Kind kind : kinds)
+    if (decides(info, kind)) kinds_decided.emplace_back(short_name(kind));
+  fmt::print("{:<23} {}\n", subject.name(), info.about);
+  fmt::print("{:<23} version {}; {}; {} bits; {}; {}{}batches of {}\n", "",
+             info.version.empty() ? "?" : info.version, fmt::join(kinds_decided, " and "),
+             info.is_narrow ? 24 : 53, times[static_cast<std::size_t>(info.time_sort)],
+             info.claims_bound ? "claims a bound; " : "", info.takes_separation ? "takes a separation; " : "",
+             info.batch);
+  if (const std::string contract = in_words(info.contract); !contract.empty())
+    fmt::print("{:<23} presumes: {}\n", "", contract);
+}
+
+void describe(const std::string& name) {
+  if (!plugin_named(name))
+    throw Error(
+        fmt::format("found '{}', expected a plug-in such as ./plugin.so, or a published CCD (nearmiss "
+                    "subjects lists them)",
+                    excerpt(name)));
+  for (const auto& subject : make_any_subjects(name)) print(*subject);
+}
+
+/// Prints the targets with the name of the subject as they take it. They run a published CCD by its path, and no program, since
+/// libFuzzer sees no other process's coverage.
+void print_targets(const std::string& text) {
+  const auto subject = make_any_subject(text);
+  if (is_program(SubjectText::parse(text).subject)) return;
+  for (const libfuzzer::PromiseTarget& target : libfuzzer::targets_for(*subject))
+    fmt::print("{} {}\n", target.name, text_of(*subject));
+}
+
+/// What a published CCD is, or why it cannot be put on trial.
+std::string about(const Peer& peer) {
+  if (!is_built(peer)) return fmt::format("not built: {}", how_to_build(peer));
+  try {
+    return plugin_info(*make_any_subject(peer.name))->about;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void list_all() {
+  for (const SubjectInfo& subject : built_in_subjects())
+    fmt::print("{:<23} {}\n", subject.name, subject.about);
+  fmt::print("\nPublished CCDs (fuzz/subjects/peers/README.md):\n");
+  for (const Peer& peer : peers()) fmt::print("{:<23} {}\n", peer.name, about(peer));
+  fmt::print("\nbasic, wang and wang-tight over other scalars, NAME:SCALAR, with machine epsilon:\n");
+  for (const ladder::Scalar& scalar : named_scalars())
+    fmt::print("{:<23} 2^{}\n", "NAME:" + scalar.name, scalar.epsilon_exponent);
+  fmt::print("{:<23} 2^(1 - N), N bits, from {} to {}\n", "NAME:pN", ladder::fewest_bits, ladder::most_bits);
+  fmt::print("\nCCDs with one known defect each, to measure whether a hunt finds it:\n");
+  for (const Defect& defect : defects()) fmt::print("{:<23} {}\n", defect.name, defect.about);
+}
+
+}  // namespace
+
+void add_subjects(CLI::App& app, int& /*exit_code*/) {
+  auto* command = app.add_subcommand(
+      "subjects",
+      "List the subjects that have names, or describe the detectors of plug-ins and published CCDs");
+  struct Options {
+    std::vector<std::string> plugins;
+    bool peers = false, targets = false;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("PLUGIN", options->plugins,
+                      "Plug-ins and published CCDs whose detectors to describe instead, such as ./plugin.so");
+  command->add_flag("--peers", options->peers,
+                    "Print only the names of the published CCDs that are built, one a line");
+  command->add_flag(
+      "--targets", options->targets,
+      "Print instead the libFuzzer targets that hunt these subjects, one a line: TARGET SUBJECT");
+  command->footer(
+      "\nA plug-in is a shared object, named by its path, which must contain a slash: ./plugin.so, or one of "
+      "its "
+      "detectors with options: ./plugin.so:NAME:KEY=VALUE (ccd/nearmiss_subject.h); or a program: "
+      "'pipe:COMMAND' "
+      "(fuzz/subjects/PROGRAMS.md). NAME=SUBJECT gives any subject another name: new=./plugin.so.");
+  command->callback([options] {
+    const auto print_about = options->targets ? print_targets : describe;
+    for (const std::string& name : options->plugins) print_about(name);
+    if (options->peers)
+      for (const Peer& peer : peers())
+        if (is_built(peer)) fmt::print("{}\n", peer.name);
+    if (options->plugins.empty() && !options->peers) list_all();
+  });
+}
+
+}  // namespace nearmiss::tools
