@@ -25,19 +25,23 @@ enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
 
 /// Two vertices, by their numbers in a query.
 struct VertexPair {
-  std::uint8_t from, to;
+  std::uint8_t from;  ///< the first one
+  std::uint8_t to;    ///< the second one
 };
 
 /// A vertex of one primitive and an edge of the other.
 struct VertexAndEdge {
-  std::uint8_t vertex, from, to;
+  std::uint8_t vertex;  ///< of one primitive
+  std::uint8_t from;    ///< one end of the edge
+  std::uint8_t to;      ///< its other end
 };
 
 /// What the two primitives of a query are made of. Whoever needs the vertices, edges or pairs of a kind reads them here.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
-  Primitive first, second;            ///< with the vertices x[0 .. split) and x[split .. 4)
+  Primitive first;                    ///< with the vertices x[0 .. split)
+  Primitive second;                   ///< with the vertices x[split .. 4)
   std::span<const VertexPair> edges;  ///< of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
   std::span<const VertexAndEdge>
@@ -81,6 +85,7 @@ inline constexpr std::array<Topology, 2> of_kinds{{{.short_name = "vt",
 
 }  // namespace topologies
 
+/// What the primitives of a kind are made of.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt" or "ee".
@@ -106,14 +111,14 @@ constexpr std::optional<Kind> kind_of_bit(int bit) {
   return std::nullopt;
 }
 
-/// f.operator()<kind>(), where `kind` is known at run time only.
+/// Calls a function template with a kind that is known at run time only.
 template <class Function>
 constexpr decltype(auto) with_kind(Kind kind, const Function& f) {
   return kind == Kind::vertex_triangle ? f.template operator()<Kind::vertex_triangle>()
                                        : f.template operator()<Kind::edge_edge>();
 }
 
-/// Calls f.operator()<kind>() for each kind.
+/// Calls a function template with each kind.
 template <class Function>
 constexpr void for_each_kind(const Function& f) {
   const auto call = [&]<std::size_t... i>(std::index_sequence<i...>) {
