@@ -1,10 +1,8 @@
 """Checks the counters of report.json, and of the JSON of nearmiss fuzz, against tallies."""
 
-import math
-
 from asking import KINDS
 from check_numbers import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
-from check_times import check_extremes, check_time_histograms
+from check_times import check_extremes, check_time_histograms, check_times
 from enclosed import reported
 from tally import Tally, classes_of, denominators, interval, rate, stages, upper_bound
 
@@ -69,65 +67,50 @@ def check_counts(comparison, where, found, tally):
 
 
 def check_rates(comparison, where, found, tally):
-    """Checks the measures that report.json has of every sum, but for run times."""
-    exact, near, within, quantiles = expected(tally)
-    for name, value in exact.items():
-        comparison.same('counters', f'{where} {name}', found[name], value)
-    for name, (value, precision) in near.items():
-        ends = zip(found[name], value) if isinstance(value, tuple) else [(found[name], value)]
-        for own, wanted in ends:
-            comparison.near('rates', f'{where} {name}', own, wanted, precision)
-    for name, ends in within.items():
-        comparison.within('largest', f'{where} {name}', found[name], *ends)
-    for name, (bins, largest) in quantiles.items():
-        most = found[largest] if largest else math.inf
-        check_quantile(comparison, f'{where} {name}', found[name], bins, most)
-
-
-def expected(tally):
-    """The values of measures by their keys: those that are exact; those that are near, with their
-    precision; the range of those of which enclosures are known; and the bins of quantiles, with the
-    measure that is the largest number."""
-    missed, false = tally.false_negatives, tally.false_positives
+    """Checks counters, rates with their intervals, and quantiles of distances."""
+    for name in ('queries', 'collisions', 'false_negatives', 'false_positives'):
+        comparison.same('counters', f'{where} {name}', found[name], getattr(tally, name))
+    comparison.within(
+        'counters', f'{where} refuted_bounds', found['refuted_bounds'], *tally.refuted()
+    )
+    by_wang = 0 if tally.claims else tally.false_positives
+    comparison.same(
+        'counters', f'{where} by wang', found['false_positives_measured_by_wang'], by_wang
+    )
+    comparison.same(
+        'counters', f'{where} bound', found['bound_of_distances'], 'wang' if by_wang else 'claimed'
+    )
     of_negatives, of_positives = denominators(tally)
-    times, by_wang = tally.times, 0 if tally.claims else false
-    exact = {
-        'queries': tally.queries,
-        'collisions': tally.collisions,
-        'false_negatives': missed,
-        'false_positives': false,
-        'false_positives_measured_by_wang': by_wang,
-        'bound_of_distances': 'wang' if by_wang else 'claimed',
-        'unknown': tally.unknown,
-        'times_given': times.given,
-        'times_promised': times.promised,
-        'late': times.late,
-        'stuck': times.stuck,
-        'time_sort': times.sort,
-    }
-    near = {
-        'false_negative_rate': (rate(missed, of_negatives), ROUNDING),
-        'false_negative_rate_upper_95': (upper_bound(missed, of_negatives), SOLVED),
-        'false_negative_rate_interval_95': (interval(missed, of_negatives), SOLVED),
-        'false_positive_rate': (rate(false, of_positives), ROUNDING),
-        'false_positive_rate_interval_95': (interval(false, of_positives), SOLVED),
-    }
-    within = {
-        'refuted_bounds': tally.refuted(),
-        'max_fp_distance_over_bound': tally.ratios.most(),
-        'max_early': times.early.most(),
-        'max_after': times.after.most(),
-    }
-    quantiles = {
-        f'{name}_{of}': (numbers.quantile_bins(part), largest)
-        for of, numbers, largest in (
-            ('fp_distance_over_bound', tally.ratios, 'max_fp_distance_over_bound'),
-            ('early', times.early, 'max_early'),
+    for name, value in (
+        ('false_negative_rate', rate(tally.false_negatives, of_negatives)),
+        ('false_positive_rate', rate(tally.false_positives, of_positives)),
+    ):
+        comparison.near('rates', f'{where} {name}', found[name], value, ROUNDING)
+    upper = upper_bound(tally.false_negatives, of_negatives)
+    comparison.near(
+        'intervals',
+        f'{where} false_negative_rate',
+        found['false_negative_rate_upper_95'],
+        upper,
+        SOLVED,
+    )
+    for name, count, total in (
+        ('false_negative_rate', tally.false_negatives, of_negatives),
+        ('false_positive_rate', tally.false_positives, of_positives),
+    ):
+        for end, value in zip(found[f'{name}_interval_95'], interval(count, total)):
+            comparison.near('intervals', f'{where} {name}', end, value, SOLVED)
+    largest = tally.ratios.largest()[0] if tally.false_positives else (0, 0)
+    comparison.within('largest ratios', where, found['max_fp_distance_over_bound'], *largest)
+    for name, part in (('median', 0.5), ('q99', 0.99)):
+        check_quantile(
+            comparison,
+            f'{where} {name}',
+            found[f'{name}_fp_distance_over_bound'],
+            tally.ratios.quantile_bins(part),
+            found['max_fp_distance_over_bound'],
         )
-        for name, part in (('median', 0.5), ('q99', 0.99))
-    }
-    quantiles['q99_travelled'] = times.travelled.quantile_bins(0.99), None
-    return exact, near, within, quantiles
+    check_times(comparison, where, found, tally)
 
 
 def _check_kept(comparison, where, found, tally, answers, subject, kind):

@@ -1,199 +1,226 @@
-"""Checks that the numbers in texts are those of report.json, which are checked elsewhere: in the
-headline and the verdicts, and in the output of nearmiss fuzz and nearmiss report. The words around
-them have unit tests."""
+"""Checks texts in a report and in the output: headline, verdicts, the summary's and the ladder's
+tables.
 
-import itertools
+Numbers in text are rounded. Therefore the expected texts are made from the numbers of report.json,
+which are checked elsewhere."""
+
 import re
-from collections import Counter
 
-from enclosed import BORDERS, LARGEST
-from tally import ON_REQUEST
-
-NUMBER = r'(\d[\d,]*)'
-# Columns of tables and their keys in report.json. Run times are left out.
-COLUMNS = {
-    'queries': 'queries',
-    'collisions': 'collisions',
-    'false neg.': 'false_negatives',
-    'missed': 'false_negatives',
-    'rate below*': 'false_negative_rate_upper_95',
-    'false pos.': 'false_positives',
-    'max dist/bound': 'max_fp_distance_over_bound',
-    'sort': 'time_sort',
-    'times': 'times_given',
-    'late': 'late',
-    'stuck': 'stuck',
-    'unknown': 'unknown',
-    'early: median': 'median_early',
-    '99 %': 'q99_early',
-    'most': 'max_early',
-    'after t*': 'max_after',
-    'epsilon': 'epsilon',
-    'farthest / B': 'farthest',
-    'claimed / B': 'claimed',
-    'invalid': ('faults', 'invalid'),
-}
-
-
-def agrees(text, value):
-    """Whether a number in text is a value, rounded to the digits of the text; of a range, its upper
-    end."""
-    text = text.removesuffix('**')
-    if isinstance(value, list):
-        value = value[1]
-    if text == '-' or isinstance(value, str):
-        return text == (value or '-')
-    if text == 'inf' or value == LARGEST:
-        return text == 'inf' and value == LARGEST
-    if text.startswith('2^'):
-        return 2.0 ** int(text[2:]) == value
-    if text.startswith('below '):
-        return 0 < value < BORDERS[0]
-    if isinstance(value, int):
-        return text == f'{value:,}'
-    digits = len(re.sub(r'e.*|\D', '', text).lstrip('0')) or 1
-    return float(text) == float(f'{value:.{digits}g}')
-
-
-def _same(comparison, where, text, value):
-    """A number in text must be a value."""
-    if agrees(text, value):
-        comparison.agree('text', 1)
-    else:
-        comparison.fail('text', where, text, value)
-
-
-def numbers(text):
-    """The whole numbers in a text."""
-    return [int(number.replace(',', '')) for number in re.findall(NUMBER, text)]
+from asking import KINDS
+from verdict_text import failures_said, fraction, general, headline, verdict, versions
 
 
 def check_text(comparison, section, report, json_report):
-    """Checks texts in the report, and the output of nearmiss fuzz and nearmiss report."""
-    _check_headline(comparison, section, json_report)
-    comparison.same('text', f'{section} complaint', json_report['oracle']['complaint'], '')
-    for where, text in (('fuzz', report.fuzz_text), ('report', report.report_text)):
-        _check_output(comparison, f'nearmiss {where}', text, json_report)
+    """Checks text in the report, and the output of nearmiss fuzz and nearmiss report."""
+    verdicts = {
+        subject: verdict(subject, json_report) for subject in sorted(json_report['subjects'])
+    }
+    _check_headline(comparison, section, json_report, verdicts)
+    _check_verdicts(comparison, section, json_report, verdicts)
+    for where, text in (
+        ('nearmiss fuzz', report.fuzz_text),
+        ('nearmiss report', report.report_text),
+    ):
+        _check_output(comparison, where, text, json_report, verdicts)
+    if 'ladder' in json_report:
+        _check_ladder(comparison, report.fuzz_text.splitlines(), json_report['ladder'])
 
 
-def _check_headline(comparison, section, report):
-    """Checks the headline, the alarms and the verdicts. Each of their whole numbers is one of the
-    subject's."""
-    found, verdicts = report['headline'], report['verdicts']
-    is_clean = all(verdict['clean'] for verdict in verdicts)
+def _check_headline(comparison, section, json_report, verdicts):
+    found = json_report['headline']
+    expected = headline(json_report, verdicts)
+    comparison.same('text', f'{section} headline', found['text'], expected)
+    is_clean = all(clean for clean, _ in verdicts.values())
     comparison.same('text', f'{section} headline clean', found['clean'], is_clean)
-    asked = numbers(found['text'].rpartition(', in ')[2])
-    total = report['oracle']['total']['queries']
-    comparison.same('text', f'{section} headline queries', asked, [total])
-    alarming = [
-        verdict['subject']
-        for verdict in verdicts
-        for failure in verdict['failures']
-        if failure not in ON_REQUEST
+    expected = [
+        f'{subject} {said}'
+        for subject in verdicts
+        for _, said in failures_said(json_report['subjects'][subject])
     ]
-    comparison.same('text', f'{section} alarms', len(found['alarms']), len(alarming))
-    said = [
-        *zip(alarming, found['alarms']),
-        *((each['subject'], each['text']) for each in verdicts),
-    ]
-    for subject, text in said:
-        text = text.removeprefix(f'{subject} ').partition('the farthest ')[0]
-        wrong = set(numbers(text)) - _counts_of(report, subject)
-        comparison.same('text', f'{section} numbers of {subject} in "{text}"', wrong, set())
+    comparison.same('text', f'{section} headline alarms', found['alarms'], expected)
 
 
-def _counts_of(report, subject):
-    """The counts of a subject: of each kind, of both, and of each class."""
-    (verdict,) = (each for each in report['verdicts'] if each['subject'] == subject)
-    kinds = list(report['subjects'][subject].values())
-    by_name = [
-        sum((Counter(of[key]) for of in kinds), Counter())
-        for key in ('false_negatives_by_class', 'false_positives_by_stage')
-    ]
-    sums = [verdict['counts'], *verdict['classes'].values(), *by_name]
-    for of in kinds:
-        sums += [of, of['false_negatives_by_class'], *of['classes'].values()]
-    return {value for each in sums for value in each.values() if isinstance(value, int)}
+def _check_verdicts(comparison, section, json_report, verdicts):
+    names = [each['subject'] for each in json_report['verdicts']]
+    comparison.same('text', f'{section} verdicts', names, sorted(verdicts))
+    for each in json_report['verdicts']:
+        clean, text = verdicts.get(each['subject'], (None, None))
+        where = f'{section} verdict of {each["subject"]}'
+        comparison.same('text', where, each['text'], text)
+        comparison.same('text', f'{where} clean', each['clean'], clean)
+    complaint = json_report['oracle']['complaint']
+    comparison.same('text', f"{section} the oracle's complaint", complaint, '')
 
 
-def _check_output(comparison, where, text, report):
-    """Checks the verdicts, the tables, and the lines with numbers in the output of one command."""
+def _check_output(comparison, where, text, json_report, verdicts):
+    """Checks the verdicts, the table of counters, and the oracle's lines in the output of one
+    command."""
     lines = text.splitlines()
     expected = [
-        f'{" ok " if each["clean"] else "FAIL"} {each["subject"]}: {each["text"]}'
-        for each in report['verdicts']
+        f'{" ok " if clean else "FAIL"} {subject}: {said}'
+        for subject, (clean, said) in verdicts.items()
     ]
     comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
-    _check_tables(comparison, where, lines, report)
-    _check_versions(comparison, where, lines, report.get('versions', []))
-    total = report['oracle']['total']
-    keys = ('queries', 'compared', 'missed_by_parity', 'compared_collisions')
-    expected = [total[key] for key in keys]
-    expected.insert(1, total['decided_by']['undecided'])
-    found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
-    comparison.same('text', f'{where} oracle', numbers(found[0]), expected)
-
-
-def _check_versions(comparison, where, lines, rows):
-    """Checks the line of each pair of versions: the sums, then what each class and kind has."""
+    _check_table(comparison, where, lines, ['subject', 'kind', 'queries'], summary(json_report))
+    if times(json_report):
+        heading = ['subject', 'kind', 'class', 'sort']
+        _check_table(comparison, where, lines, heading, times(json_report), last_is_time=False)
+    if len({row[2] for row in class_rows(json_report)}) > 1:
+        heading = ['subject', 'kind', 'class', 'queries']
+        _check_table(comparison, where, lines, heading, class_rows(json_report))
+    found = [line for line in lines if ' % of the missed ones have ' in line]
+    expected = [common_factors(each) for each in json_report.get('common_factors', [])]
+    comparison.same('text', f'{where} common factors', found, expected)
     found = [line for line in lines if ' both fail, of ' in line]
-    pairs = list(dict.fromkeys((row['before'], row['after']) for row in rows))
-    comparison.same('text', f'{where} number of versions', len(found), len(pairs))
-    keys = ('fixed', 'broken', 'both')
-    for line, pair in zip(found, pairs):
-        own = [row for row in rows if (row['before'], row['after']) == pair]
-        expected = [sum(row[key] for row in own) for key in (*keys, 'queries')]
-        expected += [row[key] for row in own for key in keys if row[key]]
-        comparison.same('text', f'{where} {pair}', numbers(line.partition(': ')[2]), expected)
+    comparison.same('text', f'{where} versions', found, versions(json_report))
+    found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
+    expected = oracle_line(json_report['oracle']['total'])
+    comparison.same('text', f'{where} oracle', found and found[0], expected)
 
 
-def _sums(report):
-    """The counters that each table shows, by the first cells of its rows."""
-    kinds = {
-        (subject, kind): own[kind] for subject, own in report['subjects'].items() for kind in own
-    }
-    classes = {
-        (*key, name): each for key, own in kinds.items() for name, each in own['classes'].items()
-    }
-    rungs = report.get('ladder', {}).get('rungs', [])
-    return {
-        'queries': kinds,
-        'sort': {key: each for key, each in classes.items() if each['times_given']},
-        'class': classes,
-        'epsilon': {(rung['subject'],): rung for rung in rungs},
-    }
+def _check_ladder(comparison, lines, found):
+    """Checks the table and the fits that nearmiss fuzz prints."""
+    heading = ['subject', 'epsilon']
+    _check_table(comparison, 'nearmiss fuzz ladder', lines, heading, ladder(found))
+    fits = [line for line in lines if ' of the claimed distance' in line]
+    expected = [fit(each) for each in found['fits'] if not each['origin']]
+    comparison.same('text', 'nearmiss fuzz fits', fits, expected)
 
 
-def _check_tables(comparison, where, lines, report):
-    """Checks each table whose first column is the subject."""
-    cells = [re.split(r' {2,}', line.strip()) for line in lines]
-    sums = _sums(report)
-    expected = ['queries']
-    expected += ['sort'] if sums['sort'] else []
-    expected += ['class'] if len({key[2] for key in sums['class']}) > 1 else []
-    expected += ['epsilon'] if where == 'nearmiss fuzz' and sums['epsilon'] else []
-    starts = {_table(row): i for i, row in enumerate(cells) if _table(row)}
-    comparison.same('text', f'{where} tables', list(starts), expected)
-    for name, start in starts.items():
-        rows = list(itertools.takewhile(lambda row: len(row) > 1, cells[start + 1 :]))
-        for row, (key, counts) in zip(rows, sums[name].items()):
-            comparison.same('text', f'{where} row of {name}', row[: len(key)], list(key))
-            for heading, cell in zip(cells[start], row):
-                if heading in COLUMNS:
-                    place = f'{where} {" ".join(key)} {heading}'
-                    _same(comparison, place, cell, _value(counts, COLUMNS[heading]))
-        comparison.same('text', f'{where} rows of {name}', len(rows), len(sums[name]))
-
-
-def _value(counts, key):
-    """The value of a key; 0 for the count of a name that an object leaves out."""
-    return counts[key] if isinstance(key, str) else counts[key[0]].get(key[1], 0)
-
-
-def _table(row):
-    """Which table has these headings: named by the heading that only it has among the first ones."""
-    if row[:1] != ['subject']:
-        return None
-    return next(
-        (name for name in ('epsilon', 'sort', 'class', 'queries') if name in row[:5]), None
+def common_factors(found):
+    """What the missed collisions of a family have in common, in words."""
+    collisions = f'{found["collisions"]:,} collision{"" if found["collisions"] == 1 else "s"}'
+    return (
+        f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
+        f'{collisions} missed; {found["text"]}'
     )
+
+
+def summary(report):
+    """The rows of the summary's table, without times."""
+    rows = []
+    for subject, own in report['subjects'].items():
+        for kind in KINDS:
+            c = own[kind]
+            rows.append(
+                [
+                    subject,
+                    kind,
+                    f'{c["queries"]:,}',
+                    f'{c["collisions"]:,}',
+                    f'{c["false_negatives"]:,}',
+                    general(c['false_negative_rate_upper_95'], 2),
+                    late_times(c),
+                    f'{c["false_positives"]:,}',
+                    fraction(c['max_fp_distance_over_bound'])
+                    + ('' if c['bound_of_distances'] == 'claimed' else '**'),
+                ]
+            )
+    return rows
+
+
+def late_times(counts):
+    """The number of late times, if any were to be lower bounds."""
+    return f'{counts["late"]:,}' if counts['times_promised'] else '-'
+
+
+def classes(report):
+    """The counters of each subject, kind and class."""
+    return [
+        ([subject, kind, name], each)
+        for subject, own in report['subjects'].items()
+        for kind in KINDS
+        for name, each in own[kind]['classes'].items()
+    ]
+
+
+def times(report):
+    """The rows of the table of times of impact."""
+    return [
+        [
+            *key,
+            each['time_sort'],
+            f'{each["times_given"]:,}',
+            late_times(each),
+            f'{each["stuck"]:,}',
+            '0',  # invalid; there are no faults (check_counts.py)
+            f'{each["unknown"]:,}',
+            *(general(each[f'{name}_early'][1], 2) for name in ('median', 'q99')),
+            *(general(each[f'max_{side}'], 2) for side in ('early', 'after')),
+        ]
+        for key, each in classes(report)
+        if each['times_given']
+    ]
+
+
+def class_rows(report):
+    """The rows of the table by class, without times."""
+    return [
+        [
+            *key,
+            *(f'{each[counter]:,}' for counter in ('queries', 'collisions', 'false_negatives')),
+            late_times(each),
+            f'{each["false_positives"]:,}',
+        ]
+        for key, each in classes(report)
+    ]
+
+
+def ladder(found):
+    """The rows of the ladder's table, without times."""
+    return [
+        [
+            rung['subject'],
+            f'2^{json_exponent(rung["epsilon"])}',
+            f'{rung["queries"]:,}',
+            f'{rung["false_negatives"]:,}',
+            f'{rung["false_positives"]:,}',
+            general(rung['farthest'], 3),
+            general(rung['claimed'], 3),
+        ]
+        for rung in found['rungs']
+    ]
+
+
+def json_exponent(power_of_two):
+    """The exponent x of 2^x."""
+    return int(power_of_two.hex().partition('p')[2])
+
+
+def fit(found):
+    """The line that describes a fit."""
+    of = found['algorithm']
+    subjects = f'{found["points"]} subjects with {found["precisions"]} precisions'
+    ends = [fraction(found[f'{end}_part_of_claimed']) for end in ('least', 'greatest')]
+    parts = f'{" to ".join(ends)} of the claimed distance'
+    if found['restates_the_bound']:
+        return f'{of}: the farthest are at {parts} for {subjects}'
+    power = f'({found["exponent"]:.4f} +- {found["half_width_95"]:.2g}, 95 %)'
+    return f'{of}: the farthest distance goes as epsilon^{power}, from {subjects}; at {parts}'
+
+
+def oracle_line(total):
+    """The two lines about the oracle."""
+    parts = [
+        f'oracle: {total["queries"]:,} queries',
+        f' {total["decided_by"]["undecided"]:,} left to exact arithmetic by the filters; '
+        f'{total["compared"]:,} decided by all exact methods: they agree',
+        f' and {total["missed_by_parity"]:,} of {total["compared_collisions"]:,} collisions\n'
+        'have an even number of roots',
+        ' which root parity cannot see',
+    ]
+    return ','.join(parts)
+
+
+def _check_table(comparison, where, lines, heading, rows, last_is_time=True):
+    """Checks the rows below the line that begins with the heading. A run time in the last column is
+    left out."""
+    cells = [re.split(r' {2,}', line.strip()) for line in lines]
+    start = next((i for i, row in enumerate(cells) if row[: len(heading)] == heading), None)
+    if start is None:
+        return comparison.fail('text', where, 'no table', ' '.join(heading))
+    end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)
+    found = [row[:-1] if last_is_time else row for row in cells[start + 1 : end]]
+    comparison.same('text', f'{where} number of rows', len(found), len(rows))
+    for row, expected in zip(found, rows):
+        comparison.same('text', f'{where} row {" ".join(expected[:2])}', row, expected)

@@ -1,9 +1,45 @@
-"""Checks times of impact in report.json, and in the JSON of nearmiss fuzz: histograms and single times."""
+"""Checks times of impact in report.json, in the JSON of nearmiss fuzz, and in CSV files."""
 
 from asking import KINDS
 from check_numbers import check_histogram, check_quantile, check_query
 from enclosed import PRECISION, reported
 from tally import Tally
+
+
+def check_times(comparison, where, found, tally):
+    """Checks the counters of times, and the quantiles of their errors."""
+    times = tally.times
+    for name, value in counters(tally).items():
+        comparison.same('times', f'{where} {name}', found[name], value)
+    comparison.same('times', f'{where} time_sort', found['time_sort'], times.sort)
+    for side, errors in (('early', times.early), ('after', times.after)):
+        comparison.within('times', f'{where} {side}', found[f'max_{side}'], *_most(errors))
+    for name, part in (('median', 0.5), ('q99', 0.99)):
+        bins = times.early.quantile_bins(part)
+        check_quantile(
+            comparison, f'{where} {name}', found[f'{name}_early'], bins, found['max_early']
+        )
+    travelled = times.travelled.quantile_bins(0.99)
+    check_quantile(
+        comparison, f'{where} travelled', found['q99_travelled'], travelled, float('inf')
+    )
+
+
+def counters(tally):
+    """The counters of times by name."""
+    times = tally.times
+    return {
+        'times_given': times.given,
+        'times_promised': times.promised,
+        'late': times.late,
+        'stuck': times.stuck,
+        'unknown': tally.unknown,
+    }
+
+
+def _most(errors):
+    """The range of the largest error."""
+    return errors.largest()[0] if len(errors) else (0, 0)
 
 
 def check_time_histograms(comparison, where, found, times):
@@ -69,7 +105,7 @@ def check_trade_off_times(comparison, where, found, times):
     """Checks the errors of times on both sides together."""
     errors = times.errors
     largest = found['max_time_error']
-    comparison.within('times', f'{where} largest', largest, *errors.most())
+    comparison.within('times', f'{where} largest', largest, *_most(errors))
     for name, part in (('median', 0.5), ('q99', 0.99)):
         bins = errors.quantile_bins(part)
         check_quantile(comparison, f'{where} {name}', found[f'{name}_time_error'], bins, largest)

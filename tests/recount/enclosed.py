@@ -54,10 +54,6 @@ class Enclosed:
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
-    def most(self):
-        """The range of the largest number; 0 without numbers."""
-        return self.largest()[0] if len(self) else (0, 0)
-
     def quantile_bins(self, part):
         """The first and the last bin that may contain the number that a fraction `part` of all does
         not exceed.
