@@ -99,8 +99,9 @@ std::string terminal_picture(const Query& query, double time) {
   const auto edge = [&](std::size_t i, std::size_t j, char mark) {
     sheet.draw(at(i, time), at(j, time), mark);
   };
-  if (has_triangle(query.kind)) sheet.draw(at(0, time), 'o');
-  for (const auto& [from, to] : topology(query.kind).edges) edge(from, to, from == 0 ? 'o' : '#');
+  const auto& edges = topology(query.kind).edges;
+  for (std::size_t i = edges.size(); i-- > 0;)  // the first primitive is on top
+    edge(edges[i].from, edges[i].to, edges[i].from == 0 ? 'o' : '#');
   constexpr std::string_view numbers = "0123";
   for (std::size_t i = 4; i-- > 0;) sheet.draw(at(i, time), numbers[i]);
   return sheet.text();

@@ -36,7 +36,7 @@ struct VertexAndEdge {
   std::uint8_t to;      ///< its other end
 };
 
-/// What the two primitives of a query are made of. Whoever needs the vertices, edges or pairs of a kind reads them here.
+/// The names of a kind, and its vertices, edges and pairs of them. No other place lists these.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
@@ -44,10 +44,10 @@ struct Topology {
   Primitive second;                   ///< with the vertices x[split .. 4)
   std::span<const VertexPair> edges;  ///< of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
-  std::span<const VertexAndEdge>
-      first_to_second;  ///< each vertex of the first primitive and each edge of the second
-  std::span<const VertexAndEdge>
-      second_to_first;  ///< each vertex of the second primitive and each edge of the first
+  /// Each vertex and each edge of the other primitive: those with a vertex of the first primitive, then the others.
+  std::span<const VertexAndEdge> vertices_and_edges;
+  std::span<const VertexAndEdge> first_to_second;  ///< of these, those with a vertex of the first primitive
+  std::span<const VertexAndEdge> second_to_first;  ///< the others
   /// p, q and r (x_to - x_from), where N = q × r is the normal and F = p · N the coplanarity (§3.3, §3.4).
   std::array<VertexPair, 3> pqr;
 };
@@ -56,36 +56,39 @@ namespace topologies {
 
 inline constexpr std::array<VertexPair, 3> edges_of_vt{{{1, 2}, {2, 3}, {3, 1}}};
 inline constexpr std::array<VertexPair, 3> gaps_of_vt{{{0, 1}, {0, 2}, {0, 3}}};
-inline constexpr std::array<VertexAndEdge, 3> first_to_second_of_vt{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+inline constexpr std::array<VertexAndEdge, 3> vertices_and_edges_of_vt{{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
 
 inline constexpr std::array<VertexPair, 2> edges_of_ee{{{0, 1}, {2, 3}}};
 inline constexpr std::array<VertexPair, 4> gaps_of_ee{{{0, 2}, {0, 3}, {1, 2}, {1, 3}}};
-inline constexpr std::array<VertexAndEdge, 2> first_to_second_of_ee{{{0, 2, 3}, {1, 2, 3}}};
-inline constexpr std::array<VertexAndEdge, 2> second_to_first_of_ee{{{2, 0, 1}, {3, 0, 1}}};
+inline constexpr std::array<VertexAndEdge, 4> vertices_and_edges_of_ee{
+    {{0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}}};
 
 /// In the order of Kind.
-inline constexpr std::array<Topology, 2> of_kinds{{{.short_name = "vt",
-                                                    .name = "vertex_triangle",
-                                                    .first = Primitive::vertex,
-                                                    .second = Primitive::triangle,
-                                                    .edges = edges_of_vt,
-                                                    .gaps = gaps_of_vt,
-                                                    .first_to_second = first_to_second_of_vt,
-                                                    .second_to_first = {},
-                                                    .pqr = {{{1, 0}, {1, 2}, {1, 3}}}},
-                                                   {.short_name = "ee",
-                                                    .name = "edge_edge",
-                                                    .first = Primitive::edge,
-                                                    .second = Primitive::edge,
-                                                    .edges = edges_of_ee,
-                                                    .gaps = gaps_of_ee,
-                                                    .first_to_second = first_to_second_of_ee,
-                                                    .second_to_first = second_to_first_of_ee,
-                                                    .pqr = {{{0, 2}, {0, 1}, {2, 3}}}}}};
+inline constexpr std::array<Topology, 2> of_kinds{
+    {{.short_name = "vt",
+      .name = "vertex_triangle",
+      .first = Primitive::vertex,
+      .second = Primitive::triangle,
+      .edges = edges_of_vt,
+      .gaps = gaps_of_vt,
+      .vertices_and_edges = vertices_and_edges_of_vt,
+      .first_to_second = vertices_and_edges_of_vt,
+      .second_to_first = {},
+      .pqr = {{{1, 0}, {1, 2}, {1, 3}}}},
+     {.short_name = "ee",
+      .name = "edge_edge",
+      .first = Primitive::edge,
+      .second = Primitive::edge,
+      .edges = edges_of_ee,
+      .gaps = gaps_of_ee,
+      .vertices_and_edges = vertices_and_edges_of_ee,
+      .first_to_second = std::span(vertices_and_edges_of_ee).first(2),
+      .second_to_first = std::span(vertices_and_edges_of_ee).last(2),
+      .pqr = {{{0, 2}, {0, 1}, {2, 3}}}}}};
 
 }  // namespace topologies
 
-/// What the primitives of a kind are made of.
+/// The entry of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt" or "ee".

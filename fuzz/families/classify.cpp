@@ -257,12 +257,9 @@ bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost
 /// Whether primitives that touch do so near an edge of the triangle, or near an end of an edge.
 template <class Real, class AtMost>
 bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
-  const auto is_any_near = [&](std::span<const VertexAndEdge> pairs) {
-    return std::any_of(pairs.begin(), pairs.end(),
-                       [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
-  };
-  const Topology& of = topology(moment.kind);
-  return is_any_near(of.first_to_second) || is_any_near(of.second_to_first);
+  const auto& pairs = topology(moment.kind).vertices_and_edges;
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
 }
 
 /// Whether t* <= time. The difference to is_before matters only for a t* that is this double.

@@ -51,7 +51,7 @@ class CampaignRun {
                 [this, cases = slice->cases()](bool complete) { return counts(cases, complete); }};
   }
 
-  /// What follows an interrupted slice does not count.
+  /// A slice counts unless it, or one before it, was interrupted.
   bool counts(std::uint64_t cases, bool complete) {
     is_over_ = is_over_ || !complete;
     if (!is_over_) progress_.cases += cases;

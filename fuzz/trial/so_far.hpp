@@ -1,4 +1,4 @@
-// What the cases that count so far say about the next ones.
+// What earlier cases tell about later ones: which subjects are set aside, and which distances are among the farthest.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,10 @@ namespace nearmiss {
 /// queries of the same family and kind.
 inline constexpr std::uint64_t most_slow = 3;
 
-inline std::uint64_t slow_queries(const Counts& counts) {
-  return counts.faults[static_cast<std::size_t>(Fault::time)];
-}
-
 /// Whether a subject with these counts is set aside.
-inline bool is_set_aside(const Counts& counts) { return slow_queries(counts) >= most_slow; }
+inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fault::time) >= most_slow; }
 
-/// What is known of a subject, kind and family.
+/// What earlier cases tell about one subject, kind and family.
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
   /// The ratio that a false positive needs to be among the farthest, which are kept. The distance of others
@@ -49,9 +45,10 @@ class SoFar {
   void take(const std::map<CountsKey, Counts>& all) {
     const std::lock_guard lock(mutex_);
     for (const auto& [key, counts] : all) {
-      if (counts.farthest.empty() && slow_queries(counts) == 0) continue;
+      const std::uint64_t slow_now = counts.without_answer(Fault::time);
+      if (counts.farthest.empty() && slow_now == 0) continue;
       auto& [slow, farthest] = sums_[key];
-      slow += slow_queries(counts);
+      slow += slow_now;
       for (const FarCase& each : counts.farthest) farthest.push_back(each.ratio);
       std::sort(farthest.begin(), farthest.end(), std::greater<>());
       if (farthest.size() > Counts::far_cases) farthest.resize(Counts::far_cases);

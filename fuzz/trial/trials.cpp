@@ -41,7 +41,7 @@ Batch slice(const Batch& batch, std::size_t first, std::size_t last) {
 /// The number of queries over the time limit in some counters.
 std::uint64_t slow_in(const Statistics& statistics, const CountsKey& key) {
   const auto found = statistics.counts.find(key);
-  return found == statistics.counts.end() ? 0 : slow_queries(found->second);
+  return found == statistics.counts.end() ? 0 : found->second.without_answer(Fault::time);
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// What is known of each subject before the next trial of a piece of work: from what counted when the work
-/// began, and from the work itself.
+/// What is known of each subject before the next trial of a piece of work: what counted when the work began,
+/// and what the work itself has found since.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {

@@ -131,9 +131,8 @@ ClosestPoints<Real> points_of(const VerticesAt<Real>& x, Candidate<Real>& best) 
 template <class Real>
 ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   detail::Candidate<Real> best;
-  const Topology& of = topology(x.differences().kind());
-  for (const auto& pairs : {of.first_to_second, of.second_to_first})
-    for (const VertexAndEdge& pair : pairs) detail::consider_edge(x, pair.vertex, pair.from, pair.to, best);
+  for (const auto& [vertex, from, to] : topology(x.differences().kind()).vertices_and_edges)
+    detail::consider_edge(x, vertex, from, to, best);
   detail::consider_interiors(x, best);
   return detail::points_of(x, best);
 }

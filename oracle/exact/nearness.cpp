@@ -33,8 +33,7 @@ Nearness::Nearness(const Query& query, double b) {
   const auto x = moving_points(query, unit);
   const Topology& of = topology(query.kind);
   for (const VertexPair gap : of.gaps) add_vertices(x[gap.from], x[gap.to]);
-  for (const auto& pairs : {of.first_to_second, of.second_to_first})
-    for (const VertexAndEdge& pair : pairs) add_vertex_and_edge(x[pair.vertex], x[pair.from], x[pair.to]);
+  for (const auto& [vertex, from, to] : of.vertices_and_edges) add_vertex_and_edge(x[vertex], x[from], x[to]);
   if (has_triangle(query.kind))
     add_vertex_and_triangle(x);
   else

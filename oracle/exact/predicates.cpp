@@ -55,11 +55,9 @@ std::vector<Polynomial> Predicates::make_weights(std::size_t k) {
 
 std::vector<OnSegment> Predicates::make_segments() const {
   const auto x = moving_points(query_, unit_);
-  const Topology& of = topology(query_.kind);
   std::vector<OnSegment> segments;
-  for (const auto& pairs : {of.first_to_second, of.second_to_first})
-    for (const VertexAndEdge& pair : pairs)
-      segments.push_back(on_segment(x[pair.vertex], x[pair.from], x[pair.to]));
+  for (const auto& [vertex, from, to] : topology(query_.kind).vertices_and_edges)
+    segments.push_back(on_segment(x[vertex], x[from], x[to]));
   return segments;
 }
 

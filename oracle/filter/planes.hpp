@@ -32,7 +32,7 @@ struct HeightRange {
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
-  // Of the vertices from `begin` to `end`.
+  // The range of the heights of some vertices, those from `begin` up to `end`, which is not among them.
   const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
     HeightRange<Real> heights(height(time, begin));
     for (std::size_t vertex = begin + 1; vertex < end; ++vertex) heights.add(height(time, vertex));

@@ -112,11 +112,9 @@ std::vector<IntegerPolynomial> Primitives::make_weights() {
 }
 
 std::vector<SegmentMembership> Primitives::make_segments() const {
-  const Topology& of = topology(kind_);
   std::vector<SegmentMembership> segments;
-  for (const auto& pairs : {of.first_to_second, of.second_to_first})
-    for (const VertexAndEdge& pair : pairs)
-      segments.emplace_back(x_[pair.vertex], x_[pair.from], x_[pair.to]);
+  for (const auto& [vertex, from, to] : topology(kind_).vertices_and_edges)
+    segments.emplace_back(x_[vertex], x_[from], x_[to]);
   return segments;
 }
 

@@ -114,8 +114,7 @@ class FeaturePairs {
     squared_separation_ = IntegerPolynomial({h * h});
     const Topology& of = topology(query.kind);
     for (const VertexPair gap : of.gaps) add_vertices(gap.from, gap.to);
-    for (const auto& pairs : {of.first_to_second, of.second_to_first})
-      for (const VertexAndEdge& pair : pairs) add_vertex_and_edge(pair.vertex, pair.from, pair.to);
+    for (const auto& [vertex, from, to] : of.vertices_and_edges) add_vertex_and_edge(vertex, from, to);
     const IntegerPolynomial& area = primitives_.area();
     all.emplace_back(primitives_.F() * primitives_.F() - squared_separation_ * area, primitives_.weights(),
                      area);

@@ -77,13 +77,9 @@ std::map<Signature, Sightings> sightings_in(std::span<const Campaign> campaigns)
   return all;
 }
 
-std::uint64_t faults(const Counts& counts, Fault fault) {
-  return counts.faults[static_cast<std::size_t>(fault)];
-}
-
 /// The number of queries that a subject was not asked.
 std::uint64_t unasked(const Counts& counts) {
-  return faults(counts, Fault::not_asked) + faults(counts, Fault::contract);
+  return counts.without_answer(Fault::not_asked) + counts.without_answer(Fault::contract);
 }
 
 /// The number of queries that could have failed in a sort: a miss needs an answer, a fault only a question.

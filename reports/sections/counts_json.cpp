@@ -45,7 +45,7 @@ ordered_json value_json(const SubjectTimes& times) {
 
 template <class Owner, class Member>
 void add_counter(ordered_json& json, const Owner& owner, const Counter<Owner, Member>& counter) {
-  ordered_json& object = counter.shown == Shown::in_times ? json["times"] : json;
+  ordered_json& object = counter.json_object.empty() ? json : json[std::string(counter.json_object)];
   object[std::string(counter.json_key)] = value_json(owner.*counter.member);
 }
 

@@ -43,9 +43,7 @@ Value ns_of_single(const CountsSum& sum) {
   return as_value(sum.counts.times.each.quantile(hundredths / 100.0));
 }
 
-Value invalid_answers(const CountsSum& sum) {
-  return sum.counts.faults[static_cast<std::size_t>(Fault::invalid)];
-}
+Value invalid_answers(const CountsSum& sum) { return sum.counts.without_answer(Fault::invalid); }
 
 Value upper_bound_of_misses(const CountsSum& sum) {
   if (!sum.is_sample) return {};

@@ -1,5 +1,5 @@
-// What reports show of a subject's counters: the table of measures. A section is a key by which counters are summed
-// (sums_by), and a list of measures that it shows of each sum.
+// The table of measures: each number that reports compute from a subject's counters, with its names in files and tables. A section of
+// a report sums counters by some key (sums_by), and shows a list of measures of each sum.
 #pragma once
 
 #include <cstddef>

@@ -89,7 +89,7 @@ std::string time_table(const Statistics& statistics) {
   auto sums = by_class(statistics);
   std::erase_if(sums, [](const auto& each) {
     const Counts& counts = each.second.counts;
-    return counts.times_given == 0 && counts.faults[static_cast<std::size_t>(Fault::invalid)] == 0;
+    return counts.times_given == 0 && counts.without_answer(Fault::invalid) == 0;
   });
   if (sums.empty()) return "";
   return table(sums, {"subject", "kind", "class"}, cells_of,

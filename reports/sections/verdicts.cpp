@@ -134,17 +134,13 @@ void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerd
   }
 }
 
-std::uint64_t faults(const Counts& counts, Fault fault) {
-  return counts.faults[static_cast<std::size_t>(fault)];
-}
-
 /// "NO ANSWER to 3 queries (2 crash, 1 exception)"
 std::string fault_text(const Counts& counts) {
   std::vector<std::string> reasons;
   for (const Fault each : {Fault::error, Fault::crash, Fault::memory, Fault::exception, Fault::protocol,
                            Fault::invalid, Fault::load})
-    if (faults(counts, each) > 0)
-      reasons.push_back(fmt::format("{} {}", with_separators(faults(counts, each)),
+    if (counts.without_answer(each) > 0)
+      reasons.push_back(fmt::format("{} {}", with_separators(counts.without_answer(each)),
                                     fault_names[static_cast<std::size_t>(each)]));
   return fmt::format("NO ANSWER to {} ({})",
                      counted(failure_info(FailureKind::fault).count(counts), "query", "queries"),
@@ -155,9 +151,10 @@ std::string fault_text(const Counts& counts) {
 std::string slow_text(const Counts& counts) {
   std::string text = fmt::format("SLOW in {} ({} over the time limit",
                                  counted(failure_info(FailureKind::slow).count(counts), "query", "queries"),
-                                 with_separators(faults(counts, Fault::time)));
-  if (faults(counts, Fault::not_asked) > 0)
-    text += fmt::format(", {} not asked after that", with_separators(faults(counts, Fault::not_asked)));
+                                 with_separators(counts.without_answer(Fault::time)));
+  if (counts.without_answer(Fault::not_asked) > 0)
+    text +=
+        fmt::format(", {} not asked after that", with_separators(counts.without_answer(Fault::not_asked)));
   return text + ")";
 }
 
@@ -212,7 +209,7 @@ std::string answered_text(const Failures& failures, const OfSubject& subject) {
   std::string text = fmt::format("{}", fmt::join(verdict_parts(failures, subject), has_list ? "; " : ", "));
   if (failures.contains(FailureKind::contract))
     text += fmt::format("; {} not asked, beyond its contract",
-                        counted(faults(subject.all, Fault::contract), "query", "queries"));
+                        counted(subject.all.without_answer(Fault::contract), "query", "queries"));
   return text;
 }
 

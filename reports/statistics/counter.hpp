@@ -1,6 +1,6 @@
 // Declarations of counters. A counter is declared once: its name, its member, and where files show it. Merging
 // (merge_counters), the store (store/values.hpp), report.json (sections/counts_json.hpp) and statistics.csv
-// (csv.hpp) go through the declarations.
+// (csv.hpp) go through the declarations. sections/measures.hpp declares what reports compute from counters.
 #pragma once
 
 #include <array>
@@ -12,20 +12,14 @@
 
 namespace nearmiss {
 
-/// The place of a counter in report.json.
-enum class Shown : std::uint8_t {
-  with_rates,  ///< in every summary of counters, followed by the rates that are computed from it
-  in_full,     ///< in the list of all counters of a subject, kind and family
-  in_times,    ///< a time in ns, in the object "times"
-};
-
 /// A counter, or a list of cases that merges like one.
 template <class Owner, class Member>
 struct Counter {
   std::string_view name;  ///< key in the store, and column of statistics.csv
   Member Owner::*member;
-  Shown shown = Shown::in_full;
   std::string_view json_key = name;
+  std::string_view json_object =
+      "";  ///< key of the object in report.json that has it; "" for the owner's object
 };
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;

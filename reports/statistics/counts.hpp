@@ -95,18 +95,17 @@ struct Counts {
   /// Lists every counter. To add a counter, declare it here and count it in add().
   static constexpr auto counters() {
     return std::tuple{
-        Counter{"queries", &Counts::queries, Shown::with_rates},
-        Counter{"collisions", &Counts::collisions, Shown::with_rates},
+        Counter{"queries", &Counts::queries},
+        Counter{"collisions", &Counts::collisions},
         Counter{"positives", &Counts::positives},
-        Counter{"false_negatives", &Counts::false_negatives, Shown::with_rates},
-        Counter{"false_positives", &Counts::false_positives, Shown::with_rates},
-        Counter{"refuted_bounds", &Counts::refuted_bounds, Shown::with_rates},
-        Counter{"measured_by_wang", &Counts::measured_by_wang, Shown::with_rates,
-                "false_positives_measured_by_wang"},
-        Counter{"times_given", &Counts::times_given, Shown::with_rates},
-        Counter{"times_promised", &Counts::times_promised, Shown::with_rates},
-        Counter{"late", &Counts::late, Shown::with_rates},
-        Counter{"stuck", &Counts::stuck, Shown::with_rates},
+        Counter{"false_negatives", &Counts::false_negatives},
+        Counter{"false_positives", &Counts::false_positives},
+        Counter{"refuted_bounds", &Counts::refuted_bounds},
+        Counter{"measured_by_wang", &Counts::measured_by_wang, "false_positives_measured_by_wang"},
+        Counter{"times_given", &Counts::times_given},
+        Counter{"times_promised", &Counts::times_promised},
+        Counter{"late", &Counts::late},
+        Counter{"stuck", &Counts::stuck},
         NamedCounts<Counts, fault_count>{"faults", &Counts::faults, fault_names, "faults", "fault", 1},
         Counter{"times", &Counts::times},
         NamedCounts<Counts, class_names.size()>{"missed_by_class", &Counts::missed_by_class, class_names,
@@ -117,11 +116,11 @@ struct Counts {
                                          "false_positives_by_stage", "false_by"},
         NamedCounts<Counts, rejection_count>{"rejected_by", &Counts::rejected_by, rejection_names,
                                              "rejected_by", "rejected_by"},
-        Counter{"distances", &Counts::distances, Shown::in_full, "fp_distance_histogram"},
+        Counter{"distances", &Counts::distances, "fp_distance_histogram"},
         Counter{"farthest", &Counts::farthest},
-        Counter{"early", &Counts::early, Shown::in_full, "early_histogram"},
-        Counter{"after", &Counts::after, Shown::in_full, "after_histogram"},
-        Counter{"travelled", &Counts::travelled, Shown::in_full, "travelled_histogram"},
+        Counter{"early", &Counts::early, "early_histogram"},
+        Counter{"after", &Counts::after, "after_histogram"},
+        Counter{"travelled", &Counts::travelled, "travelled_histogram"},
         Counter{"earliest", &Counts::earliest},
         Counter{"latest", &Counts::latest}};
   }
@@ -133,6 +132,10 @@ struct Counts {
   void merge(const Counts& other) { merge_counters(*this, other); }
 
   [[nodiscard]] std::uint64_t faults_total() const;
+  /// Queries without an answer for this reason.
+  [[nodiscard]] std::uint64_t without_answer(Fault why) const {
+    return faults[static_cast<std::size_t>(why)];
+  }
   /// Queries that the subject answered and that are not collisions.
   [[nodiscard]] std::uint64_t others() const { return queries - faults_total() - collisions; }
   /// Rate of false positives among others(); 0 if there are no others.

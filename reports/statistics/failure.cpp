@@ -9,16 +9,12 @@ namespace nearmiss {
 
 namespace {
 
-std::uint64_t faults(const Counts& counts, Fault fault) {
-  return counts.faults[static_cast<std::size_t>(fault)];
-}
-
 /// Queries that a subject did not answer because it was slow: those over the time limit, and those that were not asked then.
 std::uint64_t slow(const Counts& counts) {
-  return faults(counts, Fault::time) + faults(counts, Fault::not_asked);
+  return counts.without_answer(Fault::time) + counts.without_answer(Fault::not_asked);
 }
 
-std::uint64_t beyond(const Counts& counts) { return faults(counts, Fault::contract); }
+std::uint64_t beyond(const Counts& counts) { return counts.without_answer(Fault::contract); }
 
 std::uint64_t faulty(const Counts& counts) { return counts.faults_total() - slow(counts) - beyond(counts); }
 

@@ -40,8 +40,8 @@ struct Funnel {
                                                            .json_key = "",
                                                            .shows_zeros = true},
                       Counter{"touching", &Funnel::touching},
-                      Counter{"finding_ns", &Funnel::finding_ns, Shown::in_times},
-                      Counter{"deciding_ns", &Funnel::deciding_ns, Shown::in_times}};
+                      Counter{"finding_ns", &Funnel::finding_ns, "finding_ns", "times"},
+                      Counter{"deciding_ns", &Funnel::deciding_ns, "deciding_ns", "times"}};
   }
 
   [[nodiscard]] std::uint64_t all() const {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -83,6 +84,13 @@ TEST(Topology, HasEveryVertexWithEveryEdgeOfTheOtherPrimitiveOnce) {
     const auto [first, second] = primitives(kind);
     expect(kind, first, second, topology(kind).first_to_second);
     expect(kind, second, first, topology(kind).second_to_first);
+    const auto& [all, first_part, second_part] = std::tie(
+        topology(kind).vertices_and_edges, topology(kind).first_to_second, topology(kind).second_to_first);
+    EXPECT_EQ(all.size(), first_part.size() + second_part.size()) << short_name(kind);
+    EXPECT_EQ(all.data(), first_part.data()) << short_name(kind);
+    if (!second_part.empty()) {
+      EXPECT_EQ(all.data() + first_part.size(), second_part.data()) << short_name(kind);
+    }
   }
 }
 

@@ -44,7 +44,7 @@ TEST(ContractedSubject, IsNotAskedQueriesBeyondItsContract) {
   for (const Query& query : asked) EXPECT_TRUE(keeps_contract(query, apart));
   const Counts& counts = result.statistics.counts.at({"noting", Kind::vertex_triangle, "falling"});
   EXPECT_EQ(counts.queries, 30);
-  EXPECT_EQ(counts.faults[static_cast<std::size_t>(Fault::contract)], 10);
+  EXPECT_EQ(counts.without_answer(Fault::contract), 10);
   EXPECT_EQ(counts.collisions, 20);
   EXPECT_EQ(counts.false_negatives, 20);
   EXPECT_EQ(result.findings.size(), 20U);

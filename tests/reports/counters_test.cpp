@@ -129,7 +129,7 @@ TEST_F(CountersTest, EachComesBackFromTheStore) {
 template <class Owner>
 void expect_in_json(const nlohmann::ordered_json& json, const Owner& owner,
                     const Counter<Owner, std::uint64_t>& counter) {
-  const auto& object = counter.shown == Shown::in_times ? json.at("times") : json;
+  const auto& object = counter.json_object.empty() ? json : json.at(std::string(counter.json_object));
   EXPECT_EQ(object.at(std::string(counter.json_key)), owner.*counter.member);
 }
 
