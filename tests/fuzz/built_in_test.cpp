@@ -1,19 +1,21 @@
 // Built-in scenes, which are made by formulas, and their parts.
 #include "fuzz/scenes/built_in/built_in_scenes.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
+#include "ccd/query/error.hpp"
 #include "fuzz/scenes/built_in/formulas.hpp"
 #include "fuzz/scenes/built_in/shapes.hpp"
 #include "fuzz/scenes/plan.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
-#include "tests/refused.hpp"
 
 namespace nearmiss {
 
@@ -21,6 +23,8 @@ namespace nearmiss {
 void PrintTo(const BuiltInScene& scene, std::ostream* out) { *out << scene.name; }
 
 namespace {
+
+using ::testing::ThrowsMessage;
 
 class EveryScene : public ::testing::TestWithParam<BuiltInScene> {
  protected:
@@ -214,12 +218,14 @@ TEST(BuiltInScenes, AreNamedAsTheyAreAskedFor) {
   EXPECT_EQ(built_in_scene("knot@4000").name, "knot@4000");
   EXPECT_EQ(built_in_scene("knot").name, "knot");
   EXPECT_EQ(fingerprint(built_in_scene("knot")), fingerprint(built_in_scene("knot@5000")));
-  EXPECT_ERROR(built_in_scene("knots"), "knots: found no built-in scene of that name");
+  EXPECT_THAT([] { built_in_scene("knots"); },
+              ThrowsMessage<Error>("knots: found no built-in scene of that name"));
 }
 
 TEST(BuiltInScenes, RefuseBadSizes) {
   const auto expect_refused = [](const std::string& text, const std::string& found) {
-    EXPECT_ERROR(built_in_scene(text), text + ": found size " + found + ", expected 100 to 4000000");
+    EXPECT_THAT([&] { built_in_scene(text); },
+                ThrowsMessage<Error>(text + ": found size " + found + ", expected 100 to 4000000"));
   };
   for (const char* number : {"-3", "0", "99", "4000001"})
     expect_refused(std::string("spikes@") + number, number);
@@ -243,6 +249,65 @@ TEST(Formulas, CosineAndSineAreCorrectTo4e16) {
     EXPECT_EQ(cos_sin(turns + 0.75).sin, -1);
     EXPECT_EQ(cos_sin(turns).sin, 0);
   }
+}
+
+TEST(Formulas, ARotationTurnsAboutItsAxis) {
+  const Vector3<double> p(0.1, 0.2, 0.3);
+  EXPECT_EQ(Rotation({0, 0, 1}, 0)(p), p);
+  EXPECT_EQ(Rotation({0, 0, 1}, 0.25)(p), Vector3<double>(-0.2, 0.1, 0.3));
+  EXPECT_EQ(Rotation({1, 0, 0}, 0.25)(p), Vector3<double>(0.1, -0.3, 0.2));
+  const Vector3<double> axis(2 / 3.0, -2 / 3.0, 1 / 3.0);
+  EXPECT_LT((Rotation(axis, 0.3)(axis) - axis).norm(), 1e-15);
+  EXPECT_LT((Rotation(axis, 1 / 3.0)(Rotation(axis, 2 / 3.0)(p)) - p).norm(), 1e-15);
+}
+
+TEST(Formulas, TheSmoothMaximumHasNoKink) {
+  EXPECT_EQ(smooth_max(1, 2, 0.5), 2);
+  EXPECT_EQ(smooth_max(2, 1, 0.5), 2);
+  EXPECT_EQ(smooth_max(1, 1, 0.5), 1.125);
+  EXPECT_NEAR(smooth_max(1, 1 + 1e-6, 0.5) - smooth_max(1, 1, 0.5), 0.5e-6, 1e-11);
+}
+
+/// Whether a surface is closed, with the same side of all triangles outside. Then each edge occurs once in
+/// each direction.
+bool is_closed(const Mesh& mesh) {
+  std::map<std::array<int, 2>, int> edges;
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (const std::array<int, 2> edge : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
+      ++edges[edge];
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& each) {
+    return each.second == 1 && edges.contains({each.first[1], each.first[0]});
+  });
+}
+
+/// The volume inside a closed surface.
+double volume(const Mesh& mesh) {
+  const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
+  return std::accumulate(mesh.triangles.begin(), mesh.triangles.end(), 0.0, [&](double sum, const auto& t) {
+    return sum + at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6;
+  });
+}
+
+TEST(Shapes, BoxesAndBallsAreClosed) {
+  const Mesh a_box = box({4, 2, 3});
+  EXPECT_EQ(a_box.triangles.size(), 4 * (8 + 6 + 12));
+  EXPECT_TRUE(is_closed(a_box));
+  EXPECT_NEAR(volume(a_box), 24, 1e-12);
+  const Mesh a_ball = ball(6);
+  EXPECT_EQ(a_ball.triangles.size(), 12 * 36);
+  EXPECT_TRUE(is_closed(a_ball));
+  EXPECT_NEAR(volume(a_ball), 4 / 3.0 * std::numbers::pi * std::pow(6 * 0.64, 3), 10);
+}
+
+TEST(Shapes, SurfacesHaveTwoTrianglesASquare) {
+  Mesh open;
+  add_surface(open, 0, 3, 4);
+  EXPECT_EQ(open.triangles.size(), 12);
+  Mesh closed;
+  add_surface(closed, 7, 3, 4, true);
+  EXPECT_EQ(closed.triangles.size(), 16);
+  for (const auto& triangle : closed.triangles)
+    for (const int vertex : triangle) EXPECT_TRUE(vertex >= 7 && vertex < 19);
 }
 
 }  // namespace

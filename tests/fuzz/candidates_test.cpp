@@ -105,6 +105,23 @@ TEST(Candidates, PairsWithACommonVertexAreCounted) {
   }
 }
 
+/// A vertex at rest, displaced along an axis from a triangle at rest whose box is the unit cube.
+MovingMesh vertex_beside_triangle(int axis, double height) {
+  Vector3<double> vertex(0.5, 0.5, 0.5);
+  vertex[axis] = height;
+  const Points points{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, vertex};
+  return make_moving_mesh({points, {{0, 1, 2}}, {}}, points);
+}
+
+// Tests all sides to the last bit.
+TEST(Candidates, BoxesThatTouchMeet) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const auto& [height, expected] :
+         {std::pair(0.0, 1), {1.0, 1}, {-0x1p-1074, 0}, {1 + 0x1p-52, 0}, {0x1p-1074, 1}, {1 - 0x1p-53, 1}})
+      EXPECT_EQ(found_candidates(vertex_beside_triangle(axis, height)).size(), expected)
+          << axis << ' ' << height;
+}
+
 /// A mesh of n points with n triangles and n lines between any of them.
 MovingMesh any_mesh(std::uint64_t seed, int n, const Point& point) {
   Random random(seed, 0, 0);

@@ -1,11 +1,12 @@
-// Mutations, their chains, and crossings make what they always made: finite numbers, and many collisions; what becomes of a
-// query's separation, and queries with one as inputs of libFuzzer.
+// Chains of mutations, and crossings, are pure functions, make finite numbers, and keep collisions; what becomes of a query's
+// separation, and queries with one as inputs of libFuzzer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -24,6 +25,16 @@ namespace nearmiss {
 namespace {
 
 using testing::first_queries;
+
+TEST(Mutated, IsAPureFunctionOfTheStreamAndTheQuery) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  Random one(3, 4, 5);
+  Random same(3, 4, 5);
+  Random other(3, 4, 6);
+  const Query result = mutated(one, query);
+  EXPECT_EQ(mutated(same, query), result);
+  EXPECT_NE(mutated(other, query), result);
+}
 
 /// The queries to start from: of all families, and with extreme coordinates.
 std::vector<Query> seeds() {
@@ -80,6 +91,44 @@ TEST(Mutated, KeepsToCollisions) {
   }
   std::cout << collisions << " of " << chains * steps << " collide\n";
   EXPECT_GE(collisions, chains * steps / 2);
+}
+
+/// Whether the parent of each coordinate depends only on the coordinate's part.
+bool is_by(const std::array<bool, 24>& choice, const std::function<std::size_t(std::size_t)>& part) {
+  std::array<std::set<bool>, 24> seen;
+  for (std::size_t i = 0; i < 24; ++i) seen[part(i)].insert(choice[i]);
+  return std::all_of(seen.begin(), seen.end(), [](const auto& choices) { return choices.size() <= 1; });
+}
+
+TEST(Crossed, MixesVerticesAxesMomentsAndCoordinates) {
+  const Query first = make_query(find_family("uniform"), 8, 0);
+  const Query second = make_query(find_family("uniform"), 8, 1);
+  std::set<Kind> seen_kinds;
+  int vertices = 0;
+  int axes = 0;
+  int moments = 0;
+  int coordinates = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(9, 0, i);
+    const Query child = crossed(random, first, second);
+    seen_kinds.insert(child.kind);
+    std::array<bool, 24> from_first{};
+    for (std::size_t k = 0; k < 24; ++k) {
+      from_first[k] = child.x[k] == first.x[k];
+      ASSERT_TRUE(from_first[k] || child.x[k] == second.x[k]);
+    }
+    if (is_by(from_first, [](std::size_t) { return 0; })) continue;  // all coordinates are from one parent
+    if (is_by(from_first, [](std::size_t k) { return k / 3 % 4; }))
+      ++vertices;
+    else if (is_by(from_first, [](std::size_t k) { return k % 3; }))
+      ++axes;
+    else if (is_by(from_first, [](std::size_t k) { return k / 12; }))
+      ++moments;
+    else
+      ++coordinates;
+  }
+  for (const int count : {vertices, axes, moments, coordinates}) EXPECT_GT(count, 50);
+  EXPECT_EQ(seen_kinds.size(), 2);
 }
 
 /// A hash of what a kind of mutation makes of some queries.

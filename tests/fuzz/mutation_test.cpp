@@ -1,5 +1,4 @@
-// Mutations make the contacts, the roots and the planes that their names promise. (mutation_chain_test.cpp records the bits that
-// each of them makes.)
+// Mutations are pure functions, make finite numbers, and change what their names say.
 #include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include "ccd/wang/cubic.hpp"
@@ -62,6 +63,73 @@ std::set<int> changed_positions(const Query& before, const Query& after) {
   for (std::size_t i = 0; i < 24; ++i)
     if (before.x[i] != after.x[i]) changed.insert(static_cast<int>(i / 3));
   return changed;
+}
+
+std::set<int> changed_vertices(const Query& before, const Query& after) {
+  std::set<int> vertices;
+  for (const int position : changed_positions(before, after)) vertices.insert(position % 4);
+  return vertices;
+}
+
+double velocity_difference(const Query& query, int i, const Vector3<double>& velocity) {
+  return (query.end(i) - query.start(i) - velocity).norm();
+}
+
+TEST(Mutation, UlpsAreFew) {
+  expect_of("ulps", "uniform", [](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i)
+      if (std::abs(after.x[i] - before.x[i]) > 256 * 0x1p-52 * largest_coordinate(before)) return false;
+    return true;
+  });
+}
+
+TEST(Mutation, AFractionIsOfTheDistanceBetweenTwoPositions) {
+  bool one = false;
+  bool all = false;
+  expect_of("fraction", "uniform", [&](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i)
+      if (std::abs(after.x[i] - before.x[i]) > 5.2) return false;  // positions are in [-1, 2]^3
+    one |= changed_positions(before, after).size() == 1;
+    all |= changed_positions(before, after).size() == 8;
+    return true;
+  });
+  EXPECT_TRUE(one && all);
+}
+
+TEST(Mutation, ExponentsChangeAloneOrGoToAnEndOfTheirRange) {
+  const auto digits = [](double c) {
+    int exponent = 0;
+    return std::abs(std::frexp(c, &exponent));
+  };
+  const std::set<double> ends{0.0, 0.5, digits(std::numeric_limits<double>::max())};
+  expect_of("exponent", "uniform", [&](const Query& before, const Query& after) {
+    int changed = 0;
+    for (std::size_t i = 0; i < 24; ++i) {
+      if (digits(after.x[i]) != digits(before.x[i]) && ends.count(digits(after.x[i])) == 0) return false;
+      changed += after.x[i] != before.x[i] ? 1 : 0;
+    }
+    return changed <= 3;
+  });
+}
+
+TEST(Mutation, ACopiedCoordinateIsAnotherOrItsNegation) {
+  expect_of("copy-coordinate", "uniform", [](const Query& before, const Query& after) {
+    std::set<double> magnitudes;
+    for (const double c : before.x) magnitudes.insert(std::abs(c));
+    return std::all_of(after.x.begin(), after.x.end(),
+                       [&](double c) { return magnitudes.count(std::abs(c)) == 1; });
+  });
+}
+
+TEST(Mutation, RoundedCoordinatesAreMultiplesOfAPartOfTheLargest) {
+  expect_of("round", "uniform", [](const Query& before, const Query& after) {
+    for (std::size_t i = 0; i < 24; ++i) {
+      const double units = std::ldexp(after.x[i], 30);  // the largest coordinate is in [1/2, 2]
+      const bool multiple = units == std::nearbyint(units);
+      if (after.x[i] != before.x[i] && (!multiple || std::abs(after.x[i] - before.x[i]) > 1)) return false;
+    }
+    return true;
+  });
 }
 
 // Contact is also planted next to borders and ends. There rounding removes it half of the time.
@@ -117,12 +185,92 @@ TEST(Mutation, PlanarMakesFZeroIdentically) {
     EXPECT_GE(count_of_1000("planar", family, planar), 350) << family;
 }
 
+TEST(Mutation, AShrunkEdgeIsShorter) {
+  bool to_one_point = false;
+  expect_of("shrink-edge", "uniform", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    if (vertices.size() != 1) return false;
+    const int moved = *vertices.begin();
+    const auto length = [&](const Query& query, int to) {
+      return (query.start(moved) - query.start(to)).norm() + (query.end(moved) - query.end(to)).norm();
+    };
+    bool shorter = false;
+    for (int to = 0; to < 4; ++to) {
+      shorter |= to != moved && length(after, to) < length(before, to);
+      to_one_point |= to != moved && after.start(to) == after.start(moved);
+    }
+    return shorter;
+  });
+  EXPECT_TRUE(to_one_point);
+}
+
+TEST(Mutation, VelocitiesAreZeroAnothersOrAlongEdges) {
+  std::array<int, 3> sorts{};
+  expect_of("velocity", "small-integer", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    const int first = *vertices.begin();
+    const Vector3<double> velocity = after.end(first) - after.start(first);
+    for (const int i : vertices)
+      if (velocity_difference(after, i, velocity) > 1e-12) return false;
+    if (velocity.isZero()) return ++sorts[0] > 0;
+    for (int i = 0; i < 4; ++i)
+      if (velocity_difference(before, i, velocity) < 1e-12) return ++sorts[1] > 0;
+    for (int i = 0; i < 4; ++i) {
+      const Vector3<double> a = before.start((i + 1) % 4) - before.start(i);
+      const Vector3<double> b = before.start((i + 2) % 4) - before.start(i);
+      if (std::abs(velocity.dot(a.cross(b))) < 1e-9) return ++sorts[2] > 0;
+    }
+    return false;
+  });
+  for (const int count : sorts) EXPECT_GT(count, 50);
+}
+
+TEST(Mutation, ACopiedVertexIsAnother) {
+  expect_of("copy-vertex", "uniform", [](const Query& before, const Query& after) {
+    const auto positions = changed_positions(before, after);
+    if (changed_vertices(before, after).size() != 1) return false;
+    return std::all_of(positions.begin(), positions.end(), [&](int to) {
+      for (int from = 0; from < 4; ++from) {
+        if (to < 4 ? after.start(to) == before.start(from) : after.end(to - 4) == before.end(from))
+          return true;
+      }
+      return false;
+    });
+  });
+}
+
+TEST(Mutation, ReverseExchangesStartAndEnd) {
+  bool all = false;
+  expect_of("reverse", "uniform", [&](const Query& before, const Query& after) {
+    const auto vertices = changed_vertices(before, after);
+    all |= vertices.size() == 4;
+    return std::all_of(vertices.begin(), vertices.end(), [&](int i) {
+      return after.start(i) == before.end(i) && after.end(i) == before.start(i);
+    });
+  });
+  EXPECT_TRUE(all);
+}
+
 TEST(Mutation, ScaleIsByOnePowerOfTwo) {
   expect_of("scale", "small-integer", [](const Query& before, const Query& after) {
     int exponent = 0;
     const double factor = largest_coordinate(after) / largest_coordinate(before);
     return std::frexp(factor, &exponent) == 0.5 && after == testing::scaled(before, factor);
   });
+}
+
+TEST(Mutation, TranslateKeepsThePrimitives) {
+  bool to_the_origin = false;
+  expect_of("translate", "small-integer", [&](const Query& before, const Query& after) {
+    for (int i = 0; i < 4; ++i) {
+      to_the_origin |= after.start(i).isZero() && !before.start(i).isZero();
+      const auto offset = [&](const Query& query) { return query.end(i) - query.start(0); };
+      // offsets are up to 2^43, where an ulp is 2^-9
+      if ((offset(after) - offset(before)).norm() > 0.01) return false;
+    }
+    return true;
+  });
+  EXPECT_TRUE(to_the_origin);
 }
 
 TEST(Mutation, ReorderKeepsTheTruth) {
