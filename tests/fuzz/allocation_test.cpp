@@ -7,6 +7,7 @@
 #include <new>
 
 #include "fuzz/trial/campaign.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace {
 std::atomic<std::uint64_t> allocations = 0;
@@ -35,8 +36,7 @@ std::uint64_t allocations_of(const char* subject, std::uint64_t cases) {
   plan.cases = cases;
   plan.jobs = 1;
   plan.comparison.one_in = std::numeric_limits<std::uint64_t>::max();
-  Subjects subjects;
-  subjects.push_back(make_subject(subject));
+  const Subjects subjects = testing::subjects_named({subject});
   const std::uint64_t before = allocations;
   run_campaign(
       plan, subjects, [](TrialResult&& /*result*/, const CampaignProgress& /*now*/) { return true; },

@@ -5,22 +5,18 @@
 #include <cmath>
 
 #include "tests/fuzz/mesh_files.hpp"
+#include "tests/refused.hpp"
 
 namespace nearmiss::mesh_files {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 class BadFilesTest : public MeshFilesTest {};
 
 TEST_F(BadFilesTest, WhatCannotBeReadIsRefused) {
   for (const char* ending : {".obj", ".off", ".ply", ".stl"}) {
-    EXPECT_THAT([&] { read_mesh(file(std::string("none") + ending)); },
-                ThrowsMessage<Error>(HasSubstr(": cannot be read")));
+    EXPECT_REFUSED(read_mesh(file(std::string("none") + ending)), ": cannot be read");
     std::filesystem::create_directory(file(std::string("folder") + ending));
-    EXPECT_THAT([&] { read_mesh(file(std::string("folder") + ending)); },
-                ThrowsMessage<Error>(HasSubstr(": found a folder, expected a file")));
+    EXPECT_REFUSED(read_mesh(file(std::string("folder") + ending)), ": found a folder, expected a file");
   }
 }
 

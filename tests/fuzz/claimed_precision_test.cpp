@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fuzz/subjects/subjects.hpp"
 #include "tests/fuzz/moving_meshes.hpp"
-#include "tests/fuzz/plan_outcome.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace nearmiss {
 namespace {
@@ -23,9 +22,8 @@ TEST(ClaimedPrecision, TheCheapestWithinTheThicknessIsTaken) {
 
 TEST(ClaimedPrecision, IsTheLargestBoundOfAllPairs) {
   const MovingMesh mesh = tetrahedra(1);
-  Subjects subjects;
-  subjects.push_back(make_subject("wang"));
-  const auto found = claimed_precisions(scene_of(mesh), LeaveOut::all, subjects, never);
+  const Subjects subjects = testing::subjects_named({"wang"});
+  const auto found = claimed_precisions(scene_of(mesh), LeaveOut::all, subjects, never_over);
   double largest = 0;
   follow_plan(
       Plan(mesh, LeaveOut::all),
@@ -33,7 +31,7 @@ TEST(ClaimedPrecision, IsTheLargestBoundOfAllPairs) {
         for (const Query& query : pairs.queries)
           largest = std::max(largest, subjects[0]->distance_bound(query));
       },
-      {}, never);
+      {}, never_over);
   ASSERT_EQ(found.size(), 1);
   EXPECT_GT(largest, 0);
   EXPECT_EQ(found[0].claimed, largest);

@@ -6,10 +6,9 @@
 
 #include "fuzz/subjects/contract.hpp"
 #include "fuzz/subjects/contracted.hpp"
-#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
-#include "fuzz/trial/trial.hpp"
-#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
 
 namespace nearmiss {
@@ -30,10 +29,9 @@ constexpr Contract apart{.apart_at_start = true};
 
 /// Hits, of which every third touches at t = 0.
 Batch batch() {
-  Batch batch{.kind = Kind::vertex_triangle, .family = "falling"};
-  for (int i = 0; i < 30; ++i) batch.queries.push_back(falling_vertex(0.25, 0.25, i % 3, -1));
-  batch.provenance = [](std::size_t i) { return std::to_string(i); };
-  return batch;
+  std::vector<Query> queries;
+  for (int i = 0; i < 30; ++i) queries.push_back(falling_vertex(0.25, 0.25, i % 3, -1));
+  return testing::batch_of("falling", queries);
 }
 
 TEST(ContractedSubject, IsNotAskedQueriesBeyondItsContract) {
@@ -69,10 +67,7 @@ TEST(ContractedSubject, ShrinkingStaysOnTheSameSideOfTheContract) {
   for (const bool keeps : {true, false}) {
     const Subject& subject = *sides[keeps ? 0 : 1];
     const Query query = falling_vertex(0.3, 0.21, keeps ? 0.7 : 0, -0.4);
-    const TrialResult result = hold_trial(
-        sides, {.kind = query.kind, .family = "one", .queries = {query}, .provenance = [](std::size_t) {
-                  return "one";
-                }});
+    const TrialResult result = hold_trial(sides, testing::batch_of("one", {query}));
     ASSERT_EQ(result.findings.size(), 1U);
     const Query shrunk = shrunk_query(result.findings.front(), &subject, Stop::never());
     EXPECT_NE(shrunk, query);

@@ -89,13 +89,6 @@ TEST(EarliestTime, IsOfTheFirstOfTwoContacts) {
   EXPECT_GT(later, 100);
 }
 
-TEST(EarliestTime, NeedsAContact) {
-  Query query = falling();
-  for (int i = 1; i < 4; ++i)
-    for (const std::size_t time : {0U, 12U}) query.x[time + 3 * static_cast<std::size_t>(i)] += 10;
-  EXPECT_FALSE(earliest_time(query));
-}
-
 TEST(SturmTimes, AreComparedWithTimesOfAnySize) {
   SturmTimes by_sturm(falling());
   for (const double time : {-1.0, 0.0, 0x1p-1074, 0.25, 0.375})

@@ -16,8 +16,8 @@
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
-#include "fuzz/trial/trial.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
 
 #if defined(__has_feature)
@@ -217,12 +217,8 @@ TEST(Isolation, OneAnswerDoesNotChangeTheArithmeticOfTheNext) {
 }
 
 TEST(Isolation, ATrialCountsFaultsAndKeepsTheirQueries) {
-  Subjects subjects;
-  subjects.push_back(make_isolated_plugin(plugin("crash")));
-  const Batch batch{.family = "uniform", .queries = one_batch(1000), .provenance = [](std::size_t i) {
-                      return std::to_string(i);
-                    }};
-  const TrialResult result = hold_trial(subjects, batch);
+  const Subjects subjects = testing::one(make_isolated_plugin(plugin("crash")));
+  const TrialResult result = hold_trial(subjects, testing::batch_of("uniform", one_batch(1000)));
   const Counts& counts = result.statistics.counts.begin()->second;
   EXPECT_EQ(counts.queries, 1000);
   EXPECT_GE(counts.faults_total(), 3);

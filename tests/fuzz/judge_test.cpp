@@ -11,11 +11,11 @@
 #include "fuzz/subjects/isolation/isolated_plugin.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "fuzz/trial/signatures.hpp"
-#include "fuzz/trial/trial.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "reports/campaign/complexity.hpp"
-#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
 
 namespace nearmiss {
@@ -151,13 +151,10 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
 class BadBound : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BadBound, IsCountedShrunkAndJudgedAlike) {
-  Subjects subjects;
-  subjects.push_back(make_isolated_plugin(plugin(GetParam())));
-  Batch batch{.family = "uniform"};
-  for (std::uint64_t i = 0; i < 200; i += 2)
-    batch.queries.push_back(make_query(find_family("uniform"), 1, i));
-  batch.provenance = [](std::size_t i) { return std::to_string(i); };
-  const TrialResult result = hold_trial(subjects, batch);
+  const Subjects subjects = testing::one(make_isolated_plugin(plugin(GetParam())));
+  std::vector<Query> queries;
+  for (std::uint64_t i = 0; i < 200; i += 2) queries.push_back(make_query(find_family("uniform"), 1, i));
+  const TrialResult result = hold_trial(subjects, testing::batch_of("uniform", queries));
   const Counts& counts = result.statistics.counts.begin()->second;
   EXPECT_GT(counts.faults_total(), 50);
   EXPECT_EQ(counts.faults_total(), counts.queries - counts.collisions);

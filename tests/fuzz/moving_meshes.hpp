@@ -1,13 +1,16 @@
-// Moving meshes for tests of plans and trials.
+// Moving meshes for tests of plans and trials, and what becomes of their pairs.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "fuzz/random.hpp"
+#include "fuzz/scenes/plan.hpp"
 #include "fuzz/scenes/scene.hpp"
+#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 
@@ -58,6 +61,27 @@ inline Scene scene_of(const MovingMesh& mesh) {
   return {.name = "grids",
           .mesh = {mesh.start, mesh.triangles, mesh.edges},
           .points = [&mesh](std::size_t frame) { return frame == 0 ? mesh.start : mesh.end; }};
+}
+
+/// The outcome of a plan. The oracle decides the asked pairs.
+struct PlanOutcome {
+  Funnels funnels;
+  std::set<Candidate> colliding;
+};
+
+inline PlanOutcome follow(const MovingMesh& mesh, LeaveOut leave_out) {
+  PlanOutcome result;
+  result.funnels = follow_plan(
+      Plan(mesh, leave_out),
+      [&](const AskedPairs& pairs) {
+        for (std::size_t i = 0; i < pairs.queries.size(); ++i)
+          if (collides(pairs.queries[i])) result.colliding.insert(pairs.candidates[i]);
+      },
+      [&](const Candidate& candidate, const Query&, PairFate, bool hit) {
+        if (hit) result.colliding.insert(candidate);
+      },
+      never_over);
+  return result;
 }
 
 }  // namespace nearmiss

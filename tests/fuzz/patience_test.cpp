@@ -12,30 +12,22 @@
 #include "fuzz/search/search.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "fuzz/trial/trial_stream.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
 #include "tests/fuzz/moving_meshes.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace nearmiss {
 namespace {
 
+using testing::one;
+
 /// Exceeds its time limit at the queries that are chosen.
-class Late final : public Subject {
- public:
-  explicit Late(std::function<bool(const Query&)> is_chosen) : is_chosen_(std::move(is_chosen)) {}
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& query) const override {
-    ++asked;
-    return {.fault = is_chosen_(query) ? Fault::time : Fault::none};
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-  [[nodiscard]] TimeSort time_sort() const override { return TimeSort::lower_bound; }
-
-  mutable std::atomic<std::uint64_t> asked = 0;
-
- private:
-  std::string name_ = "late";
-  std::function<bool(const Query&)> is_chosen_;
-};
+std::unique_ptr<Subject> late(const std::function<bool(const Query&)>& is_chosen) {
+  return std::make_unique<testing::MadeUpSubject>(
+      "late",
+      [=](const Query& query) { return Verdict{.fault = is_chosen(query) ? Fault::time : Fault::none}; },
+      testing::Claims{.time_sort = TimeSort::lower_bound});
+}
 
 /// Chooses every 20th query or so.
 bool is_late(const Query& query) { return std::fmod(1e4 * std::abs(query.x[2]), 1) < 0.05; }
@@ -55,9 +47,8 @@ CampaignPlan plan_of(int jobs) {
 Statistics run(const CampaignPlan& plan, std::uint64_t stop_after = 1'000'000) {
   std::atomic<bool> requested{false};
   std::atomic<std::uint64_t> asked{0};
-  Subjects subjects;
-  subjects.push_back(make_subject("wang"));
-  subjects.push_back(std::make_unique<Late>([&](const Query& query) {
+  Subjects subjects = one(make_subject("wang"));
+  subjects.push_back(late([&](const Query& query) {
     if (++asked == stop_after) requested = true;
     return is_late(query);
   }));
@@ -89,8 +80,7 @@ TEST(Patience, DoesNotDependOnTheNumberOfThreads) {
 
 /// The results of trials of a subject that is late; without times.
 TrialResult results_of(int jobs, const std::function<void(Trials&)>& hold) {
-  Subjects subjects;
-  subjects.push_back(std::make_unique<Late>(is_late));
+  const Subjects subjects = one(late(is_late));
   TrialResult sum;
   Trials trials(subjects, {}, jobs, Stop::never(), 0,
                 [&](TrialResult&& result) { sum.merge(std::move(result)); });
@@ -152,15 +142,14 @@ TEST(Patience, NotAskingIsNoFailure) {
   std::set<std::array<double, 24>> of_the_campaign;
   for (const Family& family : plan.families)
     for (std::uint64_t i = 0; i < plan.cases; ++i) of_the_campaign.insert(make_query(family, plan.seed, i).x);
-  Subjects subjects;
   std::atomic<std::uint64_t> others = 0;
-  subjects.push_back(std::make_unique<Late>([&](const Query& query) {
+  const auto notes_others = [&](const Query& query) {
     if (!of_the_campaign.contains(query.x)) ++others;
     return true;
-  }));
+  };
   std::uint64_t seen = 0;
   run_campaign(
-      plan, subjects,
+      plan, one(late(notes_others)),
       [&](TrialResult&& result, const CampaignProgress& /*now*/) {
         for (const auto& [signature, times] : result.statistics.seen) seen += times;
         return true;
@@ -171,12 +160,13 @@ TEST(Patience, NotAskingIsNoFailure) {
 }
 
 TEST(Patience, OfASearchEndsToo) {
-  const Late late([](const Query&) { return true; });
-  for (const Family& family : searches(late)) {
-    late.asked = 0;
+  std::uint64_t asked = 0;
+  const auto always_late = late([&](const Query&) { return ++asked > 0; });
+  for (const Family& family : searches(*always_late)) {
+    asked = 0;
     for (std::uint64_t i = 0; i < 10; ++i) make_query(family, 1, i);
     // A search for times passes over 20 queries before it ends.
-    EXPECT_EQ(late.asked,
+    EXPECT_EQ(asked,
               family.name.starts_with("search-late") || family.name.starts_with("search-early") ? 60 : 3);
   }
 }

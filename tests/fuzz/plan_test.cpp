@@ -10,7 +10,6 @@
 
 #include "fuzz/scenes/verify.hpp"
 #include "tests/fuzz/moving_meshes.hpp"
-#include "tests/fuzz/plan_outcome.hpp"
 
 namespace nearmiss {
 namespace {
@@ -61,14 +60,14 @@ TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
   const Funnels all = follow_plan(
       plan,
       [&](const AskedPairs& pairs) { together.insert(pairs.candidates.begin(), pairs.candidates.end()); }, {},
-      never);
+      never_over);
   std::multiset<Candidate> alone;
   Funnels sum;
   for (std::size_t part = plan.parts(); part-- > 0;)
     for (const auto& [kind, funnel] : plan.follow(
              part,
              [&](const AskedPairs& pairs) { alone.insert(pairs.candidates.begin(), pairs.candidates.end()); },
-             {}, never))
+             {}, never_over))
       sum[kind].merge(funnel);
   for (const auto& [kind, funnel] : plan.rest(sum)) sum[kind].merge(funnel);
   EXPECT_GT(together.size(), 1000);
@@ -87,7 +86,8 @@ TEST(Plan, PairsAreAskedInFullBatches) {
       EXPECT_EQ(pairs.queries.size(), pairs.candidates.size());
       batches.push_back(pairs.queries.size());
     };
-    for (const auto& [kind, funnel] : plan.follow(part, ask, {}, never)) asked += funnel[PairFate::asked];
+    for (const auto& [kind, funnel] : plan.follow(part, ask, {}, never_over))
+      asked += funnel[PairFate::asked];
     most = std::max(most, asked);
     std::vector<std::size_t> expected(asked / 1000, 1000);
     if (asked % 1000 != 0) expected.push_back(asked % 1000);
@@ -109,7 +109,7 @@ TEST(Plan, NothingIsAskedWhereAllIsDecided) {
         EXPECT_EQ(fate, PairFate::in_translation);
         EXPECT_TRUE(collides);
       },
-      never);
+      never_over);
   EXPECT_EQ(asked, 0);
   EXPECT_EQ(decided, 1);
 }
@@ -119,7 +119,7 @@ TEST(Plan, StopsBeforeTheEndOfAPart) {
   const Plan plan(mesh, LeaveOut::boxes);
   bool stopped = false;
   const std::uint64_t first_part = plan.follow(
-                                           0, [](const AskedPairs&) {}, {}, never)
+                                           0, [](const AskedPairs&) {}, {}, never_over)
                                        .begin()
                                        ->second.all();
   const Funnels found = follow_plan(

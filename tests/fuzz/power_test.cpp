@@ -7,19 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/subjects/subjects.hpp"
 #include "oracle/oracle.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace nearmiss {
 namespace {
 
 std::optional<FirstFailure> first_failure(const std::string& subject, const std::string& family) {
-  Subjects subjects;
-  subjects.push_back(make_any_subject(subject));
   CampaignPlan plan;
   plan.families = {find_family(family)};
   plan.cases = 20000;
-  return find_first_failure(plan, subjects, Stop::never());
+  return find_first_failure(plan, testing::one(make_any_subject(subject)), Stop::never());
 }
 
 TEST(FirstFailure, IsAMissARefutedBoundOrALateTime) {

@@ -190,11 +190,6 @@ TEST_F(ObjTest, AnyBlanksSeparate) {
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}));
 }
 
-TEST_F(ObjTest, PolygonsBecomeTriangles) {
-  const Mesh mesh = read_text(".obj", square + "f 1 2 3 4\n");
-  EXPECT_THAT(mesh.triangles, ElementsAre(std::array{0, 1, 2}, std::array{0, 2, 3}));
-}
-
 TEST_F(ObjTest, ABackslashAtTheEndOfALineContinuesIt) {
   const Mesh mesh =
       read_text(".obj", "v 0 \\\n0 0\nv 1\\\r\n 0\\\r\n0\r\nv 0 1 0\n\\\nf 1 2\\\n3\nf 2 3 1\\");

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fuzz/subjects/subjects.hpp"
 #include "tests/fuzz/moving_meshes.hpp"
-#include "tests/fuzz/plan_outcome.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace nearmiss {
 namespace {
@@ -21,8 +20,7 @@ struct Held {
 };
 
 Held hold(const MovingMesh& mesh, int jobs) {
-  Subjects subjects;
-  for (const char* name : {"basic", "wang", "defect:lambda2*0.1"}) subjects.push_back(make_any_subject(name));
+  const Subjects subjects = testing::subjects_named({"basic", "wang", "defect:lambda2*0.1"});
   Held held;
   const Scene scene = scene_of(mesh);
   Trials trials(subjects, {.one_in = 16}, jobs, Stop::never(), findings_kept,

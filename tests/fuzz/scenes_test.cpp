@@ -4,15 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ccd/query/error.hpp"
+#include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace nearmiss {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 class TwoFilesTest : public testing::TemporaryFolder {};
 
@@ -21,7 +19,7 @@ TEST_F(TwoFilesTest, MustHoldTheSamePrimitives) {
   const auto start = write("start.obj", square + "f 1 2 3\n");
   const auto expect_mismatch = [&](const std::string& text, const std::string& message) {
     const auto end = write("end.obj", text);
-    EXPECT_THAT([&] { scene_of_files(start, end); }, ThrowsMessage<Error>(HasSubstr(end.string() + message)));
+    EXPECT_REFUSED(scene_of_files(start, end), end.string() + message);
   };
   expect_mismatch("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", ": found 3 vertices, expected 4");
   expect_mismatch(square + "f 1 2 3 4\n", ": found 2 triangles, expected 1");
@@ -36,8 +34,7 @@ class FolderTest : public testing::TemporaryFolder {
     write("frames/" + name, "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf 1 2 3\n");
   }
   void expect_refused(const std::string& message) const {
-    EXPECT_THAT([&] { scene_of_folder(file("frames")); },
-                ThrowsMessage<Error>(HasSubstr(file("frames").string() + message)));
+    EXPECT_REFUSED(scene_of_folder(file("frames")), file("frames").string() + message);
   }
 };
 
@@ -81,11 +78,8 @@ TEST_F(FolderTest, AFrameOfAnotherMeshIsNamedWhenItIsRead) {
   write("frames/4.obj", "v 0 0 0\n");
   const Scene scene = scene_of_folder(file("frames"));
   EXPECT_EQ(scene.points(1)[2], Vector3<double>(0, 1, 1));
-  EXPECT_THAT(
-      [&] { scene.points(2); },
-      ThrowsMessage<Error>(HasSubstr("3.obj: found triangle 1 of vertices 3 2 1, expected 1 2 3 as in")));
-  EXPECT_THAT([&] { scene.points(3); },
-              ThrowsMessage<Error>(HasSubstr("4.obj: found 1 vertices, expected 3 as in")));
+  EXPECT_REFUSED(scene.points(2), "3.obj: found triangle 1 of vertices 3 2 1, expected 1 2 3 as in");
+  EXPECT_REFUSED(scene.points(3), "4.obj: found 1 vertices, expected 3 as in");
 }
 
 TEST_F(FolderTest, TwoFramesWithOneEndingAreNeeded) {
@@ -118,8 +112,7 @@ TEST(Welded, EqualPointsBecomeOne) {
 
 TEST(Welded, WhatIsTornApartIsRefused) {
   const Scene scene = welded(with_seams({{5, 0, 0}, {6, 0, 0}, {5, 0, 0}, {7, 0, 0}, {6, 0, 1e-300}}));
-  EXPECT_THAT([&] { scene.points(1); },
-              ThrowsMessage<Error>(HasSubstr("seams, frame 1: found vertices 2 and 5 apart")));
+  EXPECT_REFUSED(scene.points(1), "seams, frame 1: found vertices 2 and 5 apart");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/bit_hash.hpp"
-#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
 
 namespace nearmiss {
 namespace {
@@ -52,12 +52,6 @@ TEST_P(LargeSeparations, AreThoseOfFiniteQueries) {
       EXPECT_TRUE(is_finite(search(family, i))) << family.name << ':' << i;
 }
 INSTANTIATE_TEST_SUITE_P(Searches, LargeSeparations, ::testing::Values("1e308", "1.7976931348623157e308"));
-
-TEST(MissSearch, IsAPureFunction) {
-  const auto wang = make_subject("wang");
-  for (std::uint64_t i = 0; i < 2; ++i)
-    EXPECT_EQ(search(miss_search(*wang), i), search(miss_search(*wang), i));
-}
 
 /// Each search goes on from what it found, so one bit of difference becomes another query.
 TEST(Searches, GiveTheSameQueriesWithEveryCompiler) {

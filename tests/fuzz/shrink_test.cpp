@@ -16,17 +16,19 @@
 #include <vector>
 
 #include "fuzz/families/families.hpp"
-#include "fuzz/subjects/forwarding_subject.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "reports/campaign/complexity.hpp"
 #include "tests/bit_hash.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
 
 using testing::falling_vertex;
+using testing::MadeUpSubject;
+using testing::WatchedSubject;
 
 /// Shrinks a query, while it `fails`.
 Query shrunk_while(const Query& query, const std::function<bool(const Query&)>& fails) {
@@ -58,19 +60,13 @@ std::vector<Finding> missed_by_basic() {
 
 TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
   const auto basic = make_subject("basic");
-  const Subject* const pointer = basic.get();
-  const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), {});
-  const auto shrunk_query = [&](Finding finding) {
-    shrinker.shrink(finding);
-    return finding.simplest;
-  };
   const auto missed = missed_by_basic();
   ASSERT_GE(missed.size(), 17);
   std::vector<int> distinct;
   testing::BitHash hash;
   for (const Finding& finding : missed) {
     const auto start = std::chrono::steady_clock::now();
-    const Query shrunk = shrunk_query(finding);
+    const Query shrunk = shrunk_query(finding, basic.get());
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     const Complexity before = complexity(finding.query);
     const Complexity after = complexity(shrunk);
@@ -82,10 +78,10 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
         << finding.provenance;
     EXPECT_EQ(shrunk.kind, finding.query.kind);
     EXPECT_FALSE(before < after);
-    EXPECT_EQ(shrunk_query(finding), shrunk) << finding.provenance;  // deterministic
+    EXPECT_EQ(shrunk_query(finding, basic.get()), shrunk) << finding.provenance;  // deterministic
     Finding again = finding;
     again.query = shrunk;
-    EXPECT_EQ(shrunk_query(again), shrunk) << finding.provenance;  // nothing is left to do
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // nothing is left to do
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
@@ -128,30 +124,14 @@ TEST(Shrink, ScalesTheSeparationWithTheCoordinates) {
   EXPECT_EQ(shrunk, expected);
 }
 
-/// Gives t = 1/2 as the lower bound of the time of every query.
-class Half final : public Subject {
- public:
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
-    return Verdict::accepted(Stage::unspecified, 0.5);
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override {
-    return std::numeric_limits<double>::infinity();
-  }
-  [[nodiscard]] bool claims_bound() const override { return false; }
-  [[nodiscard]] bool takes_separation() const override { return true; }
-  [[nodiscard]] TimeSort time_sort() const override { return TimeSort::lower_bound; }
-
- private:
-  std::string name_ = "half";
-};
-
+// The subject gives t = 1/2 as the lower bound of the time of every query.
 TEST(Shrink, ALateTimeStaysLate) {
-  const Half half;
+  const MadeUpSubject half("half", [](const Query&) { return Verdict::accepted(Stage::unspecified, 0.5); },
+                           {.bound = std::numeric_limits<double>::infinity(),
+                            .claims_bound = false,
+                            .time_sort = TimeSort::lower_bound,
+                            .takes_separation = true});
   const Judge judge(half);
-  const Subject* const pointer = &half;
-  const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), limits_in_campaign);
   int late = 0;
   for (const char* family : {"uniform", "planted", "uniform~0.1", "uniform~1e-3"})
     for (std::uint64_t i = 0; i < 60; ++i) {
@@ -159,9 +139,8 @@ TEST(Shrink, ALateTimeStaysLate) {
       const auto failure = judge.failure(query);
       if (!failure) continue;
       EXPECT_EQ(failure->what, Finding::What::late);
-      Finding finding{failure->what, "half", family, query, "", 0, failure->signature, query};
-      shrinker.shrink(finding);
-      const Query& shrunk = finding.simplest;
+      const Finding finding{failure->what, "half", family, query, "", 0, failure->signature, query};
+      const Query shrunk = shrunk_query(finding, &half, Stop::never(), limits_in_campaign);
       EXPECT_EQ(judge.failure(shrunk), failure) << family << " " << i;
       EXPECT_EQ(shrunk.separation > 0, query.separation > 0);
       EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
@@ -198,81 +177,55 @@ TEST(Shrink, JoinsTheMotionsOfAnyTwoVertices) {
     }
 }
 
-/// Takes long to answer, and is over its time limit.
-class Late final : public Subject {
- public:
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  using Subject::decide;
-  [[nodiscard]] Verdict decide(const Query& /*query*/) const override {
-    ++asked;
-    std::this_thread::sleep_for(takes);
-    return {.fault = Fault::time};
-  }
-  [[nodiscard]] double distance_bound(const Query& /*query*/) const override { return 0; }
-
-  static constexpr std::chrono::milliseconds takes{10};
-  mutable int asked = 0;
-
- private:
-  std::string name_ = "late";
-};
-
 TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   const Query query = make_query(find_family("uniform"), 1, 0);
-  const Late late;
+  int asked = 0;
+  constexpr std::chrono::milliseconds takes(10);
+  const MadeUpSubject late("late", [&](const Query&) {
+    ++asked;
+    std::this_thread::sleep_for(takes);
+    return Verdict{.fault = Fault::time};
+  });
   Finding finding{Finding::What::fault, "late", "uniform", query, "uniform:1:0", 0, "vt time", query};
-  shrunk_query(finding, &late, Stop::never(), {.time = 2 * Late::takes});
-  EXPECT_GE(late.asked, 1);
-  EXPECT_LE(late.asked, 2);
+  shrunk_query(finding, &late, Stop::never(), {.time = 2 * takes});
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 2);
   finding.what = Finding::What::false_negative;
   finding.signature = "vt";
-  late.asked = 0;
+  asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               {.time = 12 * Late::takes});  // small queries in batches of 1, 2 and 4, and its own
-  EXPECT_GE(late.asked, 1);
-  EXPECT_LE(late.asked, 1 + 2 + 4 + 1);
+               {.time = 12 * takes});  // small queries in batches of 1, 2 and 4, and its own
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 1 + 2 + 4 + 1);
 }
-
-/// Answers as basic does, after a time, and notes what it is asked.
-class Slow final : public ForwardingSubject {
- public:
-  Slow(const Subject& basic, std::chrono::milliseconds takes)
-      : ForwardingSubject("slow", basic), takes_(takes) {}
-  using ForwardingSubject::decide;
-  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    std::this_thread::sleep_for(takes_);
-    asked.insert(asked.end(), queries.begin(), queries.end());
-    ForwardingSubject::decide(queries, verdicts);
-  }
-
-  mutable std::vector<Query> asked;
-
- private:
-  std::chrono::milliseconds takes_;
-};
 
 TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
   constexpr ShrinkLimits few{.work = 4400};
   const auto basic = make_subject("basic");
   const Finding finding = missed_by_basic().front();
-  const Slow fast(*basic, std::chrono::milliseconds(0));
-  const Slow slow(*basic, std::chrono::milliseconds(2));
+  std::vector<Query> fast_asked;
+  const auto note_in = [](std::vector<Query>& asked, std::chrono::milliseconds takes) {
+    return [&asked, takes](std::span<const Query> queries, std::span<Verdict> /*verdicts*/) {
+      std::this_thread::sleep_for(takes);
+      asked.insert(asked.end(), queries.begin(), queries.end());
+    };
+  };
+  std::vector<Query> slow_asked;
+  const WatchedSubject fast(*basic, note_in(fast_asked, std::chrono::milliseconds(0)));
+  const WatchedSubject slow(*basic, note_in(slow_asked, std::chrono::milliseconds(2)));
   const Query shrunk = shrunk_query(finding, &fast, Stop::never(), few);
   EXPECT_EQ(shrunk_query(finding, &slow, Stop::never(), few), shrunk);
-  EXPECT_EQ(slow.asked, fast.asked);
+  EXPECT_EQ(slow_asked, fast_asked);
   EXPECT_NE(shrunk, finding.query);
   EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));  // the limit ended the search
-  EXPECT_LE(fast.asked.size(), few.work);
-  EXPECT_GE(fast.asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
+  EXPECT_LE(fast_asked.size(), few.work);
+  EXPECT_GE(fast_asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
 }
 
-/// Exceeds its time limit where a coordinate is 0, and notes the sizes of its calls, and which of them took too long.
-class Hanging final : public ForwardingSubject {
- public:
-  explicit Hanging(const Subject& basic) : ForwardingSubject("basic", basic) {}
-  using ForwardingSubject::decide;
-  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    ForwardingSubject::decide(queries, verdicts);
+TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
+  const auto basic = make_subject("basic");
+  std::vector<std::pair<std::size_t, bool>> calls;  // the size of each, and whether it took too long
+  const auto hang_at_zero = [&](std::span<const Query> queries, std::span<Verdict> verdicts) {
     bool is_slow = false;
     for (std::size_t i = 0; i < queries.size(); ++i)
       if (std::count(queries[i].x.begin(), queries[i].x.end(), 0.0) > 0) {
@@ -280,14 +233,8 @@ class Hanging final : public ForwardingSubject {
         is_slow = true;
       }
     calls.emplace_back(queries.size(), is_slow);
-  }
-
-  mutable std::vector<std::pair<std::size_t, bool>> calls;
-};
-
-TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
-  const auto basic = make_subject("basic");
-  const Hanging hanging(*basic);
+  };
+  const WatchedSubject hanging(*basic, hang_at_zero);
   const Subject* const pointer = &hanging;
   const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), limits_in_campaign);
   std::size_t searches = 0;
@@ -297,10 +244,10 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
     searches += 2 + kinds.size();  // of any class, of its own, and once for each kind among small queries
   }
   const auto is_slow = [](const auto& call) { return call.second; };
-  const auto first = std::find_if(hanging.calls.begin(), hanging.calls.end(), is_slow);
-  ASSERT_NE(first, hanging.calls.end());
-  EXPECT_TRUE(std::all_of(first + 1, hanging.calls.end(), [](const auto& call) { return call.first == 1; }));
-  EXPECT_LE(std::count_if(hanging.calls.begin(), hanging.calls.end(), is_slow), searches);
+  const auto first = std::find_if(calls.begin(), calls.end(), is_slow);
+  ASSERT_NE(first, calls.end());
+  EXPECT_TRUE(std::all_of(first + 1, calls.end(), [](const auto& call) { return call.first == 1; }));
+  EXPECT_LE(std::count_if(calls.begin(), calls.end(), is_slow), searches);
 }
 
 TEST(Shrink, LeavesAloneWhatDoesNotFail) {

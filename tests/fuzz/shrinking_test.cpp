@@ -10,33 +10,25 @@
 
 #include "fuzz/families/classify.hpp"
 #include "fuzz/families/families.hpp"
-#include "fuzz/subjects/forwarding_subject.hpp"
-#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/campaign.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/signatures.hpp"
 #include "reports/campaign/complexity.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/queries.hpp"
 
 namespace nearmiss {
 namespace {
 
 using testing::falling_vertex;
-
-Subjects one(std::unique_ptr<Subject> subject) {
-  Subjects subjects;
-  subjects.push_back(std::move(subject));
-  return subjects;
-}
+using testing::one;
 
 /// The collisions of a family that a subject misses.
 std::vector<Finding> missed(const Subjects& subjects) {
-  Batch batch{
-      .kind = Kind::edge_edge, .family = "planted-ulp", .queries = {}, .truths = {}, .provenance = {}};
-  for (std::uint64_t i = 1; i < 1000; i += 2)
-    batch.queries.push_back(make_query(find_family("planted-ulp"), 1, i));
-  batch.provenance = [](std::size_t i) { return std::to_string(i); };
-  return hold_trial(subjects, batch).findings;
+  std::vector<Query> queries;
+  for (std::uint64_t i = 1; i < 1000; i += 2) queries.push_back(make_query(find_family("planted-ulp"), 1, i));
+  return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
 /// The findings after shrinking, with `of_each` of each signature and class.
@@ -146,27 +138,19 @@ TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   EXPECT_GT(shrunk, 10);
 }
 
-/// Counts its calls and queries.
-class Counting final : public ForwardingSubject {
- public:
-  explicit Counting(const Subject& to) : ForwardingSubject("basic", to) {}
-  using ForwardingSubject::decide;
-  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
-    ++calls;
-    asked += queries.size();
-    ForwardingSubject::decide(queries, verdicts);
-  }
-  mutable std::atomic<std::size_t> calls = 0, asked = 0;
-};
-
 TEST(Shrinking, AsksManyQueriesAtOnce) {
   const auto basic = make_subject("basic");
-  const Subjects subjects = one(std::make_unique<Counting>(*basic));
-  const auto& counting = dynamic_cast<const Counting&>(*subjects.front());
+  std::atomic<std::size_t> calls = 0;
+  std::atomic<std::size_t> asked = 0;
+  const auto count = [&](std::span<const Query> queries, std::span<Verdict> /*verdicts*/) {
+    ++calls;
+    asked += queries.size();
+  };
+  const Subjects subjects = one(std::make_unique<testing::WatchedSubject>(*basic, count));
   const std::vector<Finding> findings = missed(subjects);
-  counting.calls = counting.asked = 0;
+  calls = asked = 0;
   after_shrinking(subjects, findings);
-  EXPECT_GT(counting.asked, 10 * counting.calls);
+  EXPECT_GT(asked, 10 * calls);
 }
 
 }  // namespace

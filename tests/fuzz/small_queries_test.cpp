@@ -17,7 +17,7 @@
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
 #include "oracle/oracle.hpp"
-#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
 
 namespace nearmiss {
 namespace {
@@ -83,20 +83,28 @@ TEST(SmallQueries, HaveOneOfAllSymmetricCopies) {
   }
 }
 
+/// Expects that a list is sorted, and that exact arithmetic gives the same answer to every query of a sample.
+void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t one_in) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i > 0) {
+      EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
+    }
+    if (i % one_in != 0) continue;
+    const Decision exactly = decide_exactly(list[i].query);
+    EXPECT_EQ(list[i].collision, exactly.collision);
+    EXPECT_FALSE(exactly.is_tie);
+  }
+}
+
 TEST(SmallQueries, AreSortedAndDecided) {
   for (const Kind kind : kinds) {
     const auto& list = small_queries(kind);
     std::cout << short_name(kind) << ": " << list.size() << " queries\n";
     EXPECT_EQ(list.front().query, Query{.kind = kind});
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      EXPECT_EQ(list[i].query.kind, kind);
-      EXPECT_EQ(list[i].complexity.awkward, 0);
-      if (i > 0) {
-        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
-      }
-      if (i % 17 == 0) {
-        EXPECT_EQ(list[i].collision, collides_exactly(list[i].query));
-      }
+    expect_sorted_and_decided(list, 17);
+    for (const SmallQuery& each : list) {
+      EXPECT_EQ(each.query.kind, kind);
+      EXPECT_EQ(each.complexity.awkward, 0);
     }
     const auto collisions =
         std::count_if(list.begin(), list.end(), [](const SmallQuery& q) { return q.collision; });
@@ -109,19 +117,9 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
   for (const Kind kind : kinds) {
     const auto& list = small_queries(kind, true);
     std::cout << short_name(kind) << ": " << list.size() << " queries with a separation\n";
+    expect_sorted_and_decided(list, 61);
     std::map<double, std::size_t> seen;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const Query& query = list[i].query;
-      ++seen[query.separation];
-      if (i > 0) {
-        EXPECT_FALSE(list[i].complexity < list[i - 1].complexity);
-      }
-      if (i % 61 == 0) {
-        const Decision exactly = decide_exactly(query);
-        EXPECT_EQ(list[i].collision, exactly.collision);
-        EXPECT_FALSE(exactly.is_tie);
-      }
-    }
+    for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
     for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
     EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without those with two right answers
@@ -178,8 +176,6 @@ TEST(SmallQueries, AreLeftAfterARequest) {
 
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
   const Judge judge(blind);
-  const Subject* const pointer = &blind;
-  const FindingShrinker shrinker(std::span(&pointer, 1), Stop::never(), {});
   for (const Kind kind : kinds)
     for (std::uint64_t i = static_cast<std::uint64_t>(kind); i < 100; i += 2) {
       const Query query = make_query(find_family("planted"), 1, i);
@@ -188,9 +184,9 @@ TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {
       Finding finding = missed(kind);
       finding.query = query;
       finding.signature = failure->signature;
-      shrinker.shrink(finding);
-      EXPECT_EQ(complexity(finding.simplest).awkward, 0) << failure->signature;
-      EXPECT_EQ(judge.failure(finding.simplest), failure);
+      const Query shrunk = shrunk_query(finding, &blind);
+      EXPECT_EQ(complexity(shrunk).awkward, 0) << failure->signature;
+      EXPECT_EQ(judge.failure(shrunk), failure);
     }
 }
 

@@ -43,17 +43,6 @@ TEST(SoFar, KeepsTheFarthestOfAllCounters) {
   EXPECT_EQ(so_far.of(other).least_kept, 0);
 }
 
-TEST(SoFar, SetsASubjectAsideAfterThreeQueriesOverTheTimeLimit) {
-  SoFar so_far;
-  for (std::uint64_t slow = 0; slow < 5; ++slow) {
-    EXPECT_EQ(so_far.of(key).slow, slow);
-    EXPECT_EQ(so_far.of(key).is_set_aside(), slow >= 3);
-    Counts counts;
-    counts.faults[static_cast<std::size_t>(Fault::time)] = 1;
-    so_far.take({{key, counts}});
-  }
-}
-
 TEST(Sample, HasTheExpectedPartOfAnyProgression) {
   constexpr std::uint64_t numbers = 100'000;
   for (const std::uint64_t step : {1U, 2U, 256U, 1U << 24})

@@ -1,4 +1,4 @@
-// Subjects by name.
+// Subjects by name, and the oracle as one of them.
 #include "fuzz/subjects/subjects.hpp"
 
 #include <gtest/gtest.h>
@@ -22,6 +22,26 @@ TEST(AllSubjects, AreThoseOfTheCcdTheExactOnesAndAdaptiveButNoDefects) {
   EXPECT_REFUSED(make_any_subject("wong"), "exact");
   EXPECT_EQ(make_any_subject("defect:vv")->name(), "defect:vv");
   for (const SubjectInfo& info : built_in_subjects()) EXPECT_FALSE(info.name.starts_with("defect:"));
+}
+
+TEST(ExactSubject, AnswersWithoutAnyTolerance) {
+  const auto exact = make_any_subject("exact");
+  EXPECT_TRUE(exact->decide(testing::falling_vertex(0.5, 0.5, 1, 0)).hit);
+  EXPECT_FALSE(exact->decide(testing::falling_vertex(0.5, 0.5, 1, 0x1p-1074)).hit);
+  EXPECT_TRUE(exact->decide(Query{}).hit);
+  EXPECT_EQ(exact->distance_bound(Query{}), 0);
+}
+
+TEST(ExactSubject, AnswersEachOfManyQueries) {
+  std::vector<Query> queries;
+  for (int i = 0; i < 1000; ++i)
+    queries.push_back(testing::falling_vertex(0.25, 0.25, 1, i % 3 == 0 ? 0.5 : -0.5));
+  for (const SubjectInfo& info : exact_subjects()) {
+    std::vector<Verdict> verdicts(queries.size());
+    make_any_subject(info.name)->decide(queries, verdicts);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      EXPECT_EQ(verdicts[i].hit, i % 3 != 0) << info.name << ' ' << i;
+  }
 }
 
 TEST(AllSubjects, RefuseCoordinatesThatAreNotFinite) {

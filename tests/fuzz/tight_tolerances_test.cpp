@@ -8,10 +8,7 @@
 #include <nlopt.hpp>
 #include <vector>
 
-#include "ccd/wang/wang.hpp"
-#include "fuzz/families/families.hpp"
 #include "fuzz/studies/audit.hpp"
-#include "oracle/oracle.hpp"
 
 namespace nearmiss {
 namespace {
@@ -177,28 +174,6 @@ TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
     EXPECT_EQ(row.paper_breaks, row.exponent >= -11 ? "solver" : "") << row.exponent;
   }
 }
-
-/// The collisions of all planted families, with coordinates that T represents exactly, that the tight
-/// tolerances miss.
-template <class T>
-int misses(std::uint64_t queries) {
-  int count = 0;
-  for (const Family& family : families()) {
-    for (std::uint64_t i = 0; i < queries; ++i) {
-      Query query = make_query(family, 5, i);
-      for (double& c : query.x) c = static_cast<double>(static_cast<T>(c));
-      if (!is_finite(query) || !collides(query)) continue;
-      const bool hit = query.kind == Kind::vertex_triangle
-                           ? wang<Kind::vertex_triangle, T, WangOptions{}, TightTolerances>(query).hit
-                           : wang<Kind::edge_edge, T, WangOptions{}, TightTolerances>(query).hit;
-      if (!hit) ++count;
-    }
-  }
-  return count;
-}
-
-TEST(TightTolerances, MissNothingInDouble) { EXPECT_EQ(misses<double>(2000), 0); }
-TEST(TightTolerances, MissNothingInFloat) { EXPECT_EQ(misses<float>(500), 0); }
 
 }  // namespace
 }  // namespace nearmiss

@@ -9,7 +9,7 @@
 #include "fuzz/subjects/subjects.hpp"
 #include "oracle/distance.hpp"
 #include "oracle/oracle.hpp"
-#include "tests/fuzz/made_up_subject.hpp"
+#include "tests/fuzz/made_up_subjects.hpp"
 
 namespace nearmiss {
 namespace {

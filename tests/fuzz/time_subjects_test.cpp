@@ -4,24 +4,24 @@
 #include <map>
 #include <string>
 
-#include "fuzz/subjects/subjects.hpp"
-#include "fuzz/trial/trial.hpp"
 #include "oracle/earliest_time.hpp"
 #include "oracle/oracle.hpp"
 #include "tests/fuzz/family_queries.hpp"
+#include "tests/fuzz/trials.hpp"
 
 namespace nearmiss {
 namespace {
 
 /// Counts of `count` queries of a family for each kind, with seed 3.
 std::vector<Counts> counts_of(const std::string& subject, const Family& family, std::uint64_t count) {
-  Subjects subjects;
-  subjects.push_back(make_any_subject(subject));
+  const Subjects subjects = testing::one(make_any_subject(subject));
   std::vector<Counts> found;
   for (const Kind kind : kinds) {
-    Batch batch{.kind = kind, .family = family.name, .timed = false};
-    for (std::uint64_t i = 0; batch.queries.size() < count; ++i)
-      if (kind_of(i) == kind) batch.queries.push_back(make_query(family, 3, i));
+    std::vector<Query> queries;
+    for (std::uint64_t i = 0; queries.size() < count; ++i)
+      if (kind_of(i) == kind) queries.push_back(make_query(family, 3, i));
+    Batch batch = testing::batch_of(family.name, queries);
+    batch.timed = false;
     batch.provenance = [&](std::size_t i) {
       return family.name + ":3:" + std::to_string(2 * i + static_cast<std::size_t>(kind));
     };
@@ -88,14 +88,13 @@ TEST(TimesOfSubjects, AreNearWhereNothingIsHard) {
 }
 
 TEST(TimesOfSubjects, AreOfTheSortThatEachPromises) {
-  const std::map<std::string, TimeSort> sorts{
-      {"basic", TimeSort::estimate},       {"basic-plain", TimeSort::estimate},
-      {"basic:float", TimeSort::estimate}, {"wang", TimeSort::none},
-      {"wang-eps", TimeSort::none},        {"wang-plain", TimeSort::none},
-      {"wang-scalar", TimeSort::none},     {"wang-tight", TimeSort::none},
-      {"wang:dd", TimeSort::none},         {"wang-time", TimeSort::lower_bound},
-      {"advance", TimeSort::lower_bound},  {"adaptive", TimeSort::none}};
-  for (const auto& [name, sort] : sorts) EXPECT_EQ(make_any_subject(name)->time_sort(), sort) << name;
+  const std::map<TimeSort, std::vector<const char*>> subjects{
+      {TimeSort::estimate, {"basic", "basic-plain", "basic:float"}},
+      {TimeSort::none,
+       {"wang", "wang-eps", "wang-plain", "wang-scalar", "wang-tight", "wang:dd", "adaptive"}},
+      {TimeSort::lower_bound, {"wang-time", "advance"}}};
+  for (const auto& [sort, names] : subjects)
+    for (const char* name : names) EXPECT_EQ(make_any_subject(name)->time_sort(), sort) << name;
 }
 
 TEST(TimesOfSubjects, OnlyAdvanceAndTheExactOnesTakeASeparation) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fuzz/subjects/contracted.hpp"
-#include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/plugins.hpp"
 #include "tests/refused.hpp"
 #include "tests/temporary_folder.hpp"
@@ -108,13 +108,12 @@ TEST(Predecessors, AreTheFirstSubjectsWhosePluginsExportTheSameName) {
 
 /// Collisions with these first coordinates.
 Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_triangle) {
-  Batch batch{.kind = kind, .family = "f"};
+  std::vector<Query> queries;
   for (const double x : places)
-    batch.queries.push_back(kind == Kind::edge_edge
-                                ? testing::moved(testing::falling_edge(1, -1), x + 1)
-                                : testing::moved(testing::falling_vertex(0.25, 0.25, 1, -1), x - 0.25));
-  batch.provenance = [](std::size_t i) { return std::to_string(i); };
-  return batch;
+    queries.push_back(kind == Kind::edge_edge
+                          ? testing::moved(testing::falling_edge(1, -1), x + 1)
+                          : testing::moved(testing::falling_vertex(0.25, 0.25, 1, -1), x - 0.25));
+  return testing::batch_of("f", queries);
 }
 
 // v1 reports x > 0, v2 reports x > 0.25 and x < -0.5; all are collisions.
@@ -130,24 +129,6 @@ TEST(Versions, AreComparedOnTheQueriesThatBothWereAsked) {
     if (!each.broken_since.empty())
       broken.push_back(each.subject + " " + each.broken_since + " " + each.provenance);
   EXPECT_THAT(broken, ElementsAre("v2 v1 2"));
-}
-
-TEST(Versions, AreNotComparedOnKindsThatOneOfThemDoesNotDecide) {
-  const Subjects subjects = made_of({plugin("v1"), plugin("v3")});
-  const auto result = hold_trial(subjects, batch_at({1}, Kind::edge_edge));
-  EXPECT_THAT(result.statistics.versions, ::testing::IsEmpty());
-}
-
-TEST(Versions, AddUpInAnyOrder) {
-  const Subjects subjects = made_of({plugin("v1"), plugin("v2")});
-  const auto one = hold_trial(subjects, batch_at({1, 0.125, -1})).statistics;
-  const auto other = hold_trial(subjects, batch_at({0.125})).statistics;
-  Statistics forward = one;
-  forward.merge(other);
-  Statistics backward = other;
-  backward.merge(one);
-  EXPECT_EQ(forward.versions, backward.versions);
-  EXPECT_EQ(forward.versions.begin()->second, (VersionCounts{.fixed = 1, .broken = 2, .neither = 1}));
 }
 
 TEST(AVersion, AnswersRightlyIfItAnswersAndDoesNotFail) {

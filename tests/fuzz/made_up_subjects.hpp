@@ -1,11 +1,11 @@
-// A subject with the answers that a test makes up.
+// Subjects with the answers that a test makes up.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <utility>
 
-#include "ccd/subjects/subject.hpp"
+#include "fuzz/subjects/forwarding_subject.hpp"
 
 namespace nearmiss::testing {
 
@@ -46,6 +46,25 @@ class MadeUpSubject final : public Subject {
   std::string name_;
   Answer answer_;
   Claims claims_;
+};
+
+/// Answers as another subject, and then shows each batch with its answers, which may be changed. The other subject must
+/// outlive it.
+class WatchedSubject final : public ForwardingSubject {
+ public:
+  using Watch = std::function<void(std::span<const Query>, std::span<Verdict>)>;
+
+  WatchedSubject(const Subject& to, Watch watch)
+      : ForwardingSubject(to.name(), to), watch_(std::move(watch)) {}
+
+  using ForwardingSubject::decide;
+  void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
+    ForwardingSubject::decide(queries, verdicts);
+    watch_(queries, verdicts);
+  }
+
+ private:
+  Watch watch_;
 };
 
 }  // namespace nearmiss::testing
