@@ -47,23 +47,9 @@ class Nearmiss:
     def report(self, folder, cases, seed, subjects, families):
         """Runs a campaign and writes its report into folder/report. Misses are not errors here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
-        fuzz_text = self.run(
-            'fuzz',
-            '--family',
-            families,
-            '--cases',
-            cases,
-            '--seed',
-            seed,
-            '--subject',
-            ','.join(subjects),
-            '--db',
-            store,
-            '--json',
-            fuzz_json,
-            '-q',
-            codes=(0, 1),
-        )
+        command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
+        options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
+        fuzz_text = self.run(*command.split(), *options, codes=(0, 1))
         report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
         return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
 

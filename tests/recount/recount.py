@@ -23,9 +23,11 @@ from check_csv import (
 )
 from check_deciders import check_deciders
 from check_factors import check_common_factors
+from check_findings import check_findings
+from check_kept import check_extreme_times, check_farthest
 from check_page import check_page
 from check_scorecard import check_scorecard
-from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
+from check_sections import check_borders, check_ladder, check_trade_offs
 from check_text import check_text
 from check_versions import check_versions
 from comparison import Comparison
@@ -55,7 +57,10 @@ def check_report(comparison, report, answers, units):
     comparison.section(check_scorecard, 'verdicts', report, answers)
     comparison.section(check_ladder, 'ladder', report, answers, units)
     comparison.section(check_deciders, 'deciders', report, answers)
-    comparison.section(check_findings, 'findings', report, answers)
+    findings = report['findings']
+    comparison.section(check_findings, 'findings', findings, 'original', report, answers)
+    comparison.section(check_extreme_times, 'extreme_times', report, answers)
+    comparison.section(check_farthest, 'farthest', report, answers)
     comparison.section(check_common_factors, 'common_factors', report, answers)
     comparison.section(check_versions, 'versions', report, answers)
 
@@ -65,11 +70,11 @@ def check_all(comparison, report, answers, units):
     json_report = report.json()
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
-    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers, json_report)
-    comparison.section(check_classes_csv, 'classes.csv', report.folder, answers, json_report)
-    comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
-    comparison.section(check_times_csv, 'times.csv', report.folder, answers)
-    comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
+    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, json_report)
+    comparison.section(check_classes_csv, 'classes.csv', report.folder, json_report)
+    comparison.section(check_distances_csv, 'distances.csv', report.folder, json_report)
+    comparison.section(check_times_csv, 'times.csv', report.folder, json_report)
+    comparison.section(check_findings_csv, 'findings.csv', report.folder, json_report, answers)
     comparison.section(check_text, 'report.json', report, json_report)
     page = (report.folder / 'index.html').read_text(encoding='utf-8')
     comparison.section(check_page, 'index.html', page, json_report)
