@@ -55,9 +55,8 @@ class Nearmiss:
 
     def family(self, name, seed, kind, count):
         """The first queries of one kind of a family, as lines."""
-        return self.run(
-            'family', name, '--seed', seed, '--kind', kind, '--count', count
-        ).splitlines()
+        options = '--seed', seed, '--kind', kind, '--count', count
+        return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
         """The values of the factors of the same queries, as lists."""
@@ -73,13 +72,14 @@ class Nearmiss:
 
     def distances(self, kind, queries):
         """Lower and upper ends of the smallest distances, in the queries' unit of length."""
-        lines = self._ask('oracle', kind, queries, '--distance')
-        ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
-        return np.array(ends, dtype=float).reshape(-1, 2).T
+        return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
         """Lower and upper ends of the earliest times, for collisions: neighbouring doubles, or one."""
-        lines = self._ask('oracle', kind, queries, '--toi')
+        return self._ends(kind, queries, '--toi')
+
+    def _ends(self, kind, queries, of):
+        lines = self._ask('oracle', kind, queries, of)
         ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
         return np.array(ends, dtype=float).reshape(-1, 2).T
 

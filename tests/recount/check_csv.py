@@ -51,9 +51,8 @@ def _value(counts, column):
     for i, end in enumerate(ENDS):
         if column.endswith(end):
             name = column.removesuffix(end)
-            ends = (
-                counts[name] if isinstance(counts[name], list) else counts[f'{name}_interval_95']
-            )
+            own = counts[name]
+            ends = own if isinstance(own, list) else counts[f'{name}_interval_95']
             return math.inf if ends[i] is None else ends[i]
     return counts['false_positives_measured_by_wang' if column == 'measured_by_wang' else column]
 
@@ -70,7 +69,7 @@ def _check_rows(comparison, name, rows, expected, of):
                 comparison.same('CSV', where, number(text), _value(expected[key], column))
 
 
-def check_statistics_csv(comparison, name, folder, report):
+def _check_statistics(comparison, name, folder, report, _answers):
     """Checks all counters and measures by family. The columns by stage must have the names in
     report.json."""
     rows = read(folder, name)
@@ -80,7 +79,7 @@ def check_statistics_csv(comparison, name, folder, report):
     _check_rows(comparison, name, rows, _rows(report, 'families'), 'family')
 
 
-def check_classes_csv(comparison, name, folder, report):
+def _check_classes(comparison, name, folder, report, _answers):
     """Checks all counters and measures by class."""
     _check_rows(comparison, name, read(folder, name), _rows(report, 'classes'), 'class')
 
@@ -98,7 +97,7 @@ def _check_bins(comparison, name, folder, expected):
         comparison.same('CSV', f'{name} row {i + 1}', row, wanted)
 
 
-def check_distances_csv(comparison, name, folder, report):
+def _check_distances(comparison, name, folder, report, _answers):
     """Checks the bins of the distances of false positives."""
     expected = [
         (*key, *each, counts['bound_of_distances'])
@@ -108,7 +107,7 @@ def check_distances_csv(comparison, name, folder, report):
     _check_bins(comparison, name, folder, expected)
 
 
-def check_times_csv(comparison, name, folder, report):
+def _check_times(comparison, name, folder, report, _answers):
     """Checks the bins of the errors of times, on both sides of the earliest time."""
     expected = [
         (*key, side, *each)
@@ -119,8 +118,18 @@ def check_times_csv(comparison, name, folder, report):
     _check_bins(comparison, name, folder, expected)
 
 
-def check_findings_csv(comparison, name, folder, report, answers):
+def _check_findings(comparison, name, folder, report, answers):
     """Checks that every finding is a query that fails in the recorded way."""
     rows = read(folder, name)
     comparison.same('CSV', f'{name} rows', len(rows), report['findings_total'])
     check_findings(comparison, f'{name} row', rows, 'query', report, answers)
+
+
+# The check of each file.
+CSV_CHECKS = {
+    'statistics.csv': _check_statistics,
+    'classes.csv': _check_classes,
+    'distances.csv': _check_distances,
+    'times.csv': _check_times,
+    'findings.csv': _check_findings,
+}

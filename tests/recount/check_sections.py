@@ -17,10 +17,10 @@ TIME = 'ns_per_query'  # the field with the time that a front compares
 COARSEST, FINEST = -23, -127  # range of exponents of epsilon in a fit
 
 
-def check_borders(comparison, where, found):
+def check_borders(comparison, where, report):
     """Checks the histogram's lower borders."""
-    expected = {where: tuple(Near(border, ROUNDING) for border in (0.0, *BORDERS))}
-    comparison.entries('histogram borders', 'report.json', {where: found}, expected)
+    expected = {'histogram_borders': tuple(Near(border, ROUNDING) for border in (0.0, *BORDERS))}
+    comparison.entries('histogram borders', where, report, expected)
 
 
 def places(subject):

@@ -52,7 +52,10 @@ SUMMARY = (
     'subject  kind  queries  collisions  false neg.  rate below*  late  false pos.  max dist/bound'
 )
 CLASSES = 'subject  kind  class  queries  collisions  false neg.  late  false pos.'
-TIMES = 'subject  kind  class  sort  times  late  stuck  invalid  unknown  early: median  99 %  most  after t*'
+TIMES = (
+    'subject  kind  class  sort  times  late  stuck  invalid  unknown  '
+    'early: median  99 %  most  after t*'
+)
 LADDER = 'subject  epsilon  queries  missed  false pos.  farthest / B  claimed / B'
 
 
