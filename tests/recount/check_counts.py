@@ -53,10 +53,10 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
 
 def check_rates(comparison, where, found, tally):
     """Checks the measures that report.json has of every sum, but for run times."""
-    comparison.entries('counters', where, found, expected(found, tally))
+    comparison.entries('counters', where, found, measures(found, tally))
 
 
-def expected(found, tally):
+def measures(found, tally):
     """What is expected of measures by their keys. The largest numbers of `found` end its quantiles."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)

@@ -1,4 +1,4 @@
-"""Checks numbers of which enclosures are known, quantiles and histograms; and queries."""
+"""Checks numbers of which enclosures are known (quantiles and histograms), and queries."""
 
 import numpy as np
 
