@@ -25,9 +25,9 @@ class Asked:
     judged: list  # the queries by which the subject is judged, as lines
     impact: Impact
 
-    @property
-    def false_positive(self):
-        return self.hit & ~self.collision
+    def enclosed(self, name):
+        """The numbers of the histogram with this key in reports; NaN for a query without a number."""
+        return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
     def false_negative(self):

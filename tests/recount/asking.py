@@ -47,31 +47,16 @@ class Nearmiss:
     def report(self, folder, cases, seed, subjects, families):
         """Runs a campaign and writes its report into folder/report. Misses are not errors here."""
         store, fuzz_json = folder / 'campaign.db', folder / 'fuzz.json'
-        fuzz_text = self.run(
-            'fuzz',
-            '--family',
-            families,
-            '--cases',
-            cases,
-            '--seed',
-            seed,
-            '--subject',
-            ','.join(subjects),
-            '--db',
-            store,
-            '--json',
-            fuzz_json,
-            '-q',
-            codes=(0, 1),
-        )
+        command = f'fuzz --family {families} --cases {cases} --seed {seed} -q'
+        options = '--subject', ','.join(subjects), '--db', store, '--json', fuzz_json
+        fuzz_text = self.run(*command.split(), *options, codes=(0, 1))
         report_text = self.run('report', store, '-o', folder / 'report', codes=(0, 1))
         return Report(folder / 'report', json.loads(fuzz_json.read_text()), fuzz_text, report_text)
 
     def family(self, name, seed, kind, count):
         """The first queries of one kind of a family, as lines."""
-        return self.run(
-            'family', name, '--seed', seed, '--kind', kind, '--count', count
-        ).splitlines()
+        options = '--seed', seed, '--kind', kind, '--count', count
+        return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
         """The values of the factors of the same queries, as lists."""
@@ -87,13 +72,14 @@ class Nearmiss:
 
     def distances(self, kind, queries):
         """Lower and upper ends of the smallest distances, in the queries' unit of length."""
-        lines = self._ask('oracle', kind, queries, '--distance')
-        ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
-        return np.array(ends, dtype=float).reshape(-1, 2).T
+        return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
         """Lower and upper ends of the earliest times, for collisions: neighbouring doubles, or one."""
-        lines = self._ask('oracle', kind, queries, '--toi')
+        return self._ends(kind, queries, '--toi')
+
+    def _ends(self, kind, queries, of):
+        lines = self._ask('oracle', kind, queries, of)
         ends = [[float.fromhex(number) for number in line.split()[1:]] for line in lines]
         return np.array(ends, dtype=float).reshape(-1, 2).T
 

@@ -9,6 +9,9 @@ from statistics import mean, variance
 
 from scipy.stats import hypergeom, t
 
+from check_numbers import SOLVED
+from comparison import Near
+
 RISK = 1e-3
 FEWEST_FAMILIES = 8
 FAMILY, SUBJECT, MACHINE = 0.05, 0.08, 0.15
@@ -146,13 +149,14 @@ class _Times:
                 now = mean(self.now.times[each][0] for each in self.subjects[key[0]])
             else:
                 now = self.now.times[key][0]
+            p = 2 * t.sf(abs(change) / math.sqrt(max(value, between)), free)
             yield key, {
                 'slower': change > 0,
-                'ratio': math.exp(change),
-                'p': 2 * t.sf(abs(change) / math.sqrt(max(value, between)), free),
-                'before_ns': math.exp(now - change - mean(self.common[key])),
-                'expected_ns': math.exp(now - change),
-                'now_ns': math.exp(now),
+                'ratio': Near(math.exp(change), SOLVED),
+                'p': Near(p, 1e-6),
+                'before_ns': Near(math.exp(now - change - mean(self.common[key])), SOLVED),
+                'expected_ns': Near(math.exp(now - change), SOLVED),
+                'now_ns': Near(math.exp(now), SOLVED),
             }
 
 
@@ -161,16 +165,11 @@ def _check_times(comparison, where, found, now, nights):
     tested = list(_Times(now, nights).tested()) if nights else []
     comparison.same('changes', f'{where} campaigns', found['campaigns_with_times'], len(nights))
     comparison.same('changes', f'{where} compared', found['compared_times'], len(tested))
-    changed = [(key, row) for key, row in tested if row['p'] < RISK / len(tested)]
+    changed = [(key, row) for key, row in tested if row['p'].value < RISK / len(tested)]
     names = [(row['subject'], row['kind'], row['family']) for row in found['changed_times']]
     comparison.same('names', f'{where} changed', names, [key for key, _ in changed])
     for row, (key, expected) in zip(found['changed_times'], changed):
-        comparison.same('changes', f'{where} {key}', row['slower'], expected['slower'])
-        for name in ('ratio', 'p', 'before_ns', 'expected_ns', 'now_ns'):
-            relative = 1e-6 if name == 'p' else 1e-9
-            comparison.near(
-                'changes', f'{where} {key} {name}', row[name], expected[name], relative
-            )
+        comparison.entries('changes', f'{where} {key}', row, expected)
 
 
 def _gone(now, nights):

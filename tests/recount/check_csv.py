@@ -1,16 +1,20 @@
-"""Checks the CSV files of a report: statistics.csv, classes.csv, distances.csv, times.csv and
-findings.csv."""
+"""Checks that the CSV files of a report have the numbers of report.json, which are checked elsewhere:
+statistics.csv, classes.csv, distances.csv, times.csv and findings.csv."""
 
 import csv
+import math
 
-import numpy as np
+from check_findings import check_findings
 
-from asking import KINDS
-from check_numbers import ROUNDING, SOLVED, check_histogram, check_quantile, check_query
-from check_sections import check_finding
-from check_times import check_times
-from enclosed import BINS, BORDERS
-from tally import Tally, classes_of, denominators, interval, rate, stages, upper_bound
+# Columns with a count for each name, by their prefix, and the object in report.json.
+NAMED = {
+    'fault_': 'faults',
+    'missed_': 'false_negatives_by_class',
+    'true_by_': 'true_positives_by_stage',
+    'false_by_': 'false_positives_by_stage',
+    'rejected_by_': 'rejected_by',
+}
+ENDS = ('_from', '_to')  # of the two columns of a range
 
 
 def read(folder, name):
@@ -29,163 +33,103 @@ def number(text):
     return text
 
 
-def keys(answers):
-    """Subject, kind and family of every row, in order."""
-    return [
-        (subject, kind, family)
-        for subject in answers.subjects
-        for kind in KINDS
-        for family in answers.families(kind)
-    ]
+def _rows(report, part):
+    """The counters of each subject, kind and family (or class), in the order of the files."""
+    return {
+        (subject, kind, name): counts
+        for subject, of_kinds in report['subjects'].items()
+        for kind, of_kind in of_kinds.items()
+        for name, counts in of_kind[part].items()
+    }
 
 
-def check_statistics_csv(comparison, _where, folder, answers, report):
-    """Checks counters, rates and quantiles. The columns by stage must have the names in
+def _value(counts, column):
+    """The value in report.json of a column of statistics.csv."""
+    for prefix, name in NAMED.items():
+        if column.startswith(prefix):
+            return counts[name].get(column.removeprefix(prefix), 0)
+    for i, end in enumerate(ENDS):
+        if column.endswith(end):
+            name = column.removesuffix(end)
+            own = counts[name]
+            ends = own if isinstance(own, list) else counts[f'{name}_interval_95']
+            return math.inf if ends[i] is None else ends[i]
+    return counts['false_positives_measured_by_wang' if column == 'measured_by_wang' else column]
+
+
+def _check_rows(comparison, name, rows, expected, of):
+    """Checks the rows of statistics.csv or classes.csv; `of` is the heading of families or classes.
+    Run times of single queries are rounded, and left out."""
+    found = [(row['subject'], row['kind'], row[of]) for row in rows]
+    comparison.same('CSV', f'{name} rows', found, list(expected))
+    for key, row in zip(found, rows):
+        for column, text in row.items():
+            if column not in ('subject', 'kind', of, 'median_ns', 'q99_ns'):
+                where = f'{name} {" ".join(key)} {column}'
+                comparison.same('CSV', where, number(text), _value(expected[key], column))
+
+
+def _check_statistics(comparison, name, folder, report, _answers):
+    """Checks all counters and measures by family. The columns by stage must have the names in
     report.json."""
-    statistics = read(folder, 'statistics.csv')
-    by_stage = [name for name in statistics[0] if name.startswith('true_by_')]
+    rows = read(folder, name)
+    by_stage = [column for column in rows[0] if column.startswith('true_by_')]
     expected = ['true_by_none', *(f'true_by_{stage}' for stage in report['stages'])]
     comparison.same('CSV', 'stages of report.json', by_stage, expected)
-    found = [(row['subject'], row['kind'], row['family']) for row in statistics]
-    comparison.same('CSV', 'statistics.csv rows', found, keys(answers))
-    for row in statistics:
-        where = f'statistics.csv {row["subject"]} {row["kind"]} {row["family"]}'
-        family = report['subjects'][row['subject']][row['kind']]['families'].get(row['family'])
-        if family is not None:  # a report joins families that statistics.csv lists
-            comparison.same('CSV', f'{where} class', row['class'], family['class'])
-        tally = Tally.of(answers, row['subject'], [row['kind']], row['family'])
-        _check_statistics(comparison, where, numbers(row), tally)
+    _check_rows(comparison, name, rows, _rows(report, 'families'), 'family')
 
 
-def check_classes_csv(comparison, _where, folder, answers, report):
-    """Checks counters, rates and quantiles of the families of each class."""
-    rows = read(folder, 'classes.csv')
-    found = [(row['subject'], row['kind'], row['class']) for row in rows]
+def _check_classes(comparison, name, folder, report, _answers):
+    """Checks all counters and measures by class."""
+    _check_rows(comparison, name, read(folder, name), _rows(report, 'classes'), 'class')
+
+
+def _bins(report, histogram):
+    """The borders and the count of each bin that is not empty."""
+    borders = [*report['histogram_borders'], math.inf]
+    return [(*borders[i : i + 2], count) for i, count in enumerate(histogram) if count]
+
+
+def _check_bins(comparison, name, folder, expected):
+    found = [tuple(map(number, row.values())) for row in read(folder, name)]
+    comparison.same('CSV', f'{name} number of rows', len(found), len(expected))
+    for i, (row, wanted) in enumerate(zip(found, expected)):
+        comparison.same('CSV', f'{name} row {i + 1}', row, wanted)
+
+
+def _check_distances(comparison, name, folder, report, _answers):
+    """Checks the bins of the distances of false positives."""
     expected = [
-        (subject, kind, each)
-        for subject in answers.subjects
-        for kind in KINDS
-        for each in report['subjects'][subject][kind]['classes']
+        (*key, *each, counts['bound_of_distances'])
+        for key, counts in _rows(report, 'families').items()
+        for each in _bins(report, counts['fp_distance_histogram'])
     ]
-    comparison.same('CSV', 'classes.csv rows', found, expected)
-    for row in rows:
-        families = report['subjects'][row['subject']][row['kind']]['families']
-        members = classes_of({name: own['class'] for name, own in families.items()})
-        if row['class'] in members:  # otherwise it is among the differences of the rows
-            tally = Tally.of(answers, row['subject'], [row['kind']], members[row['class']])
-            where = f'classes.csv {row["subject"]} {row["kind"]} {row["class"]}'
-            _check_statistics(comparison, where, numbers(row), tally)
+    _check_bins(comparison, name, folder, expected)
 
 
-def numbers(row):
-    """The row with numbers instead of text, where it is a number."""
-    return {name: number(text) for name, text in row.items()}
+def _check_times(comparison, name, folder, report, _answers):
+    """Checks the bins of the errors of times, on both sides of the earliest time."""
+    expected = [
+        (*key, side, *each)
+        for key, counts in _rows(report, 'families').items()
+        for side in ('early', 'after')
+        for each in _bins(report, counts[f'{side}_histogram'])
+    ]
+    _check_bins(comparison, name, folder, expected)
 
 
-def _check_statistics(comparison, where, row, tally):
-    """Checks one row, except times."""
-    for name in ('queries', 'collisions', 'positives', 'false_negatives', 'false_positives'):
-        comparison.same('CSV', f'{where} {name}', row[name], getattr(tally, name))
-    comparison.within('CSV', f'{where} refuted_bounds', row['refuted_bounds'], *tally.refuted())
-    by_wang = 0 if tally.claims else tally.false_positives
-    comparison.same('CSV', f'{where} by wang', row['measured_by_wang'], by_wang)
-    of_negatives, of_positives = denominators(tally)
-    lower, upper = interval(tally.false_positives, of_positives)
-    for name, value in (
-        ('false_negative_rate_upper_95', upper_bound(tally.false_negatives, of_negatives)),
-        ('false_positive_rate', rate(tally.false_positives, of_positives)),
-        ('false_positive_rate_from', lower),
-        ('false_positive_rate_to', upper),
-    ):
-        comparison.near('CSV', f'{where} {name}', row[name], value, SOLVED)
-    largest = row['max_fp_distance_over_bound']
-    comparison.within(
-        'CSV',
-        f'{where} largest',
-        largest,
-        *(tally.ratios.largest()[0] if tally.false_positives else (0, 0)),
-    )
-    for name, part in (('median', 0.5), ('q99', 0.99)):
-        ends = [row[f'{name}_fp_distance_over_bound_{end}'] for end in ('from', 'to')]
-        check_quantile(
-            comparison, f'{where} {name}', ends, tally.ratios.quantile_bins(part), largest
-        )
-    ranges = {
-        name: [row[f'{name}_{end}'] for end in ('from', 'to')]
-        for name in ('median_early', 'q99_early', 'q99_travelled')
-    }
-    check_times(comparison, where, {**row, **ranges, 'time_sort': tally.times.sort}, tally)
-    for name, expected in (('true', tally.true_by_stage), ('false', tally.false_by_stage)):
-        found = {key: n for key, n in row.items() if key.startswith(f'{name}_by_') and n}
-        found = {key.removeprefix(f'{name}_by_'): n for key, n in found.items()}
-        own, wanted = (stages(tally.subject, each) for each in (found, expected))
-        comparison.same('CSV', f'{where} {name} by stage', own, wanted)
-    missed = {
-        key.removeprefix('missed_'): n for key, n in row.items() if key.startswith('missed_') and n
-    }
-    comparison.same('CSV', f'{where} missed by class', missed, tally.missed_by_class)
-    rejected = sum(count for key, count in row.items() if key.startswith('rejected_by_'))
-    comparison.same('CSV', f'{where} rejected', rejected, tally.queries - tally.positives)
-    comparison.same(
-        'CSV', f'{where} faults', sum(n for key, n in row.items() if key.startswith('fault_')), 0
-    )
-
-
-def bin_of(comparison, where, ends):
-    """The bin with these ends."""
-    lower, upper = np.concatenate(([0], BORDERS)), np.concatenate((BORDERS, [np.inf]))
-    i = int(np.argmin(np.abs(upper[:-1] - ends[1]))) if ends[1] != np.inf else BINS - 1
-    comparison.near('CSV', f'{where} from', ends[0], lower[i], ROUNDING)
-    comparison.near('CSV', f'{where} to', ends[1], upper[i], ROUNDING)
-    return i
-
-
-def check_distances_csv(comparison, _where, folder, answers):
-    """Checks the non-empty bins of the histograms."""
-    bins = {key: [0] * BINS for key in keys(answers)}
-    for row in read(folder, 'distances.csv'):
-        where = f'distances.csv {row["subject"]} {row["kind"]} {row["family"]}'
-        ends = [number(row[f'distance_over_bound_{end}']) for end in ('from', 'to')]
-        claims = answers.asked[row['subject'], row['kind']].claims
-        comparison.same('CSV', f'{where} bound', row['bound'], 'claimed' if claims else 'wang')
-        i = bin_of(comparison, where, ends)
-        bins[row['subject'], row['kind'], row['family']][i] += int(row['false_positives'])
-    for (subject, kind, family), found in bins.items():
-        ratios = Tally.of(answers, subject, [kind], family).ratios
-        check_histogram(comparison, f'distances.csv {subject} {kind} {family}', found, ratios)
-
-
-def check_times_csv(comparison, _where, folder, answers):
-    """Checks the non-empty bins of the histograms of times, on both sides."""
-    bins = {(*key, side): [0] * BINS for key in keys(answers) for side in ('early', 'after')}
-    for row in read(folder, 'times.csv'):
-        key = tuple(row[name] for name in ('subject', 'kind', 'family', 'side'))
-        ends = [number(row[f'error_{end}']) for end in ('from', 'to')]
-        i = bin_of(comparison, f'times.csv {" ".join(key)}', ends)
-        bins[key][i] += int(row['times'])
-    for (subject, kind, family, side), found in bins.items():
-        errors = getattr(Tally.of(answers, subject, [kind], family).times, side)
-        check_histogram(comparison, f'times.csv {subject} {kind} {family} {side}', found, errors)
-
-
-def check_findings_csv(comparison, _where, folder, answers, report):
+def _check_findings(comparison, name, folder, report, answers):
     """Checks that every finding is a query that fails in the recorded way."""
-    rows = read(folder, 'findings.csv')
-    comparison.same('CSV', 'findings.csv rows', len(rows), report['findings_total'])
-    seen = {
-        (each['what'], each['subject'], each['signature']): each['seen']
-        for each in report['signatures']
-    }
-    for i, row in enumerate(rows):
-        where = f'findings.csv row {i + 1}'
-        check_finding(comparison, where, answers, row)
-        signature = row['what'], row['subject'], row['signature']
-        comparison.same('CSV', f'{where} seen', number(row['seen']), seen.get(signature))
-        place = answers.place(row['kind'], row['provenance'])
-        if place is not None:
-            check_query(
-                comparison,
-                where,
-                row['query'],
-                answers.asked[row['subject'], row['kind']].judged[place],
-            )
+    rows = read(folder, name)
+    comparison.same('CSV', f'{name} rows', len(rows), report['findings_total'])
+    check_findings(comparison, f'{name} row', rows, 'query', report, answers)
+
+
+# The check of each file.
+CSV_CHECKS = {
+    'statistics.csv': _check_statistics,
+    'classes.csv': _check_classes,
+    'distances.csv': _check_distances,
+    'times.csv': _check_times,
+    'findings.csv': _check_findings,
+}

@@ -19,9 +19,8 @@ def check_deciders(comparison, where, report, answers):
     keys = [(row['subject'], row['family']) for row in found]
     comparison.same('deciders', f'{where} rows', keys, list(expected))
     for row, key in zip(found, keys):
-        comparison.same('deciders', f'{where} {key}', row['decided_by'], expected[key])
-        queries = sum(expected[key].values())
-        comparison.same('deciders', f'{where} {key} queries', row['queries'], queries)
+        counts = {'decided_by': expected[key], 'queries': sum(expected[key].values())}
+        comparison.entries('deciders', f'{where} {key}', row, counts)
 
 
 def _row(subject, family):

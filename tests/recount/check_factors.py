@@ -15,14 +15,10 @@ def check_common_factors(comparison, where, report, answers):
         for family in answers.families(kind)
         if (each := common_factors(answers, subject, kind, family))
     ]
-    places = [(each['subject'], each['kind'], each['family']) for each in expected]
-    comparison.same(
-        'names', where, [(each['subject'], each['kind'], each['family']) for each in found], places
-    )
+    comparison.same('names', f'{where} number', len(found), len(expected))
     for own, other in zip(found, expected):
-        at = f'{where} {own["subject"]} {own["kind"]} {own["family"]}'
-        for name, value in other.items():
-            comparison.same('common factors', f'{at} {name}', own[name], value)
+        at = f'{where} {other["subject"]} {other["kind"]} {other["family"]}'
+        comparison.entries('common factors', at, own, other)
 
 
 def common_factors(answers, subject, kind, family):

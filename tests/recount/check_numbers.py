@@ -1,25 +1,21 @@
-"""Checks numbers of which enclosures are known: quantiles and histograms; and queries."""
+"""Checks numbers of which enclosures are known (quantiles and histograms), and queries."""
 
 import numpy as np
 
+from comparison import Within
 from enclosed import BINS, BORDERS, LARGEST
 
 ROUNDING = 1e-12  # relative error of a quotient of two counts
 SOLVED = 1e-9  # relative error of the solution of an equation, and of values computed from it
 
 
-def check_quantile(comparison, where, found, bins, largest):
-    """Checks the bin of a quantile, which ends at the largest number."""
+def quantile(enclosed, part, largest):
+    """The range of each end of a quantile's bin, which ends at the largest number."""
+    bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))
-    upper = np.concatenate((BORDERS, [np.inf])) if bins else [0]
-    comparison.within('quantiles', f'{where} from', found[0], *outward(lower[first], lower[last]))
-    comparison.within(
-        'quantiles',
-        f'{where} to',
-        found[1],
-        *outward(min(upper[first], largest), min(upper[last], largest)),
-    )
+    upper = np.minimum(np.concatenate((BORDERS, [np.inf])), largest) if bins else [0]
+    return tuple(Within(*outward(ends[first], ends[last])) for ends in (lower, upper))
 
 
 def outward(least, most):

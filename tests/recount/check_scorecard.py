@@ -2,7 +2,7 @@
 
 from asking import KINDS
 from check_counts import check_rates
-from check_sections import check_places
+from check_sections import places
 from query_class import complexity, exoticness
 from tally import ON_REQUEST, Tally, classes_of, failures_of
 
@@ -15,13 +15,15 @@ def check_scorecard(comparison, where, report, answers):
     for row in rows:
         subject = row['subject']
         own = f'{where} {subject}'
-        counts = row['counts']
-        check_rates(comparison, own, counts, Tally.of(answers, subject, KINDS))
-        check_places(comparison, where, row, subject)
-        comparison.same('counters', f'{own} faults', row['faults'], {})
-        failed = failures_of(counts, row['faults'])
-        comparison.same('verdicts', f'{own} failures', row['failures'], failed)
-        comparison.same('verdicts', f'{own} clean', row['clean'], not set(failed) - ON_REQUEST)
+        failed = failures_of(row['counts'], row['faults'])
+        expected = {
+            **places(subject),
+            'faults': {},
+            'failures': failed,
+            'clean': not set(failed) - ON_REQUEST,
+        }
+        comparison.entries('verdicts', own, row, expected)
+        check_rates(comparison, own, row['counts'], Tally.of(answers, subject, KINDS))
         families = {
             name: each['class']
             for kind in KINDS

@@ -1,193 +1,151 @@
-"""Checks texts in a report and in the output: headline, verdicts, the summary's and the ladder's
-tables.
+"""Checks texts in a report and in the output: headline, verdicts, tables, and lines with numbers.
 
 Numbers in text are rounded. Therefore the expected texts are made from the numbers of report.json,
 which are checked elsewhere."""
 
+import itertools
+import math
 import re
 
-from asking import KINDS
-from verdict_text import failures_said, fraction, general, headline, verdict, versions
+from verdict_text import alarms, counted, fraction, headline, verdict, versions
+
+
+def _whole(key):
+    return lambda counts: f'{counts[key]:,}'
+
+
+def _rounded(key, digits):
+    return lambda counts: f'{counts[key]:.{digits}g}'
+
+
+def _upper_end(key):
+    return lambda counts: f'{counts[key][1]:.2g}'
+
+
+# What a table shows of the counters in a row, by the heading of the column.
+COLUMNS = {
+    'queries': _whole('queries'),
+    'collisions': _whole('collisions'),
+    'false neg.': _whole('false_negatives'),
+    'missed': _whole('false_negatives'),
+    'rate below*': _rounded('false_negative_rate_upper_95', 2),
+    'late': lambda counts: f'{counts["late"]:,}' if counts['times_promised'] else '-',
+    'false pos.': _whole('false_positives'),
+    'max dist/bound': lambda counts: fraction(counts['max_fp_distance_over_bound'])
+    + ('' if counts['bound_of_distances'] == 'claimed' else '**'),
+    'sort': lambda counts: counts['time_sort'],
+    'times': _whole('times_given'),
+    'stuck': _whole('stuck'),
+    'invalid': lambda counts: '0',  # there are no faults (check_counts.py)
+    'unknown': _whole('unknown'),
+    'early: median': _upper_end('median_early'),
+    '99 %': _upper_end('q99_early'),
+    'most': _rounded('max_early', 2),
+    'after t*': _rounded('max_after', 2),
+    'epsilon': lambda rung: f'2^{math.log2(rung["epsilon"]):.0f}',
+    'farthest / B': _rounded('farthest', 3),
+    'claimed / B': _rounded('claimed', 3),
+}
+# The headings of each table. Run times are not compared.
+TIME = 'ns/query'
+SUMMARY = (
+    'subject  kind  queries  collisions  false neg.  rate below*  late  false pos.  max dist/bound'
+)
+CLASSES = 'subject  kind  class  queries  collisions  false neg.  late  false pos.'
+TIMES = (
+    'subject  kind  class  sort  times  late  stuck  invalid  unknown  '
+    'early: median  99 %  most  after t*'
+)
+LADDER = 'subject  epsilon  queries  missed  false pos.  farthest / B  claimed / B'
 
 
 def check_text(comparison, section, report, json_report):
     """Checks text in the report, and the output of nearmiss fuzz and nearmiss report."""
-    verdicts = {
-        subject: verdict(subject, json_report) for subject in sorted(json_report['subjects'])
+    rows, found = json_report['verdicts'], json_report['headline']
+    for row in rows:
+        expected = verdict(row, json_report['subjects'][row['subject']])
+        comparison.same('text', f'{section} verdict of {row["subject"]}', row['text'], expected)
+    expected = {
+        'clean': all(row['clean'] for row in rows),
+        'text': headline(json_report),
+        'alarms': alarms(json_report),
     }
-    _check_headline(comparison, section, json_report, verdicts)
-    _check_verdicts(comparison, section, json_report, verdicts)
-    for where, text in (
-        ('nearmiss fuzz', report.fuzz_text),
-        ('nearmiss report', report.report_text),
-    ):
-        _check_output(comparison, where, text, json_report, verdicts)
+    comparison.same('text', f'{section} headline', found, expected)
+    comparison.same('text', f'{section} complaint', json_report['oracle']['complaint'], '')
+    for where, text in (('fuzz', report.fuzz_text), ('report', report.report_text)):
+        _check_output(comparison, f'nearmiss {where}', text, json_report)
     if 'ladder' in json_report:
         _check_ladder(comparison, report.fuzz_text.splitlines(), json_report['ladder'])
 
 
-def _check_headline(comparison, section, json_report, verdicts):
-    found = json_report['headline']
-    expected = headline(json_report, verdicts)
-    comparison.same('text', f'{section} headline', found['text'], expected)
-    is_clean = all(clean for clean, _ in verdicts.values())
-    comparison.same('text', f'{section} headline clean', found['clean'], is_clean)
-    expected = [
-        f'{subject} {said}'
-        for subject in verdicts
-        for _, said in failures_said(json_report['subjects'][subject])
-    ]
-    comparison.same('text', f'{section} headline alarms', found['alarms'], expected)
-
-
-def _check_verdicts(comparison, section, json_report, verdicts):
-    names = [each['subject'] for each in json_report['verdicts']]
-    comparison.same('text', f'{section} verdicts', names, sorted(verdicts))
-    for each in json_report['verdicts']:
-        clean, text = verdicts.get(each['subject'], (None, None))
-        where = f'{section} verdict of {each["subject"]}'
-        comparison.same('text', where, each['text'], text)
-        comparison.same('text', f'{where} clean', each['clean'], clean)
-    complaint = json_report['oracle']['complaint']
-    comparison.same('text', f"{section} the oracle's complaint", complaint, '')
-
-
-def _check_output(comparison, where, text, json_report, verdicts):
-    """Checks the verdicts, the table of counters, and the oracle's lines in the output of one
+def _check_output(comparison, where, text, report):
+    """Checks the verdicts, the tables of counters, and the lines with numbers in the output of one
     command."""
     lines = text.splitlines()
-    expected = [
-        f'{" ok " if clean else "FAIL"} {subject}: {said}'
-        for subject, (clean, said) in verdicts.items()
+    kinds = {
+        (subject, kind): counts
+        for subject, own in report['subjects'].items()
+        for kind, counts in own.items()
+    }
+    classes = {
+        (*key, name): of for key, counts in kinds.items() for name, of in counts['classes'].items()
+    }
+    timed = {key: of for key, of in classes.items() if of['times_given']}
+    _check_table(comparison, where, lines, SUMMARY, kinds)
+    if timed:
+        _check_table(comparison, where, lines, TIMES, timed)
+    if len({name for _, _, name in classes}) > 1:
+        _check_table(comparison, where, lines, CLASSES, classes)
+    verdicts = [
+        f'{" ok " if row["clean"] else "FAIL"} {row["subject"]}: {row["text"]}'
+        for row in report['verdicts']
     ]
-    comparison.same('text', f'{where} verdicts', lines[: len(expected)], expected)
-    _check_table(comparison, where, lines, ['subject', 'kind', 'queries'], summary(json_report))
-    if times(json_report):
-        heading = ['subject', 'kind', 'class', 'sort']
-        _check_table(comparison, where, lines, heading, times(json_report), last_is_time=False)
-    if len({row[2] for row in class_rows(json_report)}) > 1:
-        heading = ['subject', 'kind', 'class', 'queries']
-        _check_table(comparison, where, lines, heading, class_rows(json_report))
-    found = [line for line in lines if ' % of the missed ones have ' in line]
-    expected = [common_factors(each) for each in json_report.get('common_factors', [])]
-    comparison.same('text', f'{where} common factors', found, expected)
-    found = [line for line in lines if ' both fail, of ' in line]
-    comparison.same('text', f'{where} versions', found, versions(json_report))
+    _check_lines(comparison, f'{where} verdicts', lines, '(FAIL| ok ) ', verdicts)
+    factors = [_common_factors(each) for each in report.get('common_factors', [])]
+    _check_lines(comparison, f'{where} factors', lines, '.* % of the missed ones have ', factors)
+    _check_lines(comparison, f'{where} versions', lines, '.* both fail, of ', versions(report))
     found = re.search(r'^oracle: .*\n.*$', text, re.MULTILINE)
-    expected = oracle_line(json_report['oracle']['total'])
-    comparison.same('text', f'{where} oracle', found and found[0], expected)
+    comparison.same('text', f'{where} oracle', found[0], _oracle(report['oracle']['total']))
+
+
+def _check_lines(comparison, where, lines, begin, expected):
+    """Checks the lines that begin in a way, a regular expression."""
+    found = [line for line in lines if re.match(begin, line)]
+    comparison.same('text', where, found, expected)
+
+
+def _check_table(comparison, where, lines, headings, sums):
+    """Checks the table with these headings, and perhaps a last column of run times: a row for each of
+    the sums, which the first cells name."""
+    cells = [re.split(r' {2,}', line.strip()) for line in lines]
+    headings = headings.split('  ')
+    starts = [i for i, row in enumerate(cells) if row in (headings, [*headings, TIME])]
+    comparison.same('text', f'{where} tables of {" ".join(headings)}', len(starts), 1)
+    for start in starts:
+        rows = list(itertools.takewhile(lambda row: len(row) > 1, cells[start + 1 :]))
+        comparison.same('text', f'{where} number of rows', len(rows), len(sums))
+        for row, (key, counts) in zip(rows, sums.items()):
+            expected = [*key, *(COLUMNS[heading](counts) for heading in headings[len(key) :])]
+            comparison.same('text', f'{where} row {" ".join(key)}', row[: len(headings)], expected)
 
 
 def _check_ladder(comparison, lines, found):
     """Checks the table and the fits that nearmiss fuzz prints."""
-    heading = ['subject', 'epsilon']
-    _check_table(comparison, 'nearmiss fuzz ladder', lines, heading, ladder(found))
-    fits = [line for line in lines if ' of the claimed distance' in line]
-    expected = [fit(each) for each in found['fits'] if not each['origin']]
-    comparison.same('text', 'nearmiss fuzz fits', fits, expected)
+    rungs = {(rung['subject'],): rung for rung in found['rungs']}
+    _check_table(comparison, 'nearmiss fuzz ladder', lines, LADDER, rungs)
+    fits = [_fit(each) for each in found['fits'] if not each['origin']]
+    _check_lines(comparison, 'nearmiss fuzz fits', lines, '.* of the claimed distance', fits)
 
 
-def common_factors(found):
-    """What the missed collisions of a family have in common, in words."""
-    collisions = f'{found["collisions"]:,} collision{"" if found["collisions"] == 1 else "s"}'
+def _common_factors(found):
+    """What the missed collisions of a family have in common."""
     return (
         f'{found["subject"]} {found["kind"]}, {found["family"]}: {found["false_negatives"]:,} of '
-        f'{collisions} missed; {found["text"]}'
+        f'{counted(found["collisions"], "collision")} missed; {found["text"]}'
     )
 
 
-def summary(report):
-    """The rows of the summary's table, without times."""
-    rows = []
-    for subject, own in report['subjects'].items():
-        for kind in KINDS:
-            c = own[kind]
-            rows.append(
-                [
-                    subject,
-                    kind,
-                    f'{c["queries"]:,}',
-                    f'{c["collisions"]:,}',
-                    f'{c["false_negatives"]:,}',
-                    general(c['false_negative_rate_upper_95'], 2),
-                    late_times(c),
-                    f'{c["false_positives"]:,}',
-                    fraction(c['max_fp_distance_over_bound'])
-                    + ('' if c['bound_of_distances'] == 'claimed' else '**'),
-                ]
-            )
-    return rows
-
-
-def late_times(counts):
-    """The number of late times, if any were to be lower bounds."""
-    return f'{counts["late"]:,}' if counts['times_promised'] else '-'
-
-
-def classes(report):
-    """The counters of each subject, kind and class."""
-    return [
-        ([subject, kind, name], each)
-        for subject, own in report['subjects'].items()
-        for kind in KINDS
-        for name, each in own[kind]['classes'].items()
-    ]
-
-
-def times(report):
-    """The rows of the table of times of impact."""
-    return [
-        [
-            *key,
-            each['time_sort'],
-            f'{each["times_given"]:,}',
-            late_times(each),
-            f'{each["stuck"]:,}',
-            '0',  # invalid; there are no faults (check_counts.py)
-            f'{each["unknown"]:,}',
-            *(general(each[f'{name}_early'][1], 2) for name in ('median', 'q99')),
-            *(general(each[f'max_{side}'], 2) for side in ('early', 'after')),
-        ]
-        for key, each in classes(report)
-        if each['times_given']
-    ]
-
-
-def class_rows(report):
-    """The rows of the table by class, without times."""
-    return [
-        [
-            *key,
-            *(f'{each[counter]:,}' for counter in ('queries', 'collisions', 'false_negatives')),
-            late_times(each),
-            f'{each["false_positives"]:,}',
-        ]
-        for key, each in classes(report)
-    ]
-
-
-def ladder(found):
-    """The rows of the ladder's table, without times."""
-    return [
-        [
-            rung['subject'],
-            f'2^{json_exponent(rung["epsilon"])}',
-            f'{rung["queries"]:,}',
-            f'{rung["false_negatives"]:,}',
-            f'{rung["false_positives"]:,}',
-            general(rung['farthest'], 3),
-            general(rung['claimed'], 3),
-        ]
-        for rung in found['rungs']
-    ]
-
-
-def json_exponent(power_of_two):
-    """The exponent x of 2^x."""
-    return int(power_of_two.hex().partition('p')[2])
-
-
-def fit(found):
+def _fit(found):
     """The line that describes a fit."""
     of = found['algorithm']
     subjects = f'{found["points"]} subjects with {found["precisions"]} precisions'
@@ -199,28 +157,11 @@ def fit(found):
     return f'{of}: the farthest distance goes as epsilon^{power}, from {subjects}; at {parts}'
 
 
-def oracle_line(total):
+def _oracle(total):
     """The two lines about the oracle."""
-    parts = [
-        f'oracle: {total["queries"]:,} queries',
-        f' {total["decided_by"]["undecided"]:,} left to exact arithmetic by the filters; '
-        f'{total["compared"]:,} decided by all exact methods: they agree',
-        f' and {total["missed_by_parity"]:,} of {total["compared_collisions"]:,} collisions\n'
-        'have an even number of roots',
-        ' which root parity cannot see',
-    ]
-    return ','.join(parts)
-
-
-def _check_table(comparison, where, lines, heading, rows, last_is_time=True):
-    """Checks the rows below the line that begins with the heading. A run time in the last column is
-    left out."""
-    cells = [re.split(r' {2,}', line.strip()) for line in lines]
-    start = next((i for i, row in enumerate(cells) if row[: len(heading)] == heading), None)
-    if start is None:
-        return comparison.fail('text', where, 'no table', ' '.join(heading))
-    end = next(i for i in range(start, len(cells) + 1) if i == len(cells) or len(cells[i]) < 2)
-    found = [row[:-1] if last_is_time else row for row in cells[start + 1 : end]]
-    comparison.same('text', f'{where} number of rows', len(found), len(rows))
-    for row, expected in zip(found, rows):
-        comparison.same('text', f'{where} row {" ".join(expected[:2])}', row, expected)
+    return (
+        f'oracle: {total["queries"]:,} queries, {total["decided_by"]["undecided"]:,} left to exact '
+        f'arithmetic by the filters; {total["compared"]:,} decided by all exact methods: they agree, '
+        f'and {total["missed_by_parity"]:,} of {total["compared_collisions"]:,} collisions\n'
+        'have an even number of roots, which root parity cannot see'
+    )

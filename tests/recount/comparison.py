@@ -5,6 +5,22 @@ from dataclasses import dataclass, field
 
 
 @dataclass
+class Near:
+    """What is expected of a number: a value up to a relative error, or None."""
+
+    value: float
+    relative: float
+
+
+@dataclass
+class Within:
+    """What is expected of a number: a range."""
+
+    least: float
+    most: float
+
+
+@dataclass
 class Comparison:
     """Counts compared values by sort of check, and keeps each difference as a line of text."""
 
@@ -35,6 +51,24 @@ class Comparison:
         self._note(
             sort, where, found, str(least) if least == most else f'{least} to {most}', is_within
         )
+
+    def entries(self, sort, where, found, expected):
+        """`found` must have these values, and numbers near or within what is expected, by their keys.
+        It may have more."""
+        for key, value in expected.items():
+            self._entry(sort, f'{where} {key}', found[key], value)
+
+    def _entry(self, sort, where, found, expected):
+        if isinstance(expected, Near):
+            self.near(sort, where, found, expected.value, expected.relative)
+        elif isinstance(expected, Within):
+            self.within(sort, where, found, expected.least, expected.most)
+        elif isinstance(expected, tuple):
+            self.same(sort, f'{where} number', len(found), len(expected))
+            for own, value in zip(found, expected):
+                self._entry(sort, where, own, value)
+        else:
+            self.same(sort, where, found, expected)
 
     def fail(self, sort, where, found, expected):
         """Adds a difference for a value that cannot be compared."""

@@ -54,6 +54,14 @@ class Enclosed:
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
+    def most(self):
+        """The range of the largest number; 0 without numbers."""
+        return self.largest()[0] if len(self) else (0, 0)
+
+    def reported(self, place):
+        """The range of one number as it is reported."""
+        return reported(self.lo[place], self.hi[place])
+
     def quantile_bins(self, part):
         """The first and the last bin that may contain the number that a fraction `part` of all does
         not exceed.

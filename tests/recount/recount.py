@@ -14,18 +14,14 @@ from pathlib import Path
 from answers import ask
 from asking import KINDS, Nearmiss
 from check_counts import check_statistics
-from check_csv import (
-    check_classes_csv,
-    check_distances_csv,
-    check_findings_csv,
-    check_statistics_csv,
-    check_times_csv,
-)
+from check_csv import CSV_CHECKS
 from check_deciders import check_deciders
 from check_factors import check_common_factors
+from check_findings import check_findings
+from check_kept import check_extreme_times, check_farthest
 from check_page import check_page
 from check_scorecard import check_scorecard
-from check_sections import check_borders, check_findings, check_ladder, check_trade_offs
+from check_sections import check_borders, check_ladder, check_trade_offs
 from check_text import check_text
 from check_versions import check_versions
 from comparison import Comparison
@@ -48,16 +44,21 @@ def check_report(comparison, report, answers, units):
     version = json.loads(schema.read_text())['properties']['schema_version']['const']
     comparison.same('names', 'schema_version', report['schema_version'], version)
     comparison.section(check_statistics, 'report.json', report, answers)
-    comparison.section(check_borders, 'histogram_borders', report['histogram_borders'])
-    comparison.section(
-        check_trade_offs, 'error_against_time', report['error_against_time'], answers, units
-    )
-    comparison.section(check_scorecard, 'verdicts', report, answers)
+    comparison.section(check_borders, 'report.json', report)
+    trade_offs = report['error_against_time']
+    comparison.section(check_trade_offs, 'error_against_time', trade_offs, answers, units)
     comparison.section(check_ladder, 'ladder', report, answers, units)
-    comparison.section(check_deciders, 'deciders', report, answers)
-    comparison.section(check_findings, 'findings', report, answers)
-    comparison.section(check_common_factors, 'common_factors', report, answers)
-    comparison.section(check_versions, 'versions', report, answers)
+    findings = report['findings']
+    comparison.section(check_findings, 'findings', findings, 'original', report, answers)
+    for name, check in (
+        ('verdicts', check_scorecard),
+        ('deciders', check_deciders),
+        ('extreme_times', check_extreme_times),
+        ('farthest', check_farthest),
+        ('common_factors', check_common_factors),
+        ('versions', check_versions),
+    ):
+        comparison.section(check, name, report, answers)
 
 
 def check_all(comparison, report, answers, units):
@@ -65,11 +66,8 @@ def check_all(comparison, report, answers, units):
     json_report = report.json()
     check_report(comparison, json_report, answers, units)
     comparison.section(check_statistics, 'fuzz.json', report.fuzz_json, answers)
-    comparison.section(check_statistics_csv, 'statistics.csv', report.folder, answers, json_report)
-    comparison.section(check_classes_csv, 'classes.csv', report.folder, answers, json_report)
-    comparison.section(check_distances_csv, 'distances.csv', report.folder, answers)
-    comparison.section(check_times_csv, 'times.csv', report.folder, answers)
-    comparison.section(check_findings_csv, 'findings.csv', report.folder, answers, json_report)
+    for name, check in CSV_CHECKS.items():
+        comparison.section(check, name, report.folder, json_report, answers)
     comparison.section(check_text, 'report.json', report, json_report)
     page = (report.folder / 'index.html').read_text(encoding='utf-8')
     comparison.section(check_page, 'index.html', page, json_report)
@@ -86,16 +84,12 @@ def note_either_way(comparison, answers):
     """Counts the enclosures that contain a border of bins, or the bound itself."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
-        first, last = tally.ratios.bins
-        comparison.allow('distances that may be in either of two bins', int((first != last).sum()))
+        for name, enclosed in tally.enclosed.items():
+            first, last = enclosed.bins
+            comparison.allow(f'of {name} that may be in either of two bins', (first != last).sum())
         least, most = tally.refuted()
         comparison.allow('distances that may or may not refute a bound', most - least)
         comparison.allow('false positives', tally.false_positives)
-        for name in ('early', 'after', 'travelled'):
-            first, last = getattr(tally.times, name).bins
-            comparison.allow(
-                f'times that may be in either of two bins ({name})', int((first != last).sum())
-            )
         comparison.allow('times', tally.times.given)
 
 

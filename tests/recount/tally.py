@@ -76,6 +76,17 @@ class Tally:
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
 
     @property
+    def enclosed(self):
+        """The numbers that have a histogram, by its key in reports."""
+        times = self.times
+        return {
+            'fp_distance': self.ratios,
+            'early': times.early,
+            'after': times.after,
+            'travelled': times.travelled,
+        }
+
+    @property
     def unknown(self):
         """Reports of a subject that could not tell."""
         return sum(
