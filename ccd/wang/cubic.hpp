@@ -84,7 +84,7 @@ void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
   }
 }
 
-// The nodes of F, 0, its critical points in (0, 1) and 1, and F's values there. Interval i is between nodes i and i + 1.
+// The nodes 0, the critical points of F in (0, 1), and 1, with F's values. Interval i ends at nodes i, i + 1.
 template <class T>
 struct Nodes {
   std::array<T, 4> time{0}, value;

@@ -62,7 +62,7 @@ T culling_threshold(T mu, T eps, T B) {
   return mu + (2 * evaluation_error + node_error) * eps * B * B * B;
 }
 
-// `per_root` doubles h at most so often.
+// The largest number of times that `per_root` doubles h.
 inline constexpr int culling_doublings = 4;
 
 // The most by which a weight may move within h.
