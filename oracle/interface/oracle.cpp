@@ -22,7 +22,7 @@ std::uint8_t decider(FilterStage stage) {
   }
 }
 
-/// Fewer queries are decided faster one by one.
+/// The smallest number of queries that are decided faster side by side than one by one.
 constexpr std::size_t fewest_side_by_side = 4;
 
 /// The arrays of answers.
