@@ -89,7 +89,7 @@ inline constexpr std::array<Topology, 2> of_kinds{
 
 }  // namespace topologies
 
-/// The entry of a kind.
+/// The topology of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt" or "ee".

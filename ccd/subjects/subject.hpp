@@ -20,8 +20,8 @@ namespace nearmiss {
 /// What a subject says about t*, the earliest time at which the distance is at most h, for a collision.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
-  estimate,     ///< a time near it
-  lower_bound,  ///< a time that is not after it: nothing happens before
+  estimate,     ///< a time near t*
+  lower_bound,  ///< a time that is not after t*: nothing happens before it
 };
 
 /// Names of the sorts of time in reports, in order.

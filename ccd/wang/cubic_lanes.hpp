@@ -72,7 +72,7 @@ struct Bracket {
 /// Each interval between two nodes contributes one of these to the roots (see `solve_cubic`).
 enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
 
-/// The contribution of an interval, as a number; nothing where it does not exist.
+/// The contribution of an interval, as a number; `nothing` in lanes in which the interval does not exist.
 template <class Real>
 Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exists, const Real& mu) {
   const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };

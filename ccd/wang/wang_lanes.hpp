@@ -30,7 +30,7 @@ class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
 
-  /// Decides those of at most `wang_batch_size` queries that are of its kind.
+  /// Decides the queries of its kind, among at most `wang_batch_size`.
   void run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);

@@ -58,8 +58,8 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};
 }
 
-/// A time before which a moving plane across an axis or a diagonal separates the primitives: one coordinate
-/// of all differences of vertices keeps its sign.
+/// A time before which a moving plane across an axis or a diagonal separates the primitives: along it, the
+/// coordinates of all differences of vertices keep one sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -84,10 +84,11 @@ T separated_until(const Pair<kind, T>& pair) {
 
 /// A time in interval i before which the exact F has no root in the interval.
 ///
-/// By (2) of `solve_cubic`, there is no root between two times at which |F| exceeds the residual, less the
-/// error h of its evaluation, with one sign. Such a time is near the root of F less twice the residual, which
-/// has the same nodes. There, `refine_root` ends with at most half of the residual (3). The error of d in
-/// this cubic is at most 7uB³, so |F| is above 1.4 residuals less h at the returned time.
+/// By (2) of `solve_cubic`, there is no root between two times at which F has one sign and |F| exceeds the
+/// residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by twice
+/// the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of the
+/// residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals less h at the
+/// returned time.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);
@@ -104,7 +105,8 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
 /// A contact at t0 is a root of the exact F. The claims of `solve_cubic` hold for each interval between nodes
 /// by itself, and for a part of one: if t0 is in an interval, the interval has a candidate that represents
 /// t0. So there is no contact in an interval without a candidate, nor in one whose candidate
-/// `excludes_collision` excludes. The first interval that is left has no contact before `before_root`.
+/// `excludes_collision` excludes. The first interval that is left has no contact before the time that
+/// `before_root` gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);

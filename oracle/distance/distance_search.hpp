@@ -132,7 +132,8 @@ class DistanceSearch {
   }
 
   /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
-  /// The next time is where an end predicts the minimum, or the middle if the predictions do not help.
+  /// The next time is that of the minimum that one end predicts, or the middle if the predictions do not
+  /// help.
   void descend(SampledTime a, SampledTime b) {
     if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -169,7 +170,7 @@ class DistanceSearch {
                   time);
   }
 
-  /// The time that is covered from a sampled time forward (1) or backward (-1), at most `most`.
+  /// How far the step is covered from a sampled time, forward (1) or backward (-1), at most `most`.
   double covered(SampledTime& time, int direction, double most) const {
     Reach& reach = direction > 0 ? time.ahead : time.behind;
     if (reach.required != required_ || reach.most < most)
@@ -224,8 +225,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// The time of a new minimum that an end of the gap predicts inside it; if there is none, some other time
-  /// in the gap.
+  /// The time of a new minimum inside the gap, if one of its ends predicts one, else some other time in the
+  /// gap.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;

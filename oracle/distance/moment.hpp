@@ -19,7 +19,7 @@ struct Moment {
   bool is_precise = false;   ///< whether it was computed in the search's type of time, not in double
   ClosestFeatures features;  ///< features of the closest points, uncertified
   double upper = 0;          ///< a certified upper bound of the distance
-  double slope = 0;          ///< its sign is that of the change of the distance, uncertified
+  double slope = 0;          ///< has the sign of the derivative of the distance, uncertified
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
   double rate = 0;           ///< derivative of the distance, estimated
@@ -80,7 +80,7 @@ double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& 
          least_distance;
 }
 
-/// The separation that fits the features of the closest points best; `direction` is that between the points.
+/// The separation that fits the features of the closest points best; `direction` is that of their difference.
 template <class Real>
 Separation separate_by_features(const VerticesAt<Real>& x, const ClosestFeatures& features,
                                 const Vec<double>& direction) {

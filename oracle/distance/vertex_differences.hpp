@@ -11,9 +11,9 @@
 
 namespace nearmiss::certified {
 
-/// The vectors p, q and r (x_to - x_from) with the normal N = q × r and the coplanarity cubic F = p · N, such
-/// that the closest points of the planes or lines are where p = a q + b r + c N: x0 - x1, x2 - x1 and x3 - x1
-/// for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
+/// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N.
+/// They are chosen so that p = a q + b r + c N gives the weights a and b of the closest points: x0 - x1,
+/// x2 - x1 and x3 - x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
 struct NormalPairs {
   VertexPair p, q, r;
 };

@@ -1,6 +1,5 @@
-// The sign of (distance - h) only changes at the candidates. So between two neighbouring ones, the sign at
-// any number is the sign everywhere, and the distance falls below h at the first candidate after which that
-// sign is -1.
+// The sign of (distance - h) only changes at the candidates. So the sign is constant between two neighbouring
+// candidates, and the distance falls below h at the first candidate after which that sign is -1.
 #include "oracle/exact/first_approach.hpp"
 
 #include <algorithm>

@@ -15,7 +15,8 @@ namespace nearmiss::exact {
 /// other. Their distance is that of the lines or planes through them if the closest points of these lie in
 /// the features.
 struct FeatureNearness {
-  /// What the features are; `interiors`: those of both edges, or the vertex and that of the triangle.
+  /// What the features are. `interiors` are the insides of both edges, or the vertex and the inside of the
+  /// triangle.
   enum class Features : std::uint8_t { vertices, vertex_and_edge, interiors };
 
   Features features{};

@@ -240,7 +240,7 @@ class ContactSearch {
     return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
-  /// Whether this part is the step; then its times are those of the step.
+  /// Whether this part is the whole step, so that its times are those of the step.
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
   /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the

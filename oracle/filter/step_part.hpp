@@ -113,7 +113,7 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over [lo, hi] of its part of the step. It has 3 roundings: 1 - t, products, sum.
+/// The motion over the part [lo, hi] of what `whole` covers. It has 3 roundings: 1 - t, products, sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;

@@ -113,7 +113,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
   return nearmiss::interface::for_each_query(
       queries,
       [&](const Query& query, std::size_t q) {
-        // A time that is no double is at most tmax if the next double is.
+        // If t* is not a double, it is at most tmax if and only if the next double is.
         const auto enclosure = nearmiss::interface::enclosed_time(query, 0);
         const bool is_collision = enclosure.hi <= tmax;
         answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;

@@ -64,7 +64,7 @@ struct SturmSequence {
   }
 };
 
-/// A place in (0, 1) that is not a root, or an end, with the number of sign changes of the sequence there.
+/// A number that is 0, 1 or not a root, with the number of sign changes of the sequence there.
 struct Place {
   Dyadic t;
   int variations;
@@ -161,7 +161,7 @@ void SturmRoot::cut(Dyadic at) {
   end = {std::move(at), std::move(value)};
 }
 
-/// The border of pieces that is nearest to where the chord is 0.
+/// The border between pieces that is nearest to the zero of the chord.
 Integer SturmRoot::border_by_chord() const {
   const auto degree = static_cast<unsigned>(f_.degree());
   const SameDenominator values({abs(lo_.value), degree * lo_.t.exponent},

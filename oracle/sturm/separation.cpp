@@ -10,8 +10,8 @@
 //
 // The distance is below h at some time iff it is so in an open interval, where one pair has the closest
 // points, and none of its polynomials changes its sign. Such an interval of greatest length begins at 0 or at
-// a root of one of them. So it is enough to know the signs right after 0 and right after these roots. Each is
-// the sign of the first derivative that is not 0 there.
+// a root of one of these polynomials. So it is enough to know the signs right after 0 and right after these
+// roots. Each is the sign of the first derivative that is not 0 there.
 #include "oracle/sturm/separation.hpp"
 
 #include <algorithm>
