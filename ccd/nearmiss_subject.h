@@ -1,6 +1,6 @@
 /* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up
- * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that is
- * left out is 0. */
+ * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that an
+ * initialiser leaves out is 0. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
 

@@ -16,7 +16,7 @@
 
 namespace nearmiss::interface {
 
-/// Whether the fields are such that the queries can be read.
+/// Whether the queries can be read: kind and type are known, and no pointer that is needed is null.
 inline bool are_readable(const nearmiss_queries* queries) {
   return queries != nullptr && kind_of_bit(queries->kind).has_value() &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&

@@ -60,7 +60,7 @@ typedef struct {
   ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
   ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
   const int32_t* vertices;     /**< numbers of vertices, four for each query; or null */
-  const double* separation;    /**< h of the first query; null is 0 for all */
+  const double* separation;    /**< h of the first query; null: h = 0 for all */
   ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one */
 } nearmiss_queries;
 

@@ -46,7 +46,7 @@ class QueryRows {
   }
 
  private:
-  const Query* queries_ = nullptr;  ///< null if all have the kind `kind_`
+  const Query* queries_ = nullptr;  ///< null if all queries have the kind `kind_`
   Kind kind_{};
   const std::byte* x_;
   std::ptrdiff_t stride_;

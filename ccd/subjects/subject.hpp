@@ -50,7 +50,7 @@ struct BoundAnswer {
   /// A number that a subject gave as its bound; an error if it is not a distance.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// As Subject::distance_bound returns it.
+  /// The bound as Subject::distance_bound returns it, NaN if there is none.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -72,7 +72,7 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// Name on the command line and in reports; for a plug-in, its own name.
+  /// Name on the command line and in reports; for a plug-in, the name that it gives itself.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
   /// Throws Error if a coordinate is not finite.

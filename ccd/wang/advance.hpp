@@ -61,7 +61,7 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
-  Vector3<T> direction;  ///< of any length: the polygon is on the far side of a plane at right angles to it
+  Vector3<T> direction;  ///< of any length; the polygon is beyond a plane perpendicular to it
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
     const T squared = dot(point, point);
@@ -118,8 +118,8 @@ template <Kind kind, class T, std::size_t size>
 /// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
-/// A collision is reported if the computed distance is at most h + `advance_reach` εX. The advancement would
-/// end at h + `advance_error` εX; it need not resolve the last part of the way.
+/// A collision is reported if the computed distance is at most h + `advance_reach` εX. This is more than h +
+/// `advance_error` εX, to which the advancement would converge without end.
 inline constexpr int advance_reach = 128;
 
 /// If a collision is reported in this way, the exact distance is at most h + `advance_bound` εX.
@@ -178,10 +178,10 @@ template <Kind kind, class T, class Corners>
 /// ran out of iterations.
 ///
 /// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
-/// h. The corners move linearly. So if they are beyond h at t, they are until the first of them is at h. This
-/// holds for every n. For the direction of the nearest point, n·corner is at least the distance, and the
-/// speed is at most the largest relative speed of two vertices, so a step is at least as long as (distance -
-/// h) / speed.
+/// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them
+/// reaches h. This holds for every n. For the direction of the nearest point, n·corner is at least the
+/// distance, and the speed is at most the largest relative speed of two vertices, so a step is at least as
+/// long as (distance - h) / speed.
 template <Kind kind, class T>
 Verdict advance(const Query& query) {
   using std::ldexp;

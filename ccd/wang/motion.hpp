@@ -212,7 +212,7 @@ Frame normalising_frame(const Query& query) {
 
 namespace detail {
 
-// The order of end points in which x20 has the smallest largest component of the four pairs.
+// The order of end points for which the largest component of x20 is smallest.
 template <class T>
 VertexOrder closest_order(const Query& query, const Frame& frame) {
   VertexOrder best = given_order;
@@ -231,9 +231,9 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B. They are if the pair collides (§4.1) and, for two edges, p
-/// joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative error of at
-/// most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+/// Whether all vectors of the pair are within B. All are within B if the pair collides (§4.1) and, for two
+/// edges, p joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative
+/// error of at most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
 template <Kind kind, class T>
 auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// How h is chosen, the half width of the interval around a computed root that must contain the true root.
+/// How to choose h, the half width of an interval around a computed root that must contain the true root.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
   fixed,     ///< h = ε^½, as the paper proposes

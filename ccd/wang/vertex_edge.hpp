@@ -92,7 +92,7 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 
 /// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1], and never a vertex farther away
 /// than the tolerances' distance bound (§4.3). The verdict's stage is the Karush-Kuhn-Tucker case that
-/// accepted.
+/// accepted the vertex.
 ///
 /// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t at
 /// which the computed value of F_0ij is at most ψ, and F_0ij is at most ψ at all times between t_E and t.

@@ -19,7 +19,8 @@ namespace nearmiss {
 
 /// The least μ, in units of B³ε, with which `solve_cubic` misses no root, for rounding to nearest and
 /// ε <= 2^-10: `cubic_residual` is at most 436, and 440 leaves room for the rounding of its product with B³ε.
-/// For double it is about a thousandth of the μ that decides, so that the time is much closer to the root.
+/// For double it is about a thousandth of the μ with which `wang` decides, so that the time is much closer to
+/// the root.
 inline constexpr int least_residual = 440;
 
 /// Bound of |computed - exact| / (Bε) for the distance of two vertices along an axis or a diagonal, at any
@@ -38,7 +39,7 @@ inline constexpr int gap_error = 40;
 
 namespace detail {
 
-// The differences of a vertex of the first primitive and one of the second.
+// All differences between a vertex of the first primitive and a vertex of the second.
 template <Kind kind, class T>
 auto vertex_differences(const Pair<kind, T>& pair) {
   const auto& p = pair.p.xv;
@@ -52,7 +53,7 @@ auto vertex_differences(const Pair<kind, T>& pair) {
 
 inline constexpr std::size_t plane_count = 9;
 
-// The coordinates of a vector across the axes and the diagonals.
+// The components of a vector along the axes and the diagonals.
 template <class T>
 std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};

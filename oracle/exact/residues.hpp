@@ -6,8 +6,8 @@
 namespace nearmiss::exact {
 
 /// Whether two polynomials that are not zero certainly have no common root; false if the residues of their
-/// coefficients do not show it. That takes far less time than a remainder sequence of polynomials with long
-/// coefficients.
+/// coefficients do not show it. The test takes far less time than a remainder sequence of polynomials with
+/// long coefficients.
 ///
 /// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest
 /// common divisor over the integers. Its leading coefficient divides that of p. If the prime does not divide

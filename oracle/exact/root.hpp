@@ -13,7 +13,7 @@
 
 namespace nearmiss::exact {
 
-/// The relative accuracy with which double locates a well-conditioned place in an interval.
+/// The relative accuracy with which double locates a well-conditioned root or extremum in an interval.
 inline constexpr double around = 0x1p-44;
 
 /// lo + part (hi - lo).

@@ -41,7 +41,7 @@ class BatchFilter {
  private:
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
-  using OfBatch = std::array<double, batch_size + n>;  ///< a number of each query
+  using OfBatch = std::array<double, batch_size + n>;  ///< one number for each query
   static constexpr std::size_t weight_count = has_triangle(kind) ? 3 : 4;
 
   /// A list of indices of queries, taken n at a time.

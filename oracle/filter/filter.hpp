@@ -59,8 +59,8 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
   filter(QueryRows(queries), stages, instructions);
 }
 
-/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries
-/// that it decides are not near their bounds.
+/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. A query that
+/// is decided in this way is not near its error bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

@@ -145,7 +145,7 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// There is a contact in `near`, a part of an interval: F changes its sign, and all weights are inside.
+  /// Notes a contact in `near`, a part of an interval: F changes its sign there, and all weights are inside.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
     const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
     found_ = in_step(first, is_whole() ? 0 : zoom_rounding);

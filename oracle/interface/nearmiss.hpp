@@ -45,8 +45,8 @@ enum class DecidedBy : std::uint8_t {
   exact = NEARMISS_BY_EXACT,
 };
 
-/// Two numbers that enclose a time or a distance. Both are infinite for the time of no collision, and NaN if
-/// there is no answer.
+/// Two numbers that enclose a time or a distance. Both are infinite for a time if there is no collision, and
+/// NaN if there is no answer.
 struct Interval {
   double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower one
   double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper one
@@ -102,7 +102,7 @@ class Queries {
   }
   /// The layout, as the C functions take it.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
-  /// The layout, to be changed.
+  /// The layout, which may be changed.
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:

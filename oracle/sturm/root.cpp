@@ -98,7 +98,7 @@ Integer border_near_cluster(const IntegerPolynomial& f, const Dyadic& lo, const 
   return border > Integer(1) << bits ? -1 : border;
 }
 
-/// A part of an interval around a guess that certainly has all roots in the interval; nothing if it does not.
+/// A part of an interval, around a guess, that certainly has all its roots; nothing if the guess gives none.
 std::optional<std::pair<Place, Place>> narrowed(const SturmSequence& sequence, const Place& lo,
                                                 const Place& hi, unsigned bits) {
   const IntegerPolynomial& f = sequence.f;
