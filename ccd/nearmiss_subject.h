@@ -1,5 +1,6 @@
-/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up to 64
- * continuous collision detectors on trial. C99; this header is the whole interface. A field that is left out is 0. */
+/* The plug-in interface of nearmiss, version 2: a shared object that exports nearmiss_get_subject() puts up
+ * to 64 continuous collision detectors on trial. C99; this header is the whole interface. A field that an
+ * initialiser leaves out is 0. */
 #ifndef NEARMISS_SUBJECT_H
 #define NEARMISS_SUBJECT_H
 
@@ -27,57 +28,62 @@ extern "C" {
 
 /* What a detector takes for granted. It is not judged on other queries. */
 typedef struct {
-  int apart_at_start; /* 1: the distance of the primitives at t = 0 is more than apart_by and than h */
-  int one_root; /* 1: the volume that the four vertices span has one root in [0, 1] at most, and that is simple */
+  int apart_at_start; /* 1: at t = 0, the distance of the primitives exceeds both apart_by and h */
+  int one_root; /* 1: the volume spanned by the four vertices has at most one root in [0, 1], a simple one */
   double apart_by; /* used with apart_at_start; 0: the primitives do not touch */
   double grid;     /* if not 0: a power of two of which every coordinate is a multiple */
   double shortest,
-      longest; /* if not 0: limits, which are finite, of the lengths of all edges at t = 0 and t = 1; the paths of the
-                  vertices are not longer than `longest`, either */
+      longest; /* if not 0: finite limits of the lengths of all edges at t = 0 and t = 1; no vertex's path is
+                  longer than `longest`, either */
 } nearmiss_contract;
 
 typedef struct {
   int interface_version; /* NEARMISS_INTERFACE */
-  /* The name is unique within the shared object. It is UTF-8 of at most 255 bytes, without control characters and without
-   * any of : = / , - `version` and `about` are one line of text each, of which the first 255 bytes are shown. */
+  /* The name is unique within the shared object. It is UTF-8 of at most 255 bytes, without control characters
+   * and without any of : = / , - `version` and `about` are one line of text each, of which the first 255
+   * bytes are shown. */
   const char *name, *version, *about;
-  int kinds;     /* sum of the kinds that it decides */
-  int bits;      /* 53, or 24: coordinates and h are rounded to float, and it is judged on these; 0 is 53 */
-  int time_sort; /* the sort of time that it gives with every collision */
+  int kinds;            /* sum of the kinds that it decides */
+  int bits;             /* 53; or 24: it gets x and h rounded to float, and is judged on these; 0 means 53 */
+  int time_sort;        /* the sort of time that it gives with every collision */
   int takes_separation; /* 1 if it uses h */
-  size_t batch;         /* how many queries decide() should get, if there are so many; 0 is 1 */
+  size_t batch;         /* how many queries decide() should get at once, if possible; 0 means 1 */
   nearmiss_contract contract;
 
-  /* Opens the detector for one thread, and returns its state. `options` is what the user wrote after its name, such as
-   * "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1 bytes to `message`, and
-   * returns NULL. If the function is NULL, there are no options, and the state is NULL. */
+  /* Opens the detector for one thread, and returns its state. `options` is what the user wrote after its
+   * name, such as "tolerance=1e-6:iterations=1000", or "". To refuse, it writes a line of at most size - 1
+   * bytes to `message`, and returns NULL. If the function is NULL, there are no options, and the state is
+   * NULL. */
   void* (*open)(const char* options, char* message, size_t size);
-  /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called if a query
-   * ended the process, or took too long. */
+  /* Closes a state; may be NULL. It has a tenth of a second, after which the process ends. It is not called
+   * if a query ended the process, or took too long. */
   void (*close)(void* state);
 
-  /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at any time
-   * in [0, 1]; h = 0 asks for contact.
-   *   x: n times 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move linearly.
-   *   h: n separations, at least 0; 0 unless takes_separation is set. Floats, like x, if `bits` is 24.
+  /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
+   * any time in [0, 1]; h = 0 asks for contact.
+   *   x: n times 24 finite doubles, x0 x1 x2 x3 at t = 0, then at t = 1; x, y, z of each. The vertices move
+   *      linearly.
+   *   h: n separations, at least 0; 0 unless takes_separation is set. Rounded to float, like x, if `bits`
+   *      is 24.
    *   answer: n answers, all to be written.
-   *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only for
-   *        collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is invalid. Pass on a
-   *        NaN that your code computes: it is counted as an invalid answer, which another number would hide.
-   * A C++ exception may leave the function: the query that threw it has no answer, which is the fault `exception`, and
-   * what() is shown. The process and the state stay, and the next queries are asked there.
-   * An answer must depend on its own x and h and on the options alone: a query that fails is asked again, when it is
-   * shrunk and when it is replayed. Arithmetic rounds to nearest, keeps subnormals and does not trap; if the detector
-   * changes that, it is restored after the call. */
+   *   toi: n times of impact in [0, 1], in the unit of the time step. They are NaN on entry, and matter only
+   *        for collisions. If time_sort is not NEARMISS_NO_TIME, a collision without a time in [0, 1] is
+   *        invalid. Pass on a NaN that your code computes: it is counted as an invalid answer, which another
+   *        number would hide.
+   * A C++ exception may leave the function: the query that threw it has no answer, which is the fault
+   * `exception`, and what() is shown. The process and the state are kept, and answer the next queries. An
+   * answer must depend only on its own x and h and on the options, because a query that fails is asked again
+   * when it is shrunk or replayed. Arithmetic rounds to nearest, keeps subnormals and does not trap; if the
+   * detector changes this, nearmiss restores it after the call. */
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
-  /* The largest distance of a false positive that the detector claims for a query, in the unit of its coordinates; NULL
-   * if it claims no bound. */
+  /* The largest distance of a false positive that the detector claims for a query, in the unit of its
+   * coordinates; NULL if it claims no bound. */
   double (*distance_bound)(void* state, int kind, const double* x);
 } nearmiss_subject;
 
-/* The one exported function. Returns detector number `index`, from 0; NULL behind the last one. The object that it points
- * to stays valid until the shared object is unloaded. */
+/* The one exported function. Returns detector number `index`, from 0; NULL after the last one. The object
+ * that it points to stays valid until the shared object is unloaded. */
 const nearmiss_subject* nearmiss_get_subject(size_t index);
 
 #ifdef __cplusplus

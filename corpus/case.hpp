@@ -19,8 +19,9 @@ struct Case {
   std::string provenance;     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
-/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three numbers,
-/// decimal if that is exact, else hex floats; all labels except `truth`, `separation` and `provenance` are required:
+/// The format of *.case files. The lines of `why` come first, as comments; each point is one line of three
+/// numbers, decimal if that is exact, else hex floats; all labels except `truth`, `separation` and
+/// `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee

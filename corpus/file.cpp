@@ -62,7 +62,7 @@ void PartFile::put_in_place() {
 
 namespace {
 
-/// Whether a path leads, perhaps over links, to an open file of a process, such as /dev/stdout.
+/// Whether a path leads, perhaps through links, to an open file of a process, such as /dev/stdout.
 bool is_open_file(fs::path path) {
   constexpr int most_links = 40;
   std::error_code none;
@@ -85,7 +85,7 @@ bool is_written_through(const fs::path& file) {
   return fs::exists(status) && (!fs::is_regular_file(status) || is_open_file(file));
 }
 
-/// The file that a link leads to; the file itself if it is no link.
+/// The file that a link leads to; the file itself if it is not a link.
 fs::path target_of(const fs::path& file) { return fs::is_symlink(file) ? true_path(file) : file; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Files: written whole or not at all, known by one path, and regular.
+// Files: writing them whole or not at all, resolving links, and refusing what is not a regular file.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,8 @@
 
 namespace nearmiss {
 
-/// A new file beside a place, which it takes when it is complete. Otherwise it is removed.
+/// A temporary file in the folder of `place`. put_in_place() renames it to `place`; without that, the
+/// destructor removes it.
 class PartFile {
  public:
   /// Makes an empty file. Throws Error.
@@ -17,25 +18,26 @@ class PartFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Gives the file its place. Throws Error.
+  /// Renames the file to `place`. Throws Error.
   void put_in_place();
 
  private:
   std::filesystem::path place_, path_;
 };
 
-/// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees half of it,
-/// and a full disk leaves the old file unchanged. A pipe or a device (/dev/stdout) is written through. Throws Error.
+/// Replaces the content of a file, or of the file that a link leads to, by this text. No reader ever sees
+/// half of it, and a full disk leaves the old file unchanged. A pipe or a device (/dev/stdout) is written
+/// through. Throws Error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
 /// Throws the Error that replace_file would throw because of the file or its folder.
 void expect_replaceable(const std::filesystem::path& file);
 
-/// The absolute path of a file without links, whether or not the file exists.
+/// The absolute path of a file with all links resolved. The file need not exist.
 std::filesystem::path true_path(const std::filesystem::path& path);
 
-/// Throws Error if a path leads to something other than a regular file, such as a pipe or a folder. A path that leads to
-/// nothing is accepted.
+/// Throws Error if a path leads to something other than a regular file, such as a pipe or a folder. A path
+/// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -61,7 +61,7 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   return negative ? -value : value;
 }
 
-/// The number of digits from the first to the last that is not 0, of a number in scientific notation.
+/// The number of digits of a number in scientific notation, without trailing zeros.
 std::size_t significant_digits(std::string_view scientific) {
   const std::string_view significand = scientific.substr(0, scientific.find('e'));
   const std::string_view kept = significand.substr(0, significand.find_last_not_of(".0") + 1);
@@ -69,8 +69,8 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value is the value itself. If it has all digits of the value, it
-/// is, because it is the nearest decimal with this number of digits.
+/// Whether the shortest decimal that is read as this value equals the value. It does if it has as many digits
+/// as the exact decimal of the value, because it is the nearest decimal with this number of digits.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // of any double
   std::array<char, most_digits + 10> text;

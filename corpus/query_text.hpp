@@ -18,8 +18,8 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// influence. Throws Error "<where>: found '...', expected a finite number".
 double parse_number(std::string_view text, std::string_view where);
 
-/// The number that parse_number reads, rounded once to the nearest float. Throws Error "<where>: found '...', expected a number in
-/// the range of float", also for a number that is too large.
+/// The number that parse_number reads, rounded once to the nearest float. Throws Error "<where>: found '...',
+/// expected a number in the range of float", also for a number that is too large.
 float parse_float(std::string_view text, std::string_view where);
 
 /// A decimal integer without a plus sign; nothing if the text is not an integer in the range of the type.
@@ -41,15 +41,15 @@ double parse_separation(std::string_view text, std::string_view where);
 /// The shortest C hex float with this value.
 std::string to_hex(double value);
 
-/// A text that is exactly this value: its shortest decimal, such as "-2" or "0.25", if that is exact, else to_hex.
+/// A text that is exactly this value: its shortest decimal, such as "-2" or "0.25", if exact, else to_hex.
 std::string to_exact(double value);
 
-/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1; a separation other than 0 follows. parse_line reads
-/// it back exactly.
+/// 24 hex floats separated by blanks: x0 x1 x2 x3 at t = 0, then at t = 1; a separation other than 0 follows.
+/// parse_line reads it back exactly.
 std::string to_line(const Query& query);
 
-/// The numbers of to_line in decimals, for people: points are separated by two blanks, the two times by three. parse_line reads it back exactly.
-/// If a decimal is not exact, a second line is to_line(query).
+/// The numbers of to_line in decimals, for people: points are separated by two blanks, the two times by
+/// three. parse_line reads it back exactly. If a decimal is not exact, a second line is to_line(query).
 std::string to_readable(const Query& query);
 
 /// A query from 24 numbers, or 25 with the separation. Throws Error that starts with `where`.

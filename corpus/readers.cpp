@@ -31,7 +31,7 @@ bool is_case_file(const fs::path& path) {
   return extension == ".case" || extension == ".csv" || kind_of_extension(extension);
 }
 
-/// Throws Error if the reading of a file ended before its end.
+/// Throws Error if reading stopped before the end of the file.
 void expect_end(const std::istream& in, const std::string& name) {
   if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
 }

@@ -16,11 +16,13 @@ using CaseSink = std::function<void(Case&&)>;
 /// Reads a file, or all files below a folder in the order of their paths. The name of a file determines its
 /// format:
 ///  - *.case: one case (case.hpp);
-///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the truth.
-///    The folder, edge-edge or vertex-face, determines the kind. Every coordinate must be exactly a double;
+///  - *.csv: sample queries, eight rows each: x y z as rational numbers (numerator, denominator), and the
+///    truth. The folder, edge-edge or vertex-face, determines the kind. Every coordinate must be exactly a
+///    double;
 ///  - *.vt, *.ee: one query a line, 24 numbers, or 25 with the separation; '#' starts a comment.
-/// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error with
-/// file and line, also for a file that is empty, unreadable or of another format, and for a folder without a case.
+/// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
+/// with file and line, also for a file that is empty, unreadable or of another format, and for a folder
+/// without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
 /// Reads a stream with one query a line. Messages name the file `name`. Throws Error.

@@ -21,8 +21,8 @@ class Answers {
   /// The answer of the first complete method.
   [[nodiscard]] bool collision() const;
 
-  /// Whether no two methods contradict each other about the collision, the boundary or the number of roots, and every
-  /// complete method says whether there is a collision.
+  /// Whether no two methods contradict each other about the collision, the boundary or the number of roots,
+  /// and every complete method says whether there is a collision.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
   /// The contradictions, such as "collision (no: exact; yes: sturm)"; "" if they agree. The filter takes part
   /// if its answer is given.
@@ -42,8 +42,8 @@ Answers ask_all(const Query& query, std::span<const Method> asked = methods());
 /// Asks the other methods, if the answer of the first one, a complete method, is already known.
 Answers ask_others(const Query& query, const Answer& first, std::span<const Method> asked = methods());
 
-/// How the second method contradicts the earliest time of a query with a collision or a tie, such as "time (sturm: earlier)";
-/// "" if it agrees. It is asked at the ends of the narrowest enclosure.
+/// How the method `sturm` contradicts the earliest time of a query with a collision or a tie, such as "time
+/// (sturm: earlier)"; "" if it agrees. It is asked about the ends of the narrowest enclosure.
 std::string time_disagreement(const Query& query);
 
 }  // namespace nearmiss

@@ -27,14 +27,14 @@ using certified::Conversion;
 /// Whether the primitives touch, whatever the query's separation is.
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
-/// A number in the middle of two positive ones, or of their magnitudes if these are far apart.
+/// The middle of two positive numbers; if their magnitudes are far apart, the middle of their exponents.
 double middle_of(double lo, double hi) {
   const int low = std::ilogb(lo);
   const int high = std::ilogb(hi);
   return high - low > 1 ? std::ldexp(1.0, std::midpoint(low, high)) : std::midpoint(lo, hi);
 }
 
-/// Narrows an enclosure of a distance above a base by exact comparisons.
+/// Narrows an enclosure of a distance that is above `base`, by exact comparisons.
 class Narrowing {
  public:
   Narrowing(const Query& query, double base, const Enclosure& distance)
@@ -42,8 +42,9 @@ class Narrowing {
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
-  /// Compares once; false if no double is left between the ends. Most distances are hardly below the upper end, so the first
-  /// numbers are not far from it; the next ones are in the middle between the ends, counted from the base.
+  /// Compares the distance with one more number; false if no double is left between the ends. Most distances
+  /// are just below the upper end, so the first numbers are near it; later ones are in the middle between the
+  /// ends, counted from the base.
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);
@@ -63,10 +64,11 @@ class Narrowing {
   const Query& query_;
   double base_;
   Enclosure distance_;
-  std::uint64_t step_ = 64;  ///< from the upper end, in doubles
+  std::uint64_t step_ = 64;  ///< how many doubles below the upper end to compare next
 };
 
-/// distance_in_units for distances of which only the part above `base` is needed: if hi <= base / unit, so is needed(hi).
+/// distance_in_units, if only the part of the distance above `base` matters: where hi <= base / unit,
+/// needed(hi) is at most base / unit, too.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // The largest double is as near to infinity as a double can be.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };

@@ -15,11 +15,12 @@ Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 /// lo >= needed(hi), or lo is as near to needed(hi) as a double for the distance allows.
 Enclosure distance_in_units(const Query& query, double unit, const NeededDistance& needed);
 
-/// An enclosure in `unit` of the smallest distance less the query's separation h > 0; 0 if that is negative. Up to rounding, lo >= needed(hi).
+/// An enclosure of (the smallest distance - h) / unit for the query's separation h > 0; 0 if that is
+/// negative. Up to rounding, lo >= needed(hi).
 Enclosure distance_beyond_separation(const Query& query, double unit, const NeededDistance& needed);
 
-/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, and of 1e-9 near 1; infinite
-/// if the unit is 0.
+/// An upper bound of the smallest distance divided by `unit`, with a relative accuracy of 1e-3, and of 1e-9
+/// near 1; infinite if the unit is 0.
 double closest_ratio(const Query& query, double unit);
 
 /// A time in [0, 1] at which the distance of the primitives is about smallest, for pictures.

@@ -44,8 +44,8 @@ Enclosure enclose(Root t, double width) {
   }
 }
 
-// Comparisons narrow what is known about a root. They do so in copies of it, so that the answers to later questions do not
-// depend on earlier ones.
+// Comparisons narrow what is known about a root. They do so in copies of it, so that the answers to later
+// questions do not depend on earlier ones.
 bool is_below(Root t, double time) {
   Root at{Number(time)};
   return t.is_below(at);
@@ -65,8 +65,9 @@ exact::FirstApproach first_approach(const Query& query) {
   return *std::move(approach);
 }
 
-/// The first contact, as a root of F. Certified bounds know that F changes its sign in an enclosure of it and that every root
-/// there is a contact: if F has only one, that is the first contact.
+/// The first contact, as a root of F. If `known.is_between`, certified bounds have shown that F changes its
+/// sign in the enclosure and that every root there is a contact. So if F has only one root there, that is the
+/// first contact.
 Root first_root(const Query& query, const KnownTime& known) {
   exact::Predicates predicates(query);
   if (known.is_between) {
@@ -81,8 +82,8 @@ Root first_root(const Query& query, const KnownTime& known) {
   return contact->time;
 }
 
-/// Certified bounds show that the distance is above h right at the beginning of the enclosure, unless that is 0, and below h at
-/// its end.
+/// If `is_certified`, certified bounds show that the distance is above h at the beginning of the enclosure,
+/// unless that is 0, and below h at its end.
 KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
 
 }  // namespace
@@ -106,7 +107,7 @@ EarliestTime::EarliestTime(const Query& query, const KnownTimes& known)
 
 namespace {
 
-/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if it is not known.
+/// Whether all of an enclosure is on one side of `time`: 1 if t* < time, 0 if t* >= time, -1 if unknown.
 int comparison(const Enclosure& known, double time) {
   if (!(time > known.lo)) return 0;
   return time > known.hi ? 1 : -1;
@@ -142,7 +143,7 @@ Enclosure EarliestTime::enclosure(double width) {
     return hi - lo <= width || (known.is_between && std::nextafter(lo, 2.0) == hi);
   };
   if (is_narrow(rough_)) return rough_.time;
-  const bool is_unique = width == 0;  // so a known exact time gives the same
+  const bool is_unique = width == 0;  // so a known exact time gives the same enclosure
   if (!(is_unique && exact_) && is_narrow(narrow())) return narrow().time;
   return enclose(exact().time, width);
 }

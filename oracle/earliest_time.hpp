@@ -19,12 +19,12 @@ struct FirstApproach;
 struct KnownTimes {
   std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show
   std::shared_ptr<const exact::FirstApproach>
-      exactly;  ///< if exact arithmetic found the time; for h = 0, the contact
+      exactly;  ///< what exact arithmetic found, if it was used; for h = 0, the contact
 };
 
-/// The time t* in [0, 1] at which the distance of the primitives is first at most h; for h = 0, at which they first share a
-/// point. Arithmetic with certified bounds encloses it first; exact arithmetic is only used for a question that the
-/// enclosure does not answer.
+/// The time t* in [0, 1] at which the distance of the primitives is first at most h; for h = 0, at which they
+/// first share a point. Arithmetic with certified bounds encloses it first; exact arithmetic is only used for
+/// a question that the enclosure does not answer.
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
@@ -32,18 +32,19 @@ class EarliestTime {
   /// Starts from what a decision of the query has found, which changes no answer.
   EarliestTime(const Query& query, const KnownTimes& known);
 
-  /// What certified bounds in double show of t*.
+  /// The enclosure of t* by certified bounds in double.
   [[nodiscard]] const Enclosure& known() const { return rough_.time; }
 
   /// Whether t* < time. The answer is exact.
   [[nodiscard]] bool is_before(double time);
 
-  /// Whether `time` is late: something happens in [0, time). For h = 0 that means t* < time. For h > 0, the distance is below h
-  /// at some time before it; a distance of exactly h does not count, because it may be reported or not. The answer is exact.
+  /// Whether `time` is late: something happens in [0, time). For h = 0 that means t* < time. For h > 0, the
+  /// distance is below h at some time before it; a distance of exactly h does not count, because it may be
+  /// reported or not. The answer is exact.
   [[nodiscard]] bool makes_late(double time);
 
-  /// An enclosure that is at most `width` wide, or as narrow as doubles allow; one number if t* is a double and `width`
-  /// is 0. It depends on the query and the width alone.
+  /// An enclosure that is at most `width` wide, or as narrow as doubles allow; one number if t* is a double
+  /// and `width` is 0. It depends only on the query and the width.
   Enclosure enclosure(double width = 0);
 
   /// t* as a rational number, "p/q" or "p" in lowest terms; "" if it is irrational.
@@ -58,7 +59,7 @@ class EarliestTime {
   KnownTime rough_;
   bool is_certified_ =
       true;  ///< whether certified bounds enclose t*, and show that the distance falls below h > 0
-  std::optional<KnownTime> narrow_;  ///< made when it is needed, as the exact times are
+  std::optional<KnownTime> narrow_;  ///< computed on first use, like `exact_`
   std::shared_ptr<const exact::FirstApproach> exact_;
 };
 

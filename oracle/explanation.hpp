@@ -28,7 +28,7 @@ struct Explanation {
   bool operator==(const Explanation&) const = default;
 };
 
-/// Explains a query.
+/// Determines these facts about a query.
 Explanation explain(const Query& query);
 
 /// A text such as "contact inside the step; the vertices are coplanar once".

@@ -38,19 +38,19 @@ std::optional<ContactFeatures> contact_features(const Query& query);
 struct ApproachFeatures {
   enum class Closest : std::uint8_t {
     vertices,         ///< a vertex of each primitive
-    vertex_and_edge,  ///< a vertex and an edge, of the triangle or alone
+    vertex_and_edge,  ///< a vertex and an edge, which may be an edge of the triangle
     interiors,        ///< the vertex and the inside of the triangle, or the insides of both edges
   };
 
   ContactFeatures::Time time{};
   Closest closest{};
-  /// The distance is exactly h for some time, or at one time only, before it falls below h or grows again.
+  /// After the first approach, the distance does not fall below h at once: it stays at h, or grows again.
   bool touches = false;
 
   bool operator==(const ApproachFeatures&) const = default;
 };
 
-/// The features of the first approach of a query with a separation; nothing if the distance is always above h.
+/// The features of the first approach in a query with h > 0; nothing if the distance is always above h.
 std::optional<ApproachFeatures> approach_features(const Query& query);
 
 /// A text such as "approach inside vertex-face" or "approach at-start end-end touching".

@@ -13,7 +13,7 @@
 
 namespace nearmiss {
 
-/// A method's answer to a query; the method does not know a member without a value.
+/// A method's answer to a query. A member without a value means that the method does not know it.
 struct Answer {
   std::optional<bool>
       collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h

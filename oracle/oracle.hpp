@@ -13,12 +13,13 @@ namespace nearmiss {
 
 /// The answer to a query, and the stage that found it.
 struct Decision {
-  /// For h = 0: the closed primitives share a point at some t in [0, 1]. For h > 0: their distance is below h at some t.
+  /// For h = 0: the closed primitives share a point at some t in [0, 1]. For h > 0: their distance is below h
+  /// at some t.
   bool collision = false;
-  FilterStage stage{};  ///< `undecided`: by exact arithmetic
+  FilterStage stage{};  ///< `undecided` if exact arithmetic decided
   /// The smallest distance is exactly h > 0, so that both answers are right.
   bool is_tie = false;
-  KnownTimes known = {};  ///< from which EarliestTime goes on
+  KnownTimes known = {};  ///< from which EarliestTime can start
 
   /// The answer of the boxes or the filter; nothing if exact arithmetic decided.
   [[nodiscard]] std::optional<bool> by_filter() const {
@@ -29,12 +30,13 @@ struct Decision {
 /// The answer that a stage of the filter means; if the stage is `undecided`, exact arithmetic decides.
 Decision settle(const Query& query, FilterStage stage);
 
-/// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact arithmetic. The answer is
-/// exact for every finite query, including degenerate, planar, huge and subnormal ones.
+/// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact
+/// arithmetic. The answer is exact for every finite query, including degenerate, planar, huge and subnormal
+/// ones.
 Decision decide(const Query& query);
 
-/// Decides many queries of any kinds. The filter processes those with h = 0 side by side. The answers are the same
-/// as for single queries; the stages may differ.
+/// Decides many queries of any kinds. The filter processes those with h = 0 side by side. The answers are the
+/// same as for single queries; the stages may differ.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 /// Whether decide() finds a collision.
@@ -44,7 +46,7 @@ bool collides(const Query& query);
 Decision decide_exactly(const Query& query);
 bool collides_exactly(const Query& query);
 
-/// The earliest time at which the distance is at most h; nothing if it always is above.
+/// The earliest time at which the distance is at most h; nothing if the distance is always above h.
 std::optional<EarliestTime> earliest_time(const Query& query);
 
 }  // namespace nearmiss

@@ -22,13 +22,14 @@ class ApproachSearch {
     required_ = to_distance.at_least(above(query.separation));
   }
 
-  /// Whether there is such a time, and an enclosure of any width.
+  /// Whether there is such a time, with an enclosure of it that may be wide.
   [[nodiscard]] FirstTime decide() const {
     const FirstTime quick = QuickSearch(differences_, low_, required_).decide();
     return quick.never || quick.comes ? quick : thorough(1);
   }
 
-  /// The enclosure narrowed. If the distance comes below the separation, it still does so at its end.
+  /// Narrows the enclosure. If the distance is known to fall below the separation, it is below it at the end
+  /// of the result.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
     constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {

@@ -7,31 +7,31 @@
 
 namespace nearmiss {
 
-/// What certified bounds show of a query with a separation h > 0.
+/// What certified bounds show about a query with a separation h > 0.
 struct KnownApproach {
-  /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`: neither is
-  /// known.
+  /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`:
+  /// neither is known.
   FilterStage stage{};
-  /// Unless it is always above h: contains the earliest time at which it is at most h, and that at which it falls below h,
-  /// if there are such times.
+  /// Unless the distance is always above h: contains the earliest time at which it is at most h, and the time
+  /// at which it falls below h, if there are such times.
   Enclosure time{0, 1};
-  double estimate = 1;  ///< of this time, not certain
+  double estimate = 1;  ///< of the earliest time; not certain
 };
 
-/// Boxes, planes, and the search for a time at which the distance is below h. The enclosure of the time is as wide as that search
-/// leaves it.
+/// Decides by boxes, planes, and a search for a time at which the distance is below h. The enclosure of the
+/// time is as wide as that search leaves it.
 KnownApproach known_approach(const Query& query);
 
-/// The answer with an enclosure of the time that is at most `width` wide, or as narrow as doubles allow, if a further search succeeds. It starts from
-/// `known`, which must be the answer of known_approach(query).
+/// Narrows the time of `known`, which must be the answer of known_approach(query). If a further search
+/// succeeds, its enclosure is at most `width` wide, or as narrow as doubles allow.
 KnownApproach narrowed(const Query& query, const KnownApproach& known, double width);
 
-/// The answer, narrowed to `width`.
+/// The answer of known_approach(query), narrowed to `width`.
 inline KnownApproach known_approach(const Query& query, double width) {
   return narrowed(query, known_approach(query), width);
 }
 
-/// The stage alone.
+/// Only the stage of known_approach(query).
 inline FilterStage filter_with_separation(const Query& query) { return known_approach(query).stage; }
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// Words of the input in messages.
+// Shortens words of the input for messages.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// A word of the input as messages show it: one of more than `most` bytes is cut, at a border of UTF-8 sequences,
-/// and ends in "...".
+/// A word of the input as messages show it. If it has more than `most` bytes, it is cut between two UTF-8
+/// sequences and "..." is appended.
 inline std::string excerpt(std::string_view word, std::size_t most = 40) {
   if (word.size() <= most) return std::string(word);
   std::size_t end = most;

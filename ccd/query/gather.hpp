@@ -1,4 +1,4 @@
-// Queries in the caller's memory (queries.h) as values, block by block.
+// Reads queries in the caller's memory (queries.h) as values, block by block.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace nearmiss::interface {
 
-/// Whether the fields are such that the queries can be read.
+/// Whether the queries can be read: kind and type are known, and no pointer that is needed is null.
 inline bool are_readable(const nearmiss_queries* queries) {
   return queries != nullptr && kind_of_bit(queries->kind).has_value() &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
          (queries->count == 0 || (queries->start != nullptr && queries->end != nullptr));
 }
 
-/// A number in the caller's memory, wherever it lies.
+/// The number in the caller's memory that is `offset` bytes after `base`.
 template <class Number>
 Number number_at(const void* base, std::ptrdiff_t offset) {
   Number value;
@@ -50,7 +50,7 @@ inline bool ask_for_contact(const nearmiss_queries& queries) {
   return ask_for_contact(queries, 0, queries.count);
 }
 
-/// Whether a query has an answer.
+/// Whether a query can be answered: its numbers are finite, and its separation is not negative.
 inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
@@ -108,8 +108,9 @@ class Reader {
 /// The largest number of queries in a block.
 inline constexpr std::size_t block_size = 256;
 
-/// Calls visit(block, first) for blocks of queries, of which the first is query `first`. Returns NEARMISS_OK, or what `visit`
-/// returns last that is something else. `block_of` makes a block from its first query and its size.
+/// Divides the queries into blocks of at most `most`, and calls visit(block, first) for each, where `first`
+/// is the index of the block's first query. Returns the last status of `visit` that is not NEARMISS_OK, or
+/// NEARMISS_OK. `block_of` makes a block from `first` and its size.
 template <class BlockOf, class Visit>
 int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;
@@ -123,8 +124,8 @@ int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, cons
 /// Calls visit(block, first) for blocks that are copies of the queries.
 template <class T, class Visit>
 int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
-  constexpr std::size_t most = 128;  // which fit into the nearest cache
-  union Block {                      // of which only the queries that are used are initialised
+  constexpr std::size_t most = 128;  // these fit into the L1 cache
+  union Block {                      // a union, so that only the queries in use are initialised
     Block() {}
     Query queries[most];
   } block;
@@ -139,8 +140,8 @@ int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
       visit);
 }
 
-/// Calls visit(block, first) for blocks of queries, which are copied if their layout needs it. Returns a status and throws nothing. The
-/// caller has plain arithmetic.
+/// Calls visit(block, first) for blocks of queries, which are copied if their layout requires it. Returns a
+/// status and throws nothing. The caller must have made arithmetic plain.
 template <class Visit>
 int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   if (!are_readable(queries)) return NEARMISS_BAD_ARGUMENT;
@@ -160,7 +161,8 @@ int for_blocks(const nearmiss_queries* queries, const Visit& visit) noexcept {
   }
 }
 
-/// Calls answer(query, q) for each query that is finite, and refuse(q) for each of the others. Returns a status and throws nothing.
+/// Calls answer(query, q) for each query that is finite, and refuse(q) for each of the others. Returns a
+/// status and throws nothing.
 template <class Answer, class Refuse>
 int for_each_query(const nearmiss_queries* queries, const Answer& answer, const Refuse& refuse) noexcept {
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {

@@ -1,4 +1,4 @@
-// The vector instructions that many queries at once are decided with.
+// The vector instructions with which many queries are decided at once.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-/// The x86-64 instruction sets whose registers hold 2, 4 and 8 doubles. None changes an answer.
+/// The x86-64 instruction sets whose registers hold 2, 4 and 8 doubles. The choice changes no answer.
 enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
 
 inline constexpr std::array all_instructions{Instructions::sse2, Instructions::avx2, Instructions::avx512};
@@ -22,8 +22,9 @@ Instructions widest_instructions();
 
 /// The instruction set that is used: the widest one, unless the program has chosen another.
 Instructions chosen_instructions();
-/// Chooses the instruction set with so many lanes, "2", "4" or "8", for the whole process. Throws Error if this is another number or
-/// this machine does not have the instructions. No other thread may run meanwhile.
+/// Chooses the instruction set with the given number of lanes, "2", "4" or "8", for the whole process. Throws
+/// Error for any other number, or if this machine does not have the instructions. No other thread may run
+/// meanwhile.
 void choose_instructions(std::string_view given);
 
 }  // namespace nearmiss

@@ -44,10 +44,11 @@ struct Topology {
   Primitive second;                   ///< with the vertices x[split .. 4)
   std::span<const VertexPair> edges;  ///< of both primitives
   std::span<const VertexPair> gaps;   ///< from each vertex of the first primitive to each of the second
-  /// Each vertex and each edge of the other primitive: those with a vertex of the first primitive, then the others.
+  /// Each vertex with each edge of the other primitive; those with a vertex of the first primitive come
+  /// first.
   std::span<const VertexAndEdge> vertices_and_edges;
-  std::span<const VertexAndEdge> first_to_second;  ///< of these, those with a vertex of the first primitive
-  std::span<const VertexAndEdge> second_to_first;  ///< the others
+  std::span<const VertexAndEdge> first_to_second;  ///< the part with a vertex of the first primitive
+  std::span<const VertexAndEdge> second_to_first;  ///< the part with a vertex of the second
   /// p, q and r (x_to - x_from), where N = q × r is the normal and F = p · N the coplanarity (§3.3, §3.4).
   std::array<VertexPair, 3> pqr;
 };
@@ -88,7 +89,7 @@ inline constexpr std::array<Topology, 2> of_kinds{
 
 }  // namespace topologies
 
-/// The entry of a kind.
+/// The topology of a kind.
 constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[static_cast<std::size_t>(kind)]; }
 
 /// "vt" or "ee".
@@ -97,17 +98,18 @@ constexpr std::string_view short_name(Kind kind) { return topology(kind).short_n
 /// The vertices of the first primitive are x[0 .. split), those of the second x[split .. 4).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
-/// Whether the second primitive is a triangle, with weights α, β >= 0 and α + β <= 1 of its edges x1x2 and x1x3. Otherwise the
-/// primitives are two edges, with weights α and β in [0, 1].
+/// Whether the second primitive is a triangle, with weights α, β >= 0 and α + β <= 1 of its edges x1x2 and
+/// x1x3. Otherwise the primitives are two edges, with weights α and β in [0, 1].
 constexpr bool has_triangle(Kind kind) { return topology(kind).second == Primitive::triangle; }
 
-/// The number of a kind in the interfaces in C, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a set of kinds.
+/// The number of a kind in the interfaces in C, NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE: one bit of a
+/// set of kinds.
 constexpr int bit_of(Kind kind) { return 1 << static_cast<int>(kind); }
 
-/// All kinds, as such a set.
+/// The set of all kinds, as a sum of their bits.
 inline constexpr int bits_of_all_kinds = (1 << kinds.size()) - 1;
 
-/// The kind of such a number; nothing for other numbers.
+/// The kind with this bit; nothing for any other number.
 constexpr std::optional<Kind> kind_of_bit(int bit) {
   for (const Kind kind : kinds)
     if (bit_of(kind) == bit) return kind;

@@ -16,8 +16,9 @@
 
 namespace nearmiss {
 
-/// n doubles; every operation acts on each lane as on a double. They are the compiler's vector types: for n = 2, 4 and 8 these are
-/// SSE2, AVX and AVX-512 registers if the code that uses them is compiled for these instructions.
+/// n doubles; every operation acts on each lane as on a double. They are the compiler's vector types: for
+/// n = 2, 4 and 8 these are SSE2, AVX and AVX-512 registers if the code that uses them is compiled for these
+/// instructions.
 template <int n>
 struct Lanes {
   using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
@@ -129,7 +130,7 @@ struct ScalarIn<Lanes<n>> {
 
 }  // namespace nearmiss
 
-/// Eigen's vectors of lanes.
+/// Lets Eigen's vectors hold lanes.
 template <int n>
 struct Eigen::NumTraits<nearmiss::Lanes<n>> : Eigen::GenericNumTraits<nearmiss::Lanes<n>> {
   using Real = nearmiss::Lanes<n>;

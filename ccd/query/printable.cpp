@@ -8,7 +8,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The length of the UTF-8 sequence at the begin of a text, if it is valid (RFC 3629) and printable; else 0.
+/// The length of the UTF-8 sequence at the start of a text, if it is valid (RFC 3629) and printable; else 0.
 std::size_t printable_sequence(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;

@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// The text as valid UTF-8 without control characters: each byte or character that is neither printable nor part of a
-/// valid sequence becomes '?', and a line end a blank.
+/// The text as valid UTF-8 without control characters: each byte or character that is neither printable nor
+/// part of a valid sequence becomes '?', and a line end a blank.
 std::string printable(std::string_view text);
 
 }  // namespace nearmiss

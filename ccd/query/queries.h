@@ -1,9 +1,10 @@
 /** \file
  * Queries in the caller's own memory, for the functions of wang.h and oracle.h. C99.
  *
- * A query is four vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, or the edges x0x1 and
- * x2x3. All coordinates have one unit, which is arbitrary; times are fractions of the step. The question is whether the distance
- * of the two closed primitives is at most the separation h at some t in [0, 1]; h = 0 asks whether they touch. */
+ * A query is four vertices that move linearly from t = 0 to t = 1: a vertex x0 and a triangle x1 x2 x3, or
+ * the edges x0x1 and x2x3. All coordinates have one unit, which is arbitrary; times are fractions of the
+ * step. The question is whether the distance of the two closed primitives is at most the separation h at some
+ * t in [0, 1]; h = 0 asks whether they touch. */
 #ifndef NEARMISS_QUERIES_H
 #define NEARMISS_QUERIES_H
 
@@ -28,7 +29,7 @@ extern "C" {
 
 /* Types of coordinates. */
 #define NEARMISS_DOUBLE 0 /**< 64 bits */
-#define NEARMISS_FLOAT 1  /**< 32 bits, each of which is the double of the same value */
+#define NEARMISS_FLOAT 1  /**< 32 bits; a float means the double of the same value */
 
 /* Answers. */
 #define NEARMISS_NO_COLLISION 0 /**< the distance is always above the separation */
@@ -44,10 +45,11 @@ extern "C" {
 
 /** Queries of one kind. Coordinate k (0 to 2) of vertex i (0 to 3) of query q is at
  *
- *     start + q * query_stride + v * vertex_stride + k * coordinate_stride     at t = 0, and likewise from `end` at t = 1,
+ *     start + q * query_stride + v * vertex_stride + k * coordinate_stride
  *
- * where v is vertices[4 * q + i], or i if `vertices` is null. Strides are in bytes, and may be 0 or negative. Addresses must be
- * aligned for the type. nearmiss_packed() and nearmiss_of_mesh() fill in the usual cases. */
+ * at t = 0, and likewise from `end` at t = 1. Here v is vertices[4 * q + i], or i if `vertices` is null.
+ * Strides are in bytes, and may be 0 or negative. Addresses must be aligned for the type. nearmiss_packed()
+ * and nearmiss_of_mesh() fill in the usual cases. */
 typedef struct {
   int kind;                    /**< NEARMISS_VERTEX_TRIANGLE or NEARMISS_EDGE_EDGE */
   int type;                    /**< NEARMISS_DOUBLE or NEARMISS_FLOAT */
@@ -58,12 +60,12 @@ typedef struct {
   ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
   ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
   const int32_t* vertices;     /**< numbers of vertices, four for each query; or null */
-  const double* separation;    /**< h of the first query; null is 0 for all */
-  ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all have one */
+  const double* separation;    /**< h of the first query; null: h = 0 for all */
+  ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one */
 } nearmiss_queries;
 
-/** Queries whose vertices have three coordinates, one after the other. `query_size` is the number of coordinates from one query to the
- * next. */
+/** Queries whose vertices have three coordinates, one after the other. `query_size` is the number of
+ * coordinates from one query to the next. */
 static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t count, const int32_t* vertices,
                                                   const void* start, const void* end, ptrdiff_t query_size) {
   const ptrdiff_t of_float = sizeof(float);
@@ -84,8 +86,9 @@ static inline nearmiss_queries nearmiss_packed_float(int kind, size_t count, con
   return nearmiss_of_points(kind, NEARMISS_FLOAT, count, NEARMISS_NULL, x, x ? x + 12 : x, 24);
 }
 
-/** Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have three coordinates for
- * each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three numbers, change vertex_stride. */
+/** Pairs of a moving mesh: `vertices` has four numbers of vertices for each pair, and `start` and `end` have
+ * three coordinates for each vertex of the mesh, at t = 0 and t = 1. For vertices with more than three
+ * numbers, change vertex_stride. */
 static inline nearmiss_queries nearmiss_of_mesh(int kind, size_t count, const int32_t* vertices,
                                                 const double* start, const double* end) {
   return nearmiss_of_points(kind, NEARMISS_DOUBLE, count, vertices, start, end, 0);
@@ -97,11 +100,11 @@ static inline nearmiss_queries nearmiss_of_mesh_float(int kind, size_t count, co
   return nearmiss_of_points(kind, NEARMISS_FLOAT, count, vertices, start, end, 0);
 }
 
-/** The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep working without being
- * compiled again. */
+/** The version of the library: major, minor and patch, such as "1.0.0". Within a major version, programs keep
+ * working without being compiled again. */
 const char* nearmiss_version(void);
 
-/** A sentence about a value that a function returned. */
+/** A sentence that explains a status that a function returned. */
 const char* nearmiss_message(int status);
 
 #undef NEARMISS_NULL

@@ -1,4 +1,4 @@
-// Queries in memory, as code for many queries at once reads them.
+// Queries in memory, as code that decides many at once reads them.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 namespace nearmiss {
 
-/// Queries whose 24 coordinates lie one after the other, in the order of Query::x: a span of queries, or an array of somebody
-/// else's, which has queries of one kind with h = 0. The memory must outlive this view.
+/// Queries whose 24 coordinates lie one after the other, in the order of Query::x: a span of Query values, or
+/// an array in another program's memory, whose queries have one kind and h = 0. The memory must outlive this
+/// view.
 class QueryRows {
  public:
   explicit QueryRows(std::span<const Query> queries)
@@ -45,7 +46,7 @@ class QueryRows {
   }
 
  private:
-  const Query* queries_ = nullptr;  ///< null if all have the kind `kind_`
+  const Query* queries_ = nullptr;  ///< null if all queries have the kind `kind_`
   Kind kind_{};
   const std::byte* x_;
   std::ptrdiff_t stride_;

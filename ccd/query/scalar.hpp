@@ -1,11 +1,12 @@
-// What the templates compute with: a scalar, or many side by side.
+// The number types of the templates: a scalar, or several scalars side by side.
 #pragma once
 
 #include <type_traits>
 
 namespace nearmiss {
 
-/// The scalar of which a type has one or more; a type of many has its own specialisation (lanes.hpp).
+/// The type of the scalars that a T holds: T itself, unless T holds several and has a specialisation
+/// (lanes.hpp).
 template <class T>
 struct ScalarIn {
   using Type = T;

@@ -142,7 +142,7 @@ Verdict verdict_of(const DetectorInfo& info, int answer, double time) {
 
 namespace {
 
-/// Throws Error unless a detector is as nearmiss_subject.h says, with a name of its own.
+/// Throws Error unless a detector follows nearmiss_subject.h and its name differs from the others.
 void expect_usable(const std::string& path, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names) {
   if (subject.interface_version != NEARMISS_INTERFACE)

@@ -28,7 +28,7 @@ struct DetectorInfo {
   bool operator==(const DetectorInfo&) const = default;
 };
 
-/// The most detectors of a shared object, and the most bytes of a detector's name.
+/// Limits: the number of detectors in a shared object, and the bytes of a detector's name.
 inline constexpr std::size_t most_detectors = 64;
 inline constexpr std::size_t longest_name = 255;
 
@@ -39,21 +39,21 @@ std::string fault_of(const Contract& contract);
 
 /// Whether a detector decides queries of a kind.
 bool decides(const DetectorInfo& info, Kind kind);
-/// The query that it decides: with coordinates rounded to float if it is narrow, those beyond the range of float to the
-/// largest float.
+/// The query that a detector decides. If the detector is narrow, numbers are rounded to float, and those
+/// beyond the range of float to the largest float.
 Query rounded_for(const DetectorInfo& info, const Query& query);
-/// Its answer as a verdict. `time` is the time that it gave; NaN if none.
+/// A detector's answer as a verdict. `time` is the time that it gave, or NaN.
 Verdict verdict_of(const DetectorInfo& info, int answer, double time);
 
 /// A loaded shared object.
 class PluginLibrary {
  public:
-  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, or exports a subject that is not as
-  /// nearmiss_subject.h says.
+  /// Throws Error if the file cannot be loaded, lacks nearmiss_get_subject, or exports a subject that does
+  /// not follow nearmiss_subject.h.
   explicit PluginLibrary(const std::string& path);
 
   [[nodiscard]] std::vector<std::string> names() const;
-  /// The subject of this name; the first one if it is "". Throws Error.
+  /// The subject of this name, or the first one if the name is "". Throws Error if there is no such subject.
   [[nodiscard]] const nearmiss_subject& subject(std::string_view name) const;
 
  private:
@@ -66,11 +66,11 @@ class PluginLibrary {
   std::vector<const nearmiss_subject*> subjects_;  // owned by the library
 };
 
-/// A detector that is open, for one thread. It may change the rounding mode, the treatment of subnormals or the traps;
-/// arithmetic is plain again after each call.
+/// A detector that is open, for one thread. It may change the rounding mode, the treatment of subnormals or
+/// the traps; arithmetic is plain again after each call.
 class Detector {
  public:
-  /// Opens it. The subject must outlive this object. Throws Error if it refuses the options.
+  /// Opens the detector. The subject must outlive it. Throws Error if the subject refuses the options.
   Detector(const nearmiss_subject& subject, const std::string& options);
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
@@ -79,7 +79,8 @@ class Detector {
   [[nodiscard]] const DetectorInfo& info() const { return info_; }
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
-  /// Decides queries of one kind, one for each answer: x has 24 coordinates for each, rounded if it is narrow.
+  /// Decides queries of one kind, as many as there are answers. x has 24 coordinates for each, rounded to
+  /// float if the detector is narrow.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x) const;

@@ -16,8 +16,9 @@ bool is_file(std::string_view path) {
   return std::filesystem::is_regular_file(path, unknown);
 }
 
-/// The path with which a plug-in's name begins: the shortest part up to a ':' or the end that has a '/' and is a file. If
-/// there is none, up to the first ':' behind the last '/' before an option, so that a message can name it.
+/// The path at the start of a plug-in's name: the shortest prefix that has a '/', is a file, and ends at a
+/// ':' or at the end of the name. If no prefix is a file, the path ends at the first ':' after the last '/'
+/// before any option, so that a message can name it.
 std::string_view path_in(std::string_view name) {
   for (std::size_t end = 0; end != std::string_view::npos;) {
     end = name.find(':', end + 1);

@@ -1,4 +1,4 @@
-// Plug-ins as subjects of this process.
+// Plug-ins as subjects that run in this process.
 #pragma once
 
 #include <memory>
@@ -12,22 +12,22 @@
 
 namespace nearmiss {
 
-/// What the name of a subject begins with that is a program of its own: "pipe:COMMAND".
+/// The prefix of the name of a subject that is a separate program: "pipe:COMMAND".
 inline constexpr std::string_view program_prefix = "pipe:";
 
 inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }
 
-/// Whether a subject's name is that of a plug-in: a program, or a shared object (PluginName), whose path has a '/'.
+/// Whether a subject's name is that of a plug-in: a program, or a shared object whose path has a '/'.
 bool is_plugin(std::string_view name);
 
-/// A shared object as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path. The path is the
-/// shortest part up to a ':' that is a file.
+/// A shared object as the command line names it: PATH[:SUBJECT][:KEY=VALUE]..., with a '/' in the path. The
+/// path is the shortest part up to a ':' that is a file.
 struct PluginName {
   std::string path;
-  std::string subject;  ///< one of the shared object's subjects; "" if it is not said which
+  std::string subject;  ///< one of the shared object's subjects; "" if the name leaves it open
   std::string options;  ///< "KEY=VALUE:KEY=VALUE"
 
-  /// Throws Error if a subject is named twice, or behind an option.
+  /// Throws Error if a subject is named twice, or after an option.
   static PluginName parse(std::string_view name);
 };
 

@@ -59,8 +59,10 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
   return watch.nanoseconds();
 }
 
-/// The shortest time of three tries, since a disturbance seldom affects all three. Reading the CPU clock takes longer than most
-/// decisions, and is too inaccurate for them. So the wall clock alone times short work; long work is tried once more for that.
+/// The shortest time of three tries, since a disturbance seldom affects all three. The CPU clock is too
+/// inaccurate for most decisions, and reading it takes longer than they do. So short work is timed by the
+/// wall clock only. Long work, once the wall clock has shown it to be long, is timed three more times by both
+/// clocks.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns
@@ -87,7 +89,7 @@ std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& noth
   return less_overhead(time_of(clock, work), overhead);
 }
 
-/// The shortest of some times of `work`, minus the shortest of `nothing`.
+/// The shortest of three times of `work`, minus the shortest of three times of `nothing`.
 template <class Work, class Nothing>
 std::uint64_t best_time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = best_time_of(clock, nothing);

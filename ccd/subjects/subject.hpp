@@ -17,11 +17,11 @@
 
 namespace nearmiss {
 
-/// What a subject says about the time of a collision: t*, the earliest time at which the distance is at most h.
+/// What a subject says about t*, the earliest time at which the distance is at most h, for a collision.
 enum class TimeSort : std::uint8_t {
   none,         ///< nothing
-  estimate,     ///< a time near it
-  lower_bound,  ///< a time that is not after it: nothing happens before
+  estimate,     ///< a time near t*
+  lower_bound,  ///< a time that is not after t*: nothing happens before it
 };
 
 /// Names of the sorts of time in reports, in order.
@@ -29,14 +29,14 @@ inline constexpr std::array<std::string_view, 3> time_sort_names{"none", "estima
 
 constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_cast<std::size_t>(sort)]; }
 
-/// What a subject takes for granted; it is not judged on other queries. 0 or false: nothing.
+/// What a subject takes for granted; it is not judged on other queries. 0 or false: no such assumption.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 is more than `apart_by` and h
   bool one_root = false;  ///< the volume of the four vertices has one root in [0, 1] at most, a simple one
   double apart_by = 0;    ///< used with apart_at_start
   double grid = 0;        ///< a power of two of which every coordinate is a multiple
-  double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least as long
-  double longest = 0;     ///< these edges and the paths of the vertices are at most as long
+  double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least this long
+  double longest = 0;     ///< these edges and the paths of the vertices are at most this long
 
   bool operator==(const Contract&) const = default;
 };
@@ -50,7 +50,7 @@ struct BoundAnswer {
   /// A number that a subject gave as its bound; an error if it is not a distance.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// As Subject::distance_bound returns it.
+  /// The bound as Subject::distance_bound returns it, NaN if there is none.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -59,12 +59,12 @@ struct BoundAnswer {
 /// The time that some answers took, in the deciding thread or in the subject's own process. The time of an
 /// empty subject for the same queries is subtracted; waiting for a processor does not count (stopwatch.hpp).
 struct BatchTime {
-  std::size_t queries = 0;  ///< timed queries; none next to a query at which a process ended
+  std::size_t queries = 0;  ///< queries that were timed; a part of a batch in which a process failed is not
   std::uint64_t nanoseconds = 0;
 };
 
-/// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic (arithmetic.hpp),
-/// whatever the caller's mode.
+/// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic
+/// (arithmetic.hpp), whatever the caller's mode.
 class Subject {
  public:
   Subject() = default;
@@ -72,7 +72,7 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// Name on the command line and in reports; for a plug-in, its own name.
+  /// Name on the command line and in reports; for a plug-in, the name that it gives itself.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
   /// Throws Error if a coordinate is not finite.
@@ -102,10 +102,10 @@ class Subject {
   /// Whether the subject claims a bound; it does so for all queries or for none.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
-  /// Whether the subject decides queries of a kind. About others, it is not asked.
+  /// Whether the subject decides queries of a kind. It is not asked about other kinds.
   [[nodiscard]] virtual bool decides(Kind /*kind*/) const { return true; }
 
-  /// Whether the subject answers queries with a separation h > 0. About these, other subjects are not asked.
+  /// Whether the subject answers queries with a separation h > 0. If not, it is not asked about them.
   [[nodiscard]] virtual bool takes_separation() const { return false; }
 
   /// What the time of a verdict means, for collisions.
@@ -120,7 +120,8 @@ class Subject {
   /// The query that the subject decides and is judged on; its coordinates are rounded if the subject rounds.
   [[nodiscard]] virtual Query rounded(const Query& query) const { return query; }
 
-  /// What an exception said, or why the subject could not be loaded, of a verdict of this subject; "" for any other.
+  /// The message behind a fault in one of this subject's verdicts: what an exception said, or why the subject
+  /// could not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
   /// How near the query is to the other answer: the factor s by which all accepting tolerances, taken as
@@ -159,15 +160,16 @@ std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
 /// As make_subject, but returns nothing for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
-/// A name without its suffix "@B" or "@scene", and the bound of the suffix, or the given bound if there is no
-/// suffix, as in the path of a plug-in. Throws Error if B is a number that is not positive and finite.
+/// A name without its suffix "@B" or "@scene", and the bound that the suffix gives. If there is no suffix,
+/// the bound is the given one. The path of a plug-in never has a suffix. Throws Error if B is a number that
+/// is not positive and finite.
 struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
-/// Throws the Error that a subject found a coordinate that is not finite.
+/// Throws an Error that says that a subject found a coordinate that is not finite.
 [[noreturn, gnu::cold]] void refuse_coordinates(std::string_view name);
 
 /// Throws an Error that lists the known names.

@@ -1,5 +1,5 @@
-// Conservative advancement: whether and when two primitives come within a separation, by steps in time that cannot be
-// too long.
+// Conservative advancement: whether and when two primitives come within a separation, by steps in time that
+// cannot be too long.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace nearmiss {
 
-/// The polygon of all differences x - y of a point x of the first primitive and a point y of the second: a triangle
-/// (vertex-triangle) or a parallelogram (edge-edge), whose corners are the differences of vertices and move linearly. The
-/// distance of the primitives is the distance of the origin from this polygon.
+/// The polygon of all differences x - y of a point x of the first primitive and a point y of the second: a
+/// triangle (vertex-triangle) or a parallelogram (edge-edge), whose corners are the differences of vertices
+/// and move linearly. The distance of the primitives is the distance of the origin from this polygon.
 template <Kind kind, class T>
 struct DifferencePolygon {
   static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;
@@ -43,8 +43,8 @@ struct DifferencePolygon {
   }
 };
 
-/// The polygon in a frame in which its computations neither overflow nor underflow: X is in [1, 2), unless it needs no
-/// scaling or is 0.
+/// The polygon in a frame in which its computations neither overflow nor underflow: X is in [1, 2), unless it
+/// needs no scaling or is 0.
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   DifferencePolygon<kind, T> polygon(query);
@@ -61,7 +61,7 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
-  Vector3<T> direction;  ///< of any length: the polygon is on the far side of a plane at right angles to it
+  Vector3<T> direction;  ///< of any length; the polygon is beyond a plane perpendicular to it
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
     const T squared = dot(point, point);
@@ -71,11 +71,12 @@ struct NearestPoint {
   }
 };
 
-/// The nearest of the corners, the nearest points of the edges, and the point below the origin, if it is in the polygon.
+/// The nearest to the origin of these points: the corners, the nearest point of each edge, and the origin's
+/// projection onto the polygon's plane, if it is in the polygon.
 ///
-/// The direction of an edge's point is made perpendicular to the edge once more: if the point is near the origin, its own
-/// direction has lost digits by cancellation. For the same reason, the direction of the point below the origin is
-/// the normal.
+/// The direction of an edge's point is made perpendicular to the edge once more, because the direction of a
+/// point near the origin has lost digits by cancellation. For the same reason, the direction of the
+/// projection is the normal.
 template <Kind kind, class T, std::size_t size>
 [[gnu::always_inline]] inline NearestPoint<T> nearest_point(const std::array<Vector3<T>, size>& c) {
   NearestPoint<T> nearest;
@@ -105,11 +106,11 @@ template <Kind kind, class T, std::size_t size>
 
 /// Bound of the rounding errors of a step, as a distance in units of εX.
 ///
-/// Let every operation have a relative error of at most u = ε/2. A component of a corner x + t v has an error of 8uX: uX from
-/// x; 4uX from v, which is u(|x| + |y| + |v|) with |v| <= 2X; 2uX from the product and uX from the sum. The computed n has a
-/// length of at most 1 + 4u: it is a vector whose largest component is 1, divided by its length. Its components add up to at
-/// most √3 in magnitude. So a dot product with n has √3 times the error of a component, and 3u times √3 times the largest
-/// component from its own operations.
+/// Let every operation have a relative error of at most u = ε/2. A component of a corner x + t v has an error
+/// of 8uX: uX from x; 4uX from v, which is u(|x| + |y| + |v|) with |v| <= 2X; 2uX from the product and uX
+/// from the sum. The computed n has a length of at most 1 + 4u: it is a vector whose largest component is 1,
+/// divided by its length. Its components add up to at most √3 in magnitude. So a dot product with n has √3
+/// times the error of a component, and 3u times √3 times the largest component from its own operations.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
 /// - The step, a quotient whose numerator has two roundings: 3u times at most √3 X, 6uX.
@@ -117,25 +118,27 @@ template <Kind kind, class T, std::size_t size>
 /// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
-/// A collision is reported if the computed distance is at most h + `advance_reach` εX. The advancement ends at h +
-/// `advance_error` εX, so the difference is what it need not resolve.
+/// A collision is reported if the computed distance is at most h + `advance_reach` εX. This is more than h +
+/// `advance_error` εX, to which the advancement would converge without end.
 inline constexpr int advance_reach = 128;
 
-/// Then the exact distance is at most h + `advance_bound` εX.
+/// If a collision is reported in this way, the exact distance is at most h + `advance_bound` εX.
 ///
-/// The computed point c0 + αf + βg differs by at most 38uX in each component from a point of the exact polygon: 24uX from the
-/// corners, since |1 - α - β| + α + β <= 3; 4uX from f and g, 4uX from the products, 2uX from the sums, and 4uX because the
-/// computed α + β may exceed 1 by 2u. The points of edges have smaller errors. The distance has an error of √3 · 38uX, and of
-/// 6uX from its own operations, together 36εX. With 1εX for the rounding of h + `advance_reach` εX, 165 would do.
+/// The computed point c0 + αf + βg differs by at most 38uX in each component from a point of the exact
+/// polygon: 24uX from the corners, since |1 - α - β| + α + β <= 3; 4uX from f and g, 4uX from the products,
+/// 2uX from the sums, and 4uX because the computed α + β may exceed 1 by 2u. The points of edges have smaller
+/// errors. The distance has an error of √3 · 38uX, and of 6uX from its own operations, together 36εX. With
+/// 1εX for the rounding of h + `advance_reach` εX, 165 would do.
 inline constexpr int advance_bound = 192;
 
-/// The most iterations. Primitives that slide past each other, closer than a tiny part of their extent, would need any
-/// number of them.
+/// The largest number of iterations. Primitives that slide past each other at a distance that is tiny
+/// compared with their size could need any number of them.
 inline constexpr int advance_iterations = 1000;
 
 namespace detail {
 
-// Whether a coordinate separates the primitives by more than `distance` at t = 0 and, on the same side, at t = 1.
+// Whether a coordinate separates the primitives by more than `distance`, in one direction, at t = 0 and
+// t = 1.
 template <Kind kind, class T>
 bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   using Three = Eigen::Array<T, 3, 1>;
@@ -152,8 +155,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// The time until which all corners stay beyond `distance` along a direction, from t on: t if one is not at t, and t + 2 if
-// there is no end.
+// The time until which, from t on, all corners stay beyond `distance` along a direction: t if a corner is not
+// beyond it at t, and at most t + 2.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {
@@ -169,14 +172,16 @@ template <Kind kind, class T, class Corners>
 
 }  // namespace detail
 
-/// Reports every pair of finite input whose distance is at most h at some t in [0, 1]. The time of a report is a lower bound:
-/// the distance is more than h before it. A pair that is reported without a collision is within h + `advance_bound` εX, unless
-/// the stage is `unknown`: then the advancement has made no progress, or has not come to an end.
+/// Reports every pair of finite input whose distance is at most h at some t in [0, 1]. The time of a report
+/// is a lower bound: the distance is more than h before it. A pair that is reported without a collision is
+/// within h + `advance_bound` εX, unless the stage is `unknown`: then the advancement made no progress, or
+/// ran out of iterations.
 ///
-/// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than h. The corners
-/// move linearly. So if they are beyond h at t, they are until the first of them is at h. This holds for every n. For the
-/// direction of the nearest point, n·corner is at least the distance, and the speed is at most the largest relative speed
-/// of two vertices, so a step is at least as long as (distance - h) / speed.
+/// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
+/// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them
+/// reaches h. This holds for every n. For the direction of the nearest point, n·corner is at least the
+/// distance, and the speed is at most the largest relative speed of two vertices, so a step is at least as
+/// long as (distance - h) / speed.
 template <Kind kind, class T>
 Verdict advance(const Query& query) {
   using std::ldexp;
@@ -200,7 +205,7 @@ Verdict advance(const Query& query) {
   return Verdict::accepted(Stage::unknown, static_cast<double>(t));
 }
 
-/// The largest distance, less h, of a pair that `advance` reports without a collision, in the query's unit of length.
+/// The largest distance, minus h, of a pair that `advance` reports without a collision, in the query's unit.
 template <Kind kind, class T>
 T advance_distance_bound(const Query& query) {
   using std::ldexp;

@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// Solves F(t) = 0 as well as the scalar allows and applies the barycentric test at each root. It guarantees nothing:
-/// a root that rounding hides, or a weight that rounding moves outside, is a miss.
+/// Solves F(t) = 0 as well as the scalar allows and applies the barycentric test at each root. It guarantees
+/// nothing: a root that rounding hides, or a weight that rounding moves outside, is a miss.
 template <Kind kind, class T, bool plane_culling>
 Verdict basic(const Query& query) {
   if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);

@@ -9,7 +9,7 @@
 
 namespace nearmiss::detail {
 
-/// As add_quotient: the quotient, and whether it is in [0, 1].
+/// Counterpart of add_quotient: the quotient, and whether it is in [0, 1].
 template <class Real>
 struct Quotient {
   Real value;
@@ -24,7 +24,7 @@ Quotient<Real> quotient(Real numerator, Real denominator) {
           (denominator > Real(0)) & (numerator >= Real(0)) & (numerator <= denominator)};
 }
 
-/// As solve_quadratic.
+/// Counterpart of solve_quadratic: both roots, and whether each is in [0, 1].
 template <class Real>
 std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, const Real& c) {
   const auto is_linear = a == Real(0);
@@ -37,8 +37,8 @@ std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, cons
   return roots;
 }
 
-/// As find_critical_times: which cubics have a critical point in [0, 1], and which have two; the points in order, with 1 in
-/// place of those that are missing.
+/// Counterpart of find_critical_times: which cubics have a critical point in [0, 1], and which have two; the
+/// points in order, with 1 in place of missing ones.
 template <class Real>
 struct CriticalTimes {
   typename Real::Mask any, two;
@@ -72,7 +72,7 @@ struct Bracket {
 /// Each interval between two nodes contributes one of these to the roots (see `solve_cubic`).
 enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
 
-/// The contribution of an interval, as a number; nothing where it does not exist.
+/// The contribution of an interval, as a number; `nothing` in lanes in which the interval does not exist.
 template <class Real>
 Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exists, const Real& mu) {
   const auto is = [](Contribution c) { return Real(static_cast<double>(c)); };
@@ -83,7 +83,7 @@ Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exis
   return select(exists, found, is(nothing));
 }
 
-/// As refine_root, for the active lanes; 0 in the others.
+/// The result of refine_root in the active lanes, and 0 in the others.
 template <class Real>
 Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::Mask active) {
   using Mask = typename Real::Mask;

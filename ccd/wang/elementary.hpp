@@ -1,5 +1,5 @@
-// Elementary functions that give the same bits with every compiler and every mathematical library: they use sums,
-// products and quotients of doubles alone, each rounded once.
+// Elementary functions that give the same bits with every compiler and every mathematical library: they use
+// only sums, products and quotients of doubles, each rounded once.
 #pragma once
 
 #include <cmath>

@@ -26,8 +26,8 @@ struct Loosened {
   }
 };
 
-/// The s, to about 1 %, at which hits(s), the answer with Loosened tolerances, changes from false to true. If it
-/// does not change between 2^-40 and 2^8, the nearer of the two is returned.
+/// The s, to about 1 %, at which hits(s), the answer with Loosened tolerances, changes from false to true. If
+/// it does not change between 2^-40 and 2^8, the nearer of the two is returned.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

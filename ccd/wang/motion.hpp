@@ -22,12 +22,12 @@ auto max_component(const Vector& a) {
   return max(max(T(abs(a[0])), T(abs(a[1]))), T(abs(a[2])));
 }
 
-/// Eigen's sums depend on its vector instructions; these have one order.
+/// The dot product, summed in a fixed order; the order of Eigen's sums depends on its vector instructions.
 template <class A, class B>
 auto dot(const A& a, const B& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
-/// ‖a‖₁
+/// The sum of the magnitudes of the components, ‖a‖₁, in a fixed order.
 template <class Vector>
 auto norm_1(const Vector& a) {
   using std::abs;
@@ -126,8 +126,8 @@ void form_vectors(const Points& points, Pair<kind, T>& pair) {
   pair.r = motion(r);
 }
 
-/// B exceeds E + W by `bound_margin`, relatively and in units of ε; the proofs need an excess of
-/// `bound_needs`.
+/// The relative excess of B over E + W, in units of ε: `bound_margin` is what B has, `bound_needs` what the
+/// proofs need.
 inline constexpr int bound_margin = 64;
 inline constexpr int bound_needs = 40;
 
@@ -212,7 +212,7 @@ Frame normalising_frame(const Query& query) {
 
 namespace detail {
 
-// The order of end points in which x20 has the smallest largest component of the four pairs.
+// The order of end points for which the largest component of x20 is smallest.
 template <class T>
 VertexOrder closest_order(const Query& query, const Frame& frame) {
   VertexOrder best = given_order;
@@ -231,16 +231,16 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B. They are if the pair collides (§4.1) and, for two edges, p
-/// joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative error of at
-/// most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
+/// Whether all vectors of the pair are within B. All are within B if the pair collides (§4.1) and, for two
+/// edges, p joins the closest end points; §4.1 only needs x20 to be within B. A computed p has a relative
+/// error of at most u, and B >= B*(1 + 40ε), so a pair that is not within B in its best order cannot collide.
 template <Kind kind, class T>
 auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;
 }
 
-/// The same, with the end points of edges exchanged if necessary. B itself does not depend on the
-/// order.
+/// Whether all vectors of the pair are within B, after the end points of edges are exchanged if necessary. B
+/// itself does not depend on their order.
 template <Kind kind, class T>
 bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
   if (within_reach(pair)) return true;

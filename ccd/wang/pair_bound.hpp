@@ -10,15 +10,16 @@
 
 namespace nearmiss {
 
-/// The bound B of one pair (§4.1), in its unit of length; infinity if it exceeds the largest double. The
-/// bound of a scene is the largest one of its pairs.
+/// The bound B of one pair (§4.1), in the unit of the query's coordinates; infinity if it exceeds the largest
+/// double. The bound of a scene is the largest one of its pairs.
 template <Kind kind>
 double pair_bound(const Query& query) {
   const auto in = [&](const Frame& frame) {
     return std::ldexp(make_pair<kind, double>(query, frame).B, -frame.total());
   };
   const double B = in(normalising_frame<kind, double>(query));
-  // Two primitives may be so far apart that their distance overflows in the frame of their B, and their velocity is NaN.
+  // Two primitives may be so far apart that their distance overflows in the frame of their B, and their
+  // velocity is NaN.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
 /// The bound B of a pair whose kind is known at run time.
@@ -26,8 +27,8 @@ inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
-/// The largest distance of a false positive of a pair with bound B, from the tolerances for B = 1, where nothing overflows. It is
-/// rounded up, so that it does not vanish for a tiny pair.
+/// The largest distance of a false positive of a pair with bound B, from the tolerances for B = 1, where
+/// nothing overflows. It is rounded up, so that it does not vanish for a tiny pair.
 inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
   return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
 }

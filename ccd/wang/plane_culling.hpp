@@ -11,8 +11,8 @@ namespace nearmiss {
 
 namespace detail {
 
-// The least and the largest coordinate of the first and of the second primitive. `coordinate(time, vertex)` is one number or a
-// vector of numbers.
+// The least and the largest coordinate of the first and of the second primitive. `coordinate(time, vertex)`
+// is one number or a vector of numbers.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto extents(const Coordinate& coordinate, std::size_t time) {
   using std::max;

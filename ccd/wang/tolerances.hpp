@@ -66,7 +66,7 @@ Tolerances<T> paper_tolerances(T B) {
   return tol;
 }
 
-/// A rule for tolerances: a function of B that `wang` takes. This one gives the paper's.
+/// A rule for tolerances: a function of B that `wang` takes. This one gives the paper's tolerances.
 struct PaperTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// How h is chosen, the half width of the interval around a computed root that must contain the true root.
+/// How to choose h, the half width of an interval around a computed root that must contain the true root.
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
   fixed,     ///< h = ε^½, as the paper proposes
@@ -62,7 +62,7 @@ T culling_threshold(T mu, T eps, T B) {
   return mu + (2 * evaluation_error + node_error) * eps * B * B * B;
 }
 
-// `per_root` doubles h at most so often.
+// The largest number of times that `per_root` doubles h.
 inline constexpr int culling_doublings = 4;
 
 // The most by which a weight may move within h.

@@ -12,7 +12,7 @@ namespace nearmiss {
 /// Which test accepted a pair.
 enum class Stage : std::uint8_t {
   none,         ///< no collision was reported
-  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, their distance
+  proximity,    ///< area, height and barycentric tests of VT or EE; in advance.hpp, the distance
   ve_end,       ///< VE, KKT case 1: t = 0 or t = 1
   ve_minimum,   ///< VE, KKT case 2: minimum of one quadratic piece
   ve_equal,     ///< VE, KKT case 3: two components of the edge have the same magnitude
@@ -20,7 +20,7 @@ enum class Stage : std::uint8_t {
   vv,           ///< VV (KKT case 5)
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< the subject does not say, as a plug-in
+  unspecified,  ///< the subject does not say; plug-ins never do
   unknown,      ///< no test: the subject cannot tell, which counts as a collision
 };
 
@@ -53,14 +53,14 @@ inline constexpr std::array<std::string_view, rejection_count> rejection_names{
 /// Why a subject gave no answer.
 enum class Fault : std::uint8_t {
   none,
-  error,      ///< it reported an error, or a bound that is no distance
+  error,      ///< it reported an error, or a bound that is not a distance
   crash,      ///< its process ended
   time,       ///< it exceeded its time limit
   memory,     ///< it exceeded its memory limit
   exception,  ///< it threw an exception that it did not catch
   protocol,   ///< it wrote to nearmiss's channels, or closed them
-  not_asked,  ///< it does not decide this kind, or was set aside, because it exceeded its time limit too often
-  invalid,    ///< it gave an answer that is none, or a collision without the time that it promises
+  not_asked,  ///< it does not decide this kind, or was dropped for exceeding its time limit too often
+  invalid,    ///< it gave an unknown answer, or a collision without the time that it promises
   load,       ///< it could not be loaded again after it had failed
   contract,   ///< it was not asked, because the query breaks its contract
 };
@@ -79,8 +79,8 @@ struct Verdict {
   double time = std::numeric_limits<double>::quiet_NaN();  ///< in [0, 1] for a hit; NaN if unknown
   Fault fault = Fault::none;                               ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;
-  /// The return value of an error; the signal or negated exit code of a crash; a number that Subject::fault_text knows
-  /// for an exception and a failure to load.
+  /// The return value of an error; the signal or negated exit code of a crash; a number that
+  /// Subject::fault_text knows for an exception and a failure to load.
   std::int32_t fault_code = 0;
 
   static Verdict accepted(Stage stage, double time) { return {.hit = true, .stage = stage, .time = time}; }

@@ -92,7 +92,7 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 
 /// Algorithm 2: reports a vertex within R of an edge at some t in [0, 1], and never a vertex farther away
 /// than the tolerances' distance bound (§4.3). The verdict's stage is the Karush-Kuhn-Tucker case that
-/// accepted.
+/// accepted the vertex.
 ///
 /// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t at
 /// which the computed value of F_0ij is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
@@ -103,8 +103,8 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// downwards, or level, until it would rise. The kinks of -S‖x_ji‖∞ are concave and cannot end the descent,
 /// so it ends at a time t' of one of these kinds:
 /// - 0 or 1 (case 1).
-/// - A kink of some |Q_k|, which is a root of Q_k (case 4). Its computed time, or 1 in its place, is within
-///   6ω of it, and G changes at a rate of at most 30 B² + SB.
+/// - A kink of some |Q_k|, which is a root of Q_k (case 4). The computed time of the root, or 1 in its place,
+///   is within 6ω of the root, and G changes at a rate of at most 30 B² + SB.
 /// - The vertex of a piece (case 2). The computed slope of the piece has an error of at most r = (68 B² + 2
 ///   SB) ω. So the piece rises by at most r/2 between t' and the computed vertex, or 0 or 1 if the computed
 ///   vertex is outside. After a concave kink G continues below the piece. If a kink of some |Q_k| comes

@@ -1,12 +1,12 @@
 /** \file
  * The failure-proof CCD of Wang (2014) for queries in the caller's memory. C99.
  *
- * It reports every collision, also in degenerate and extreme queries. It may report a pair that does not collide, but none whose
- * primitives stay farther apart than nearmiss_wang_bound() says. It takes no separation: every separation
- * must be 0, or the result is NEARMISS_BAD_ARGUMENT.
+ * It reports every collision, also in degenerate and extreme queries. It may report a pair that does not
+ * collide, but the primitives of such a pair come within the distance that nearmiss_wang_bound() gives. It
+ * takes no separation: every separation must be 0, or the result is NEARMISS_BAD_ARGUMENT.
  *
- * All functions may be called from many threads at once, set the processor's rounding mode if need be and restore it, and neither
- * allocate, print nor throw. */
+ * All functions may be called from many threads at once, set the processor's rounding mode if need be and
+ * restore it, and neither allocate, print nor throw. */
 #ifndef NEARMISS_WANG_H
 #define NEARMISS_WANG_H
 
@@ -16,11 +16,13 @@
 extern "C" {
 #endif
 
-/** Whether the CCD reports each query: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or NEARMISS_NO_ANSWER. */
+/** Whether the CCD reports each query: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
+ * NEARMISS_NO_ANSWER. */
 int nearmiss_wang(const nearmiss_queries* queries, int8_t* answers);
 
-/** For each query, the distance below which a false positive must come, in the unit of the coordinates: about 41 B ε^¼, where B is
- * the size of the pair and ε that of double. NaN if there is no answer. */
+/** For each query, the distance within which the primitives come at some time if the pair is reported, in the
+ * unit of the coordinates: about 41 B ε^¼, where B is the size of the pair and ε that of double. NaN if there
+ * is no answer. */
 int nearmiss_wang_bound(const nearmiss_queries* queries, double* bounds);
 
 #ifdef __cplusplus

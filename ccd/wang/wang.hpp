@@ -65,7 +65,7 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
   return pair;
 }
 
-// In one order, as `dot`.
+// The sum of the squared components of p, q and r, in a fixed order, as in `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
   const auto squares = [&](int i) -> T {
@@ -122,7 +122,7 @@ template <Kind kind, class T, WangOptions options, class Rule>
   return vertex_edge_tests<kind, T>(query, pair.frame, pair.order, tol);
 }
 
-// The same for a pair that has a given B (§5), or needs another frame or another order of end points.
+// Algorithms 3 and 4 for a pair that has a given B (§5), or needs another frame or order of end points.
 template <Kind kind, class T, WangOptions options, class Rule>
 [[gnu::noinline]] Verdict wang_careful(const Query& query, const std::optional<double>& given,
                                        const Rule& tolerances) {

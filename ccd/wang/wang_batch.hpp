@@ -10,22 +10,22 @@
 
 namespace nearmiss {
 
-/// The verdict on a query that is left to be decided alone.
+/// The verdict on a query that wang_in_lanes leaves undecided; `wang` must decide it.
 inline constexpr Verdict undecided_verdict{};
 constexpr bool is_decided(const Verdict& verdict) {
   return verdict.hit || verdict.rejection != Rejection::untold;
 }
 
-/// Gives those verdicts of `wang` (wang.hpp) on some queries, with the bounds of the pairs, that need no vertex-edge tests, no
-/// other frame and no other order of end points, and leaves the others undecided. A query with a coordinate that is not
-/// finite is left undecided.
+/// Gives the verdicts of `wang` (wang.hpp), with each pair's own bound, on those queries that need no
+/// vertex-edge tests, no other frame and no other order of end points. All others, and queries with a
+/// coordinate that is not finite, are left undecided.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    Instructions instructions = chosen_instructions());
 
 /// The largest number of queries in a batch, whose intermediate results fit into the nearest caches.
 inline constexpr std::size_t wang_batch_size = 128;
 
-/// Decides a batch in the same way, with one instruction set.
+/// Decides a batch as wang_in_lanes does, with one instruction set.
 using WangBatch = void(const QueryRows& queries, Verdict* verdicts);
 
 WangBatch wang_with_sse2;

@@ -21,15 +21,16 @@
 
 namespace nearmiss {
 
-/// Decides queries of one kind step by step, with those that are left side by side in n lanes: planes, the clearance of F,
-/// the roots of F, the tests at the roots. It leaves undecided what needs vertex-edge tests, another frame or another order of
-/// end points. A lane computes exactly what the templates compute for its query alone, so n changes no verdict.
+/// Decides queries of one kind in steps: plane culling, the clearance of F, the roots of F, the tests at the
+/// roots. Each step computes the queries that the steps before left open, side by side in n lanes. Queries
+/// that need vertex-edge tests, another frame or another order of end points are left undecided. A lane
+/// computes exactly what the templates compute for its query, so n changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts) : queries_(queries), verdicts_(verdicts) {}
 
-  /// Decides those of at most `wang_batch_size` queries that are of its kind.
+  /// Decides the queries of its kind, among at most `wang_batch_size`.
   void run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
@@ -44,7 +45,7 @@ class WangLanes {
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
 
-  /// Numbers of a list, with room for a whole pack behind the last one.
+  /// Numbers of a list, with room for n more after the last one.
   template <class Number, std::size_t most>
   using Column = std::array<Number, most + n>;
 
@@ -64,7 +65,7 @@ class WangLanes {
     std::size_t size_ = 0;
   };
 
-  /// The coordinates of the queries in n rows, as those of one query.
+  /// The coordinates of n queries, one in each lane, accessible like those of one query.
   struct Points {
     std::array<Real, 24> x;  ///< in the order of Query::x
     const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
@@ -81,7 +82,8 @@ class WangLanes {
     return points;
   }
 
-  /// Calls `visit(lane)` for the lanes of the pack from `first` on of a list of some size.
+  /// Calls `visit(lane)` for each lane that has an element, if the lanes hold elements `first`, `first` + 1,
+  /// ... of a list.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
@@ -100,13 +102,14 @@ class WangLanes {
     return truths;
   }
 
-  /// Gives the lanes behind the end of a list numbers of their own.
+  /// Writes zeros after the end of a list, for lanes that have no element.
   template <class Numbers>
   static void pad(Numbers& numbers, std::size_t size) {
     std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
   }
 
-  /// Leaves the queries that no plane separates. A coordinate that is not finite leaves its query undecided.
+  /// Rejects the queries that a plane separates, and returns the others, except queries with a coordinate
+  /// that is not finite, which stay undecided.
   Rows reject_separated(const Rows& rows) {
     Rows left;
     for (std::size_t i = 0; i < rows.size(); i += n) {
@@ -127,7 +130,8 @@ class WangLanes {
     return left;
   }
 
-  /// Of the pairs that need no other frame or order, keeps F, W and B of those whose F may have a root.
+  /// Rejects the pairs whose F stays clear of 0. Of the others, keeps F, W and B of those that need no other
+  /// frame or order.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
@@ -148,7 +152,7 @@ class WangLanes {
     }
   }
 
-  /// F, W and B of some queries; `take` reads n numbers of a column.
+  /// F, W and B of n queries; `take` reads n numbers of a column.
   struct Polynomial {
     Cubic<Real> F;
     Real W, B;
@@ -166,8 +170,8 @@ class WangLanes {
     });
   }
 
-  /// As solve_cubic, without refining: makes the candidates, the roots of each query in ascending order and then t = 1 if F is
-  /// small there.
+  /// Finds roots as solve_cubic does, but does not refine them. The candidates of each query are its roots in
+  /// ascending order, then t = 1 if F is small there.
   void find_roots() {
     for (auto& column : columns_) pad(column, left_.size());
     for (std::size_t i = 0; i < left_.size(); i += n) {
@@ -213,7 +217,7 @@ class WangLanes {
     candidate_time_[candidate_count_++] = time;
   }
 
-  /// As detail::refine_root, for all brackets.
+  /// Refines the roots in all brackets, as detail::refine_root does.
   void refine_roots() {
     for (auto& column : brackets_) pad(column, bracket_count_);
     pad(bracket_place_, bracket_count_);
@@ -230,7 +234,7 @@ class WangLanes {
     }
   }
 
-  /// The tests of Algorithms 3 and 4 at all candidates, and where they fail, the culling of vertex-edge tests.
+  /// The tests of Algorithms 3 and 4 at all candidates, and where they fail, culling of vertex-edge tests.
   void test_candidates() {
     pad(candidate_place_, candidate_count_);
     pad(candidate_time_, candidate_count_);
@@ -256,7 +260,7 @@ class WangLanes {
     }
   }
 
-  /// As excludes_collision.
+  /// Counterpart of excludes_collision with VeCulling::per_root.
   static Mask excludes(const Pair<kind, Real>& pair, const Cubic<Real>& F,
                        const Configuration<kind, Real>& configuration, const Real& t,
                        const Tolerances<Real>& tol) {
@@ -275,7 +279,7 @@ class WangLanes {
     return is_steep & bracketed & !(h > Real(1)) & detail::outside(configuration, spread, eps, pair.B);
   }
 
-  /// As detail::wang_tests, up to the vertex-edge tests.
+  /// Makes each query's verdict from its candidates, as detail::wang_tests does before the vertex-edge tests.
   void conclude() {
     std::size_t next = 0;
     for (std::size_t place = 0; place < left_.size(); ++place) {

@@ -17,28 +17,29 @@
 
 namespace nearmiss {
 
-/// The least μ, in units of B³ε, with which `solve_cubic` misses no root, for rounding to nearest and ε <= 2^-10:
-/// `cubic_residual` is at most 436, and 440 leaves room for the rounding of its product with B³ε. For double it is about a
-/// thousandth of the μ that decides, so that the time is much closer to the root.
+/// The least μ, in units of B³ε, with which `solve_cubic` misses no root, for rounding to nearest and
+/// ε <= 2^-10: `cubic_residual` is at most 436, and 440 leaves room for the rounding of its product with B³ε.
+/// For double it is about a thousandth of the μ with which `wang` decides, so that the time is much closer to
+/// the root.
 inline constexpr int least_residual = 440;
 
-/// Bound of |computed - exact| / (Bε) for the distance of two vertices along an axis or a diagonal, at any time until the
-/// one that `separated_until` returns.
+/// Bound of |computed - exact| / (Bε) for the distance of two vertices along an axis or a diagonal, at any
+/// time until the one that `separated_until` returns.
 ///
-/// Let every operation have a relative error of at most u = ε/2. Positions and velocities are within B; only the p of edges
-/// may be within 2B at t = 1.
+/// Let every operation have a relative error of at most u = ε/2. Positions and velocities are within B; only
+/// the p of edges may be within 2B at t = 1.
 /// - A position has an error of uB: 3uB for p - q + r, and 5uB from its two sums.
-/// - A velocity has an error of u(|start| + |end| + |v|): 4uB for p, 3uB for q and r, 10uB for the sum, and 5uB as above.
-///   Together these are 23uB.
+/// - A velocity has an error of u(|start| + |end| + |v|): 4uB for p, 3uB for q and r, 10uB for the sum, and
+///   5uB as above. Together these are 23uB.
 /// - A diagonal adds two components: 46uB, and 6uB for its position and for its velocity: 58uB.
-/// - The time is a quotient whose numerator has one rounding more. So it is too large by at most 3u times itself, in which a
-///   distance of at most 6B changes by 18uB.
+/// - The time is a quotient whose numerator has one rounding more. So it is too large by at most 3u times
+///   itself, in which a distance of at most 6B changes by 18uB.
 /// The sum is 76uB = 38εB, and 40 has room for terms of second order.
 inline constexpr int gap_error = 40;
 
 namespace detail {
 
-// The differences of a vertex of the first primitive and one of the second.
+// All differences between a vertex of the first primitive and a vertex of the second.
 template <Kind kind, class T>
 auto vertex_differences(const Pair<kind, T>& pair) {
   const auto& p = pair.p.xv;
@@ -52,14 +53,14 @@ auto vertex_differences(const Pair<kind, T>& pair) {
 
 inline constexpr std::size_t plane_count = 9;
 
-// The coordinates of a vector across the axes and the diagonals.
+// The components of a vector along the axes and the diagonals.
 template <class T>
 std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};
 }
 
-/// A time before which a moving plane across an axis or a diagonal separates the primitives: one coordinate of all
-/// differences of vertices keeps its sign.
+/// A time before which a moving plane across an axis or a diagonal separates the primitives: along it, the
+/// coordinates of all differences of vertices keep one sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -84,10 +85,11 @@ T separated_until(const Pair<kind, T>& pair) {
 
 /// A time in interval i before which the exact F has no root in the interval.
 ///
-/// By (2) of `solve_cubic`, there is no root between two times at which |F| exceeds the residual, less the error h of its
-/// evaluation, with one sign. Such a time is near the root of F less twice the residual, which has the same nodes. There,
-/// `refine_root` ends with at most half of the residual (3). The error of d in this cubic is at most 7uB³, so |F| is above
-/// 1.4 residuals less h at the returned time.
+/// By (2) of `solve_cubic`, there is no root between two times at which F has one sign and |F| exceeds the
+/// residual minus the error h of its evaluation. Such a time is near the root of F shifted towards 0 by twice
+/// the residual; the shifted cubic has the same nodes. There, `refine_root` ends with at most half of the
+/// residual (3). The error of d in this cubic is at most 7uB³, so |F| is above 1.4 residuals less h at the
+/// returned time.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);
@@ -99,12 +101,13 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
                      T(residual / 2));
 }
 
-/// A time before which there is no contact, if there is none before `from`.
+/// A time before which there is no contact, provided that there is none before `from`.
 ///
-/// A contact at t0 is a root of the exact F. The claims of `solve_cubic` hold for each interval between nodes by itself, and
-/// for a part of one: if t0 is in an interval, the interval has a candidate that represents t0. So there is no contact in
-/// an interval without a candidate, nor in one whose candidate `excludes_collision` excludes. The first interval that is left
-/// has no contact before `before_root`.
+/// A contact at t0 is a root of the exact F. The claims of `solve_cubic` hold for each interval between nodes
+/// by itself, and for a part of one: if t0 is in an interval, the interval has a candidate that represents
+/// t0. So there is no contact in an interval without a candidate, nor in one whose candidate
+/// `excludes_collision` excludes. The first interval that is left has no contact before the time that
+/// `before_root` gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);
@@ -139,12 +142,12 @@ template <Kind kind, class T>
 
 }  // namespace detail
 
-/// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before it, whatever test
-/// accepts the pair. Neither `given` nor the tolerances change it.
+/// Decides as `wang` does. The time of a collision is a lower bound: the primitives do not touch before it,
+/// whatever test accepts the pair. Neither `given` nor the tolerances change it.
 ///
-/// It is the later of two times: moving planes separate the primitives until the first, and F has no root that may be a
-/// contact from there until the second. Where F is nearly 0 for a long time, as for primitives that move in one plane, the
-/// time is early, and it is 0 if no plane separates them at t = 0.
+/// The bound is the later of two times: moving planes separate the primitives until the first, and from there
+/// until the second, F has no root that may be a contact. If F is nearly 0 for a long time, as for primitives
+/// that move in one plane, the bound is early; it is then 0 if no plane separates them at t = 0.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
 Verdict wang_time(const Query& query, const std::optional<double>& given = std::nullopt,
                   const Rule& tolerances = {}) {

@@ -116,8 +116,9 @@ struct Bernstein {
   /// The sign that the polynomial certainly has on all of [lo, hi], or 0.
   [[nodiscard]] int sign_on(double lo, double hi) const { return common_sign(on(lo, hi), error); }
 
-  /// The sign that it certainly has on all of [t - h, t + h], or 0, from the value at t and the largest slope, (n - 1) max |b_i+1 - b_i|, with
-  /// each b_i within `error`. This is faster, and as good if h is small.
+  /// The sign that the polynomial certainly has on all of [t - h, t + h], or 0. It follows from the value at
+  /// t and the largest slope, (n - 1) max |b_i+1 - b_i|, with each b_i within `error`. This is faster than
+  /// sign_on, and as good if h is small.
   [[nodiscard]] int sign_near(double t, double h) const {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }

@@ -14,7 +14,7 @@ struct Enclosure {
 /// What is known about a time.
 struct KnownTime {
   Enclosure time;
-  bool is_between = false;  ///< whether it certainly is neither end of the enclosure
+  bool is_between = false;  ///< whether the time is certainly neither end of the enclosure
 };
 
 }  // namespace nearmiss

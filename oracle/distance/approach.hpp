@@ -24,16 +24,17 @@ Approach closest_approach(const VertexDifferences& differences, const NeededDist
 
 /// When the distance first falls below a bound.
 struct FirstTime {
-  bool never = false;  ///< it certainly does not in [0, 1]; it is even at least the required distance
-  bool comes = false;  ///< it certainly does
+  bool never = false;  ///< certainly never in [0, 1]: it even stays at or above the required distance
+  bool comes = false;  ///< it certainly falls below the bound
   Enclosure
-      time;  ///< contains the first such time, if there is one; before it, the distance is at least the required one
+      time;  ///< contains the first such time, if any. Earlier, the distance is at least the required one
   double estimate = 1;  ///< of the first such time, not certain
 };
 
-/// Looks for the first time at which the distance is below `low`, in the same way, in double and in double words; at most `width`
-/// wide, or as narrow as doubles allow, if the search succeeds. The required distance is what certified bounds must
-/// reach before that time; it must be greater than `low`. Both are in the unit of the differences.
+/// Looks for the first time at which the distance is below `low`, as closest_approach does, in double and in
+/// double words. If the search succeeds, the enclosure is at most `width` wide, or as narrow as doubles
+/// allow. Before that time, certified bounds must show a distance of at least `required`, which must be
+/// greater than `low`. Both distances are in the unit of the differences.
 FirstTime first_time_below(const VertexDifferences& differences, double low, double required, double width);
 
 }  // namespace nearmiss::certified

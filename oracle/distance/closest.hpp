@@ -47,8 +47,9 @@ constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size
 
 namespace detail {
 
-/// A candidate for the closest points: x_vertex or, for interiors, the origin of p (NormalPairs), less a q + b r. For edges, q
-/// is the edge, and b is 0.
+/// A candidate for the closest points, whose difference is p - (a q + b r). For interiors, p, q and r are
+/// those of NormalPairs. For a vertex and an edge, p is the vertex and q the edge, both relative to `from`,
+/// and b is 0.
 template <class Real>
 struct Candidate {
   ClosestFeatures features;
@@ -57,7 +58,8 @@ struct Candidate {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Keeps the closer candidate. A tie goes to the later one, because the interiors come last and have the normal.
+/// Keeps the closer candidate. A tie goes to the later candidate, because the interiors come last, and only
+/// they give the normal.
 template <class Real>
 void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
                  const Real& a, const Real& b) {
@@ -137,8 +139,8 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
-/// The closest points of the parts in `features`, which takes less time; of all parts, if those are interiors without closest
-/// points.
+/// The closest points of the parts in `features`, which takes less time than closest_points(). If these are
+/// interiors that contain no closest points, all parts are considered.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

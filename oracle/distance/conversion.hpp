@@ -25,7 +25,7 @@ class Conversion {
   [[nodiscard]] double at_least(double multiple) const {
     return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
   }
-  /// A distance, or 0, below this number of units; the largest one, up to rounding downward.
+  /// The largest distance below `multiple` units, up to rounding downward; at least 0.
   [[nodiscard]] double below_multiple(double multiple) const {
     return below(below(std::ldexp(multiple, -shift_)) * mantissa_);
   }

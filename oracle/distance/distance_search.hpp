@@ -13,8 +13,8 @@
 
 namespace nearmiss::certified {
 
-/// A search that looks at the primitives at some times of the step, until certified bounds around these times cover the step.
-/// Times are of type Real; positions are of this type, too, if they must be precise.
+/// A search that looks at the primitives at some times of the step, until certified bounds around these times
+/// cover the step. Times are of type Real; positions are of this type, too, if they must be precise.
 template <class Real>
 class DistanceSearch {
  public:
@@ -33,8 +33,8 @@ class DistanceSearch {
     return {0, upper_, best_time_, required_ <= 0};
   }
 
-  /// Encloses the first time at which the distance is below `low`, in an interval that is at most `width` wide, if
-  /// possible. The required distance must be greater than `low`.
+  /// Encloses the first time at which the distance is below `low`, in an interval that is at most `width`
+  /// wide, if possible. The required distance must be greater than `low`.
   FirstTime first(double low, double width) {
     low_ = low;
     look_at_ends();
@@ -100,14 +100,14 @@ class DistanceSearch {
     return time;
   }
 
-  /// Looks at a time in double if that is precise enough, and then at the double nearest to t.
+  /// Looks at the double nearest to t, in double, if that is precise enough, else precisely at t.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t)), false};
     note(time);
     if (!resolves(time.moment) && !is_low(time)) return look_precisely(t);
     return time;
   }
-  /// Looks likewise at a time between two others, either of which may be the double nearest to t.
+  /// Looks at a time between two others; precisely, if the double nearest to t is not between them.
   SampledTime look_between(const SampledTime& a, const Real& t, const SampledTime& b) {
     const Real rough(to_double(t));
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
@@ -132,7 +132,8 @@ class DistanceSearch {
   }
 
   /// Descends to a minimum of the distance between a and b, if the distance falls after a and grows before b.
-  /// The next time is where an end predicts the minimum, or the middle if the predictions do not help.
+  /// The next time is that of the minimum that one end predicts, or the middle if the predictions do not
+  /// help.
   void descend(SampledTime a, SampledTime b) {
     if (!(a.moment.slope < 0 && b.moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -169,7 +170,7 @@ class DistanceSearch {
                   time);
   }
 
-  /// The time that is covered from a sampled time forward (1) or backward (-1), at most `most`.
+  /// How far the step is covered from a sampled time, forward (1) or backward (-1), at most `most`.
   double covered(SampledTime& time, int direction, double most) const {
     Reach& reach = direction > 0 ? time.ahead : time.behind;
     if (reach.required != required_ || reach.most < most)
@@ -224,8 +225,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// The time of a new minimum that an end of the gap predicts inside it; if there is none, some other time
-  /// in the gap.
+  /// The time of a new minimum inside the gap, if one of its ends predicts one, else some other time in the
+  /// gap.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -271,16 +272,16 @@ class DistanceSearch {
     return true;
   }
 
-  /// Only the times up to the first one at which the distance is low matter for the first such time.
+  /// Drops all times after the first one at which the distance is low, since they no longer matter.
   void forget_what_comes_after_low() {
     const auto low =
         std::find_if(times_.begin(), times_.end(), [&](const auto& time) { return is_low(time); });
     if (low != times_.end()) times_.erase(low + 1, times_.end());
   }
 
-  /// An interval that contains the first time at which the distance is low, if there is one: it begins where the first
-  /// gap does, and ends where it certainly is low, or with the step. (Times are at most 1, so `slack` is more than the rounding
-  /// error of the sum.)
+  /// An interval that contains the first time at which the distance is low, if there is one. It begins where
+  /// the first gap begins, and ends at a time at which the distance is certainly low, or at the end of the
+  /// step. (Times are at most 1, so `slack` is more than the rounding error of the sum.)
   [[nodiscard]] Enclosure time_in(const Gap& gap) const {
     constexpr double slack = 0x1p-95;
     const SampledTime& end = times_.back();
@@ -296,9 +297,9 @@ class DistanceSearch {
     return time.hi - time.lo <= width || std::nextafter(time.lo, 2.0) >= time.hi;
   }
 
-  /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives the next time;
-  /// once it is precise, twice its step, or most of the width that suffices, so that the crossing is enclosed from both sides.
-  /// False if nothing more can be done.
+  /// Looks into a gap before a time at which the distance is low. Newton's method from one of the ends gives
+  /// the next time. Once its step is short, the step is doubled, or made 0.4 of `width` if that is more, so
+  /// that it passes the crossing and encloses it from both sides. Returns false if nothing more can be done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
@@ -336,7 +337,7 @@ class DistanceSearch {
   /// Upper bounds of the distance are rounded to double, with this relative precision.
   static constexpr double resolution = 0x1p-46;
 
-  /// Whether it is known on which side of `low_` the distance is, as far as double tells.
+  /// Whether the upper bound of the distance differs from `low_` by more than its rounding error.
   [[nodiscard]] bool is_resolved(const SampledTime& time) const {
     return std::abs(time.moment.upper - low_) > resolution * low_;
   }

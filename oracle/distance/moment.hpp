@@ -13,13 +13,13 @@
 
 namespace nearmiss::certified {
 
-/// The state of the primitives at one time, as the search for the smallest distance needs it. Lengths are in the unit of
-/// VertexDifferences.
+/// The state of the primitives at one time, as the search for the smallest distance needs it. Lengths are in
+/// the unit of VertexDifferences.
 struct Moment {
   bool is_precise = false;   ///< whether it was computed in the search's type of time, not in double
   ClosestFeatures features;  ///< features of the closest points, uncertified
   double upper = 0;          ///< a certified upper bound of the distance
-  double slope = 0;          ///< its sign is that of the change of the distance, uncertified
+  double slope = 0;          ///< has the sign of the derivative of the distance, uncertified
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
   double rate = 0;           ///< derivative of the distance, estimated
@@ -80,7 +80,7 @@ double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& 
          least_distance;
 }
 
-/// The separation that fits the features of the closest points best; `direction` is the one between these points.
+/// The separation that fits the features of the closest points best; `direction` is that of their difference.
 template <class Real>
 Separation separate_by_features(const VerticesAt<Real>& x, const ClosestFeatures& features,
                                 const Vec<double>& direction) {
@@ -132,8 +132,7 @@ void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   const ClosestFeatures& features = moment.features;
   Vec<double> direction = moment.direction;
   if (features.combination == ClosestFeatures::Combination::interiors) {
-    // Rounding changes the direction of the normal less than that of the difference of points that are so
-    // near.
+    // The points are so near that rounding changes the direction of their difference more than the normal's.
     const NormalPairs pairs = normal_pairs(x.differences().kind());
     direction = detail::direction_of(to_double(cross(x.position(pairs.q), x.position(pairs.r))));
     if (dot(direction, moment.direction) < 0) direction = -direction;

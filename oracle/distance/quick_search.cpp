@@ -26,8 +26,8 @@ double time_of_nearest_centres(const VertexDifferences& differences) {
   return squared > 0 ? std::min(std::max(0.0, -dot(start, moved) / squared), 1.0) : 0;
 }
 
-/// The velocity of the closest points relative to each other, without its component along an edge. For interiors, only the
-/// component along the normal matters.
+/// The velocity of the closest points relative to each other, without its component along an edge. For
+/// interiors, only the component along the normal matters.
 Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<double>& closest) {
   const auto& [features, difference, velocity, squared_distance] = closest;
   switch (features.combination) {
@@ -43,8 +43,8 @@ Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<d
   return (dot(velocity, difference) / squared_distance) * difference;
 }
 
-/// The time from here until a point that moves from d with velocity v enters the ball of radius r, in the past or the future; NaN
-/// if it never does.
+/// The time from here until a point that moves from d with velocity v enters the ball of radius r around the
+/// origin, negative if in the past; NaN if it never does.
 double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   const double a = dot(v, v);
   const double b = dot(d, v);
@@ -53,8 +53,9 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   return b < 0 ? c / (root - b) : -(root + b) / a;
 }
 
-/// Where to look in a gap of length `open` next to a bound that covers the length `covered`, as an offset from that end. The
-/// distance is small there if little is covered, so the offset is then short.
+/// Where to look next in a gap, as an offset from one of its ends. The gap is `open` long, and the bound
+/// beyond that end covers the length `covered`. If little is covered, the distance is small there, so the
+/// offset is short.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

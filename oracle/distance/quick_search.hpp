@@ -1,4 +1,5 @@
-// The search for the first time at which the distance is below a bound, for the many queries that need only a few times in double.
+// A fast search for the first time at which the distance is below a bound. Most queries need only a few
+// times, looked at in double.
 #pragma once
 
 #include <array>
@@ -9,26 +10,26 @@
 
 namespace nearmiss::certified {
 
-/// What the end t + a or t - a of a covered range is moved inward, because it is rounded. Ends are in [0, 1], where the two
-/// roundings, of the sum and of this correction, are at most 2^-54 each. A sum above 1 covers the step up to its end, and a
-/// difference below 0 covers it from its beginning.
+/// How far the end of a covered range, t + a or t - a, is moved inward, because its computation rounds. Ends
+/// are in [0, 1], where the two roundings, of the sum and of this correction, are at most 2^-54 each. A sum
+/// above 1 covers the step up to its end, and a difference below 0 covers it from its beginning.
 inline constexpr double time_rounding = 0x1p-53;
 
-/// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that no certified bound
-/// covers, and looks into the first gap until none is left or the distance is below `low` at some time. It gives up early,
-/// because DistanceSearch decides what remains.
+/// Looks at a few times of the step in double. It keeps a list of gaps, which are the parts of the step that
+/// no certified bound covers, and looks into the first gap until none is left or the distance is below `low`
+/// at some time. It gives up early, because DistanceSearch decides what remains.
 class QuickSearch {
  public:
   /// The bounds are those of first_time_below().
   QuickSearch(const VertexDifferences& differences, double low, double required)
       : differences_(differences), low_(low), required_(required) {}
 
-  /// Whether the distance falls below `low`. If so, the enclosure contains the first such time, and the distance is at least
-  /// `required` before it. If the search gives up, neither `never` nor `comes` is set.
+  /// Whether the distance falls below `low`. If so, the enclosure contains the first such time, and the
+  /// distance is at least `required` before it. If the search gives up, neither `never` nor `comes` is set.
   FirstTime decide();
 
-  /// Narrows an enclosure that decide() or first_time_below() found to at most `width`. If the search gives up, the enclosure
-  /// remains as it is.
+  /// Narrows an enclosure that decide() or first_time_below() found to at most `width`. If the search gives
+  /// up, the enclosure remains as it is.
   FirstTime narrow(const FirstTime& known, double width);
 
  private:
@@ -38,26 +39,28 @@ class QuickSearch {
   };
   struct Crossing {
     double time;
-    ClosestFeatures features;  ///< of the closest points about then
+    ClosestFeatures features;  ///< of the closest points around that time
   };
   static constexpr std::size_t most_gaps = 8;
   static constexpr int most_times = 24;
 
   /// Starts with one gap.
   void start(const Gap& gap);
-  /// Adds a gap before all others. The search looks at `nearest` if that time is inside, else at `guess`. False if there are too
-  /// many gaps.
+  /// Adds a gap before all others. The search looks at `nearest` if that time is inside, else at `guess`.
+  /// False if there are too many gaps.
   bool add(double lo, double hi, double nearest, double guess);
   [[nodiscard]] const Gap& first_gap() const { return gaps_[count_ - 1]; }
 
-  /// Looks at a time in the first gap. If the distance is below `low` there, the gap ends there, and the others are dropped. Else
-  /// the gap is replaced by what the bounds around this time leave of it. False if that is all of it, or too many gaps.
+  /// Looks at a time in the first gap. If the distance is below `low` there, the gap ends there, and the
+  /// others are dropped. Else the gap is replaced by what the bounds around this time leave of it. Returns
+  /// false if they cover nothing, or leave too many gaps.
   bool look_into_first_gap();
-  /// Before a time at which the distance is low, shortens the first gap to the time at which the distance falls below `low`, or
-  /// chooses the time to look at.
+  /// Requires that the distance is low at the end of the first gap. Moves this end to just after the time at
+  /// which the distance falls below `low`, if the distance is certainly low there, and chooses the next time
+  /// to look at.
   void look_for_crossing();
-  /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0 if it may be low from
-  /// the beginning.
+  /// Estimates the time at which the distance falls below `low` in the first gap, at whose end it is low; 0
+  /// if it may be low from the beginning.
   [[nodiscard]] Crossing crossing() const;
 
   const VertexDifferences& differences_;
@@ -66,7 +69,7 @@ class QuickSearch {
   std::size_t count_ = 0;
   bool comes_ = false;
   double width_ = 0;     ///< for narrow()
-  double low_time_ = 1;  ///< if it comes, a time at which the distance certainly is below `low`
+  double low_time_ = 1;  ///< with `comes_`, a time at which the distance is certainly below `low`
 };
 
 }  // namespace nearmiss::certified

@@ -14,7 +14,8 @@ constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 1}, {0, 2}, {0, 3
 VertexDifferences::VertexDifferences(const Query& query)
     : kind_(query.kind), exponent_(0), pairs_{}, total_reach_(0) {
   double largest = 0;
-  // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their magnitudes, are finite.
+  // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their
+  // magnitudes, are finite.
   const auto subtract = [&](double factor) {
     // By component, so that the operations do not wait for each other.
     Vec<double> most{};

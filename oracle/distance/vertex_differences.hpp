@@ -11,9 +11,9 @@
 
 namespace nearmiss::certified {
 
-/// The vectors p, q and r (x_to - x_from) with the normal N = q × r and the coplanarity cubic F = p · N, such that the closest
-/// points of the planes or lines are where p = a q + b r + c N: x0 - x1, x2 - x1 and x3 - x1 for vertex and triangle, x0 - x2,
-/// x0 - x1 and x3 - x2 for edges.
+/// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N.
+/// They are chosen so that p = a q + b r + c N gives the weights a and b of the closest points: x0 - x1,
+/// x2 - x1 and x3 - x1 for vertex and triangle, x0 - x2, x0 - x1 and x3 - x2 for edges.
 struct NormalPairs {
   VertexPair p, q, r;
 };
@@ -27,8 +27,9 @@ constexpr NormalPairs normal_pairs(Kind kind) {
 /// such that the largest component is between 1 and 2 (all are 0 if all vertices coincide).
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
-/// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference would
-/// overflow, or their sum, the coordinates are divided by 64 first; the error of that is far below as well.
+/// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference, or the sum
+/// of all magnitudes, would overflow, the coordinates are first divided by 64; the error of this division is
+/// far below `least_distance`, too.
 class VertexDifferences {
  public:
   explicit VertexDifferences(const Query& query);

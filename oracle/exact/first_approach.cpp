@@ -1,5 +1,5 @@
-// The sign of (distance - h) only changes at the candidates. So between two neighbouring ones, the sign at any number is the
-// sign everywhere, and the distance falls below h at the first candidate behind which that sign is -1.
+// The sign of (distance - h) only changes at the candidates. So the sign is constant between two neighbouring
+// candidates, and the distance falls below h at the first candidate after which that sign is -1.
 #include "oracle/exact/first_approach.hpp"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// Sorts times, and leaves one of those that are equal.
+/// Sorts times and removes duplicates.
 void sort_out(std::vector<Root>& times) {
-  // Comparing changes what is known about a time, not the time. std::sort wants comparisons of constants.
+  // A comparison may refine what is known about a time, but std::sort compares constants.
   std::vector<Root> sorted;
   for (Root& each : times) {
     const auto place =
@@ -23,7 +23,7 @@ void sort_out(std::vector<Root>& times) {
   times = std::move(sorted);
 }
 
-/// A number between two different times, the earlier one first.
+/// A number between two different times, of which `first` is the earlier.
 Number between(Root& first, Root& second) {
   while (true) {
     const Number middle = Number(0.5) * (first.hi() + second.lo());

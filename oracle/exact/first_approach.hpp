@@ -11,12 +11,12 @@ namespace nearmiss::exact {
 /// The earliest time at which the distance is at most h, and when it falls below h.
 struct FirstApproach {
   Root time;
-  /// The largest time before which the distance is nowhere below h; nothing if it never is in [0, 1]. It differs from
-  /// `time` if the distance is exactly h before it falls below h.
+  /// The time at which the distance first falls below h; until then it is at least h. Nothing if the distance
+  /// is never below h in [0, 1]. It differs from `time` if the distance is exactly h before it falls below h.
   std::optional<Root> below;
 };
 
-/// The first approach of the primitives of a query with a separation h > 0; nothing if the distance is always above h.
+/// The first approach in a query with h > 0; nothing if the distance is always above h.
 std::optional<FirstApproach> first_approach(const Query& query);
 
 }  // namespace nearmiss::exact

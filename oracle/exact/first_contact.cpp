@@ -35,8 +35,8 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   return Meeting{vanishing_weights, true};
 }
 
-/// For an F that is identically zero: polynomials such that the earliest collision, if there is one, is at t = 0 or
-/// at one of their roots in [0, 1].
+/// For an F that is identically zero: polynomials such that the earliest collision, if there is one, is at
+/// t = 0 or at one of their roots in [0, 1].
 ///
 /// If a component N_k of the normal is not identically zero, the polynomials are N_k and its weights. Proof:
 /// the set of colliding times is closed, so it has a least element t*. Suppose that t* is neither 0 nor a

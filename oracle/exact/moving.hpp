@@ -18,8 +18,8 @@ Polynomial dot(const PolynomialVector& a, const PolynomialVector& b);
 Polynomial cross(const PolynomialVector& a, const PolynomialVector& b, std::size_t k);
 PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
 
-/// A power of two that scales all coordinates of a query below 1/4. Differences of four coordinates are then below 1, and these
-/// and most products have no more limbs than necessary.
+/// A power of two that scales all coordinates of a query below 1/4. Differences of four coordinates are then
+/// below 1, and these and most products have no more limbs than necessary.
 class Unit {
  public:
   explicit Unit(const Query& query);

@@ -1,15 +1,19 @@
-// The distance at a time is at most b if and only if one of finitely many statements about a pair of features holds: a
-// vertex of each, a vertex and an edge, the vertex and the triangle, or two edges. Each statement says that the closest
-// points of the lines or planes through the two features lie in the features and are within b of each other. As a
-// condition, some polynomials in t are not positive, and one is positive unless the features are degenerate (then another
-// statement says the same). The statement of the closest pair holds, and if any statement holds, there are points within b.
+// The distance at a time is at most b if and only if one of finitely many statements about a pair of features
+// holds: a vertex of each, a vertex and an edge, the vertex and the triangle, or two edges. Each statement
+// says that the closest points of the lines or planes through the two features lie in the features and are
+// within b of each other. It holds at t iff the polynomials `excess` and `outside` are at most 0 there, and
+// `extents` are positive. (An extent is 0 if the features are degenerate; then another statement covers the
+// same points.) If the distance is at most b, the statement about the closest pair of features holds; if any
+// statement holds, there are points within b.
 //
-// The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. It changes at t0 to or from
-// -1: on that side of t0, the statement of a closest pair holds strictly. At t0, by continuity, its `outside` are at most 0, and
-// its excess is at most 0; it is not negative, because an excess is 0 where the extent is. So t0 is a root of the excess, which
-// is not identically 0. It changes between 0 and 1: on the side of the zeros, a closest pair is b apart for some time, so its
-// excess is identically 0. On the other side, its statement does not hold, although its extent has isolated zeros only. So one
-// of `outside` is positive there, and 0 at t0. In both cases all `outside` are at most 0 at t0.
+// The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
+// case: at t0, the sign changes to or from -1. On that side of t0, the statement of a closest pair holds
+// strictly. At t0, by continuity, its `outside` are at most 0, and its excess is at most 0; it is not
+// negative, because an excess is 0 where an extent is 0. So t0 is a root of the excess, which is not
+// identically 0. Second case: at t0, the sign changes between 0 and 1. On the side where it is 0, a closest
+// pair is b apart for some time, so its excess is identically 0. On the other side, its statement does not
+// hold, although its extents have only isolated zeros. So one of `outside` is positive there, and 0 at t0. In
+// both cases all `outside` are at most 0 at t0.
 #include "oracle/exact/nearness.hpp"
 
 #include <algorithm>

@@ -11,10 +11,12 @@
 
 namespace nearmiss::exact {
 
-/// The statement that two features of the primitives, such as a vertex and an edge, are within b of each other. Their distance
-/// is that of the lines or planes through them if the closest points of these lie in the features.
+/// The statement that two features of the primitives, such as a vertex and an edge, are within b of each
+/// other. Their distance is that of the lines or planes through them if the closest points of these lie in
+/// the features.
 struct FeatureNearness {
-  /// What the features are; `interiors` are those of both edges, or the vertex and the inside of the triangle.
+  /// What the features are. `interiors` are the insides of both edges, or the vertex and the inside of the
+  /// triangle.
   enum class Features : std::uint8_t { vertices, vertex_and_edge, interiors };
 
   Features features{};
@@ -25,7 +27,7 @@ struct FeatureNearness {
   [[nodiscard]] bool holds_at(Root& t) const {
     return t.sign_of(excess) <= 0 && is_inside_at(t) && is_extended_at(t);
   }
-  /// Whether they are less than b apart.
+  /// Whether the statement holds with a distance of less than b.
   [[nodiscard]] bool holds_strictly_at(Root& t) const {
     return t.sign_of(excess) < 0 && is_inside_at(t) && is_extended_at(t);
   }
@@ -33,8 +35,8 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The statements about all pairs of features, for a finite b >= 0. The distance of the primitives at a time is at most b
-/// iff one of the statements holds, and less than b iff one holds strictly.
+/// The statements about all pairs of features, for a finite b >= 0. The distance of the primitives at a time
+/// is at most b iff one of the statements holds, and less than b iff one holds strictly.
 class Nearness {
  public:
   Nearness(const Query& query, double b);
@@ -42,8 +44,8 @@ class Nearness {
   [[nodiscard]] bool holds_at(Root& t) const;
   [[nodiscard]] bool holds_strictly_at(Root& t) const;
 
-  /// Times in [0, 1], in no order and with repetitions: 0, and all times at which the sign of (distance - b) changes. So the
-  /// earliest time at which the distance is at most b is one of them.
+  /// Times in [0, 1], in no order and with repetitions: 0, and all times at which the sign of (distance - b)
+  /// changes. So the earliest time at which the distance is at most b is one of them.
   [[nodiscard]] std::vector<Root> candidates() const;
 
   [[nodiscard]] const std::vector<FeatureNearness>& statements() const { return statements_; }

@@ -13,7 +13,7 @@ namespace nearmiss::exact {
 /// A binary floating-point number of any length: sums, differences and products are exact.
 using Number = CGAL::Mpzf;
 
-/// Up to four numbers, as many as F has coefficients, need no allocation.
+/// A list of numbers. Up to four, the number of coefficients of F, need no allocation.
 using Numbers = boost::container::small_vector<Number, 4>;
 
 /// The sign of x: -1, 0 or 1.
@@ -60,7 +60,7 @@ std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
 Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 
-/// p, of a degree of at least 1, without its multiple factors.
+/// p with each multiple factor reduced to a single one. The degree of p must be at least 1.
 Polynomial square_free(const Polynomial& p);
 
 /// The number of sign changes along the numbers, with zeros left out.

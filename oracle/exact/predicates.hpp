@@ -19,16 +19,16 @@ struct OnSegment {
 };
 
 /// The polynomials that decide a query (degree 3 for F, 2 for the others), computed on first use. The
-/// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are the paper's: x0 - x1,
-/// x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
+/// coordinates are those of the query times a power of two (`Unit`). The vectors p, q, r are the paper's:
+/// x0 - x1, x2 - x1, x3 - x1 for vertex-triangle, and x2 - x0, x1 - x0, x3 - x2 for edge-edge.
 ///
 /// At a time t with F(t) = 0, where all four points are in one plane:
-///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and they meet iff
-///    every weight's component k is zero or has the sign of N_k. The weights are the barycentric ones times N = q × r:
-///    of x1, x2, x3 for a triangle (their sum is N), from p = w2 q + w3 r; of x1 and x0 on the first edge, of x3 and x2 on
-///    the second one (pairwise sum N), from p = α q - β r;
+///  - if a component N_k of the normal is not zero, projecting along axis k loses nothing, and the primitives
+///    meet iff every weight's component k is zero or has the sign of N_k. The weights are the barycentric
+///    ones times N = q × r: of x1, x2, x3 for a triangle (their sum is N), from p = w2 q + w3 r; of x1 and x0
+///    on the first edge, of x3 and x2 on the second one (pairwise sum N), from p = α q - β r;
 ///  - if N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
-///    does. Edges are then parallel or points: they meet iff an end point of one lies on the other.
+///    does. Two edges are then parallel or points, and meet iff an end point of one lies on the other.
 class Predicates {
  public:
   explicit Predicates(const Query& query);

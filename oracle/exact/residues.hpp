@@ -5,12 +5,14 @@
 
 namespace nearmiss::exact {
 
-/// Whether two polynomials that are not zero certainly have no common root; false if the residues of their coefficients do not
-/// show it. That takes far less time than a remainder sequence of polynomials with long coefficients.
+/// Whether two polynomials that are not zero certainly have no common root; false if the residues of their
+/// coefficients do not show it. The test takes far less time than a remainder sequence of polynomials with
+/// long coefficients.
 ///
-/// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest common divisor over
-/// the integers. Its leading coefficient divides that of p. If the prime does not divide that of p, g modulo the prime has the
-/// same degree as g. It divides both polynomials modulo the prime. So if these have no common factor, g is a constant.
+/// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest
+/// common divisor over the integers. Its leading coefficient divides that of p. If the prime does not divide
+/// that of p, g modulo the prime has the same degree as g. It divides both polynomials modulo the prime. So
+/// if these have no common factor, g is a constant.
 bool are_coprime_by_residues(const Polynomial& p, const Polynomial& q);
 
 }  // namespace nearmiss::exact

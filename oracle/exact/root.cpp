@@ -16,12 +16,12 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// k, for a denominator of 2^k.
+/// The k of a number whose denominator is 2^k.
 std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
   return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
 }
 
-/// An exponent of a power of two that is greater than |x| by a factor of 2 at most, for x not zero.
+/// The exponent of a power of two that exceeds |x| by a factor of at most 2, for x not zero.
 std::ptrdiff_t exponent_above(const Number& x) {
   const CGAL::Gmpq fraction(x);
   return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) - exponent_of_denominator(fraction);
@@ -46,7 +46,8 @@ std::vector<double> in_proportion(const Numbers& numbers) {
   return result;
 }
 
-/// |x / y| rounded down; y must not be 0. CGAL's conversion of an integer to a Number is right for positive integers only.
+/// |x / y| rounded down; y must not be 0. CGAL's conversion of an integer to a Number is right for positive
+/// integers only.
 Number integer_quotient(const Number& x, const Number& y) {
   const CGAL::Gmpq a(x);
   const CGAL::Gmpq b(y);
@@ -211,8 +212,9 @@ void Root::refine() {
 
 namespace {
 
-/// Whether q has the root of p between two numbers. p has at most one root there, a simple one, and the two polynomials are not
-/// both zero at one of the numbers. So a common divisor has the root if and only if its sign changes.
+/// Whether q shares the root that p has between two numbers. p has at most one root there, a simple one, and
+/// the two polynomials are not both zero at one of the numbers. So a common divisor has the root if and only
+/// if its sign changes.
 bool have_common_root(const Polynomial& p, const Polynomial& q, const Number& lo, const Number& hi) {
   constexpr int short_degree = 3;  // up to this, a divisor takes less time than residues
   if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return false;

@@ -13,7 +13,7 @@
 
 namespace nearmiss::exact {
 
-/// The relative accuracy with which double locates a well-conditioned place in an interval.
+/// The relative accuracy with which double locates a well-conditioned root or extremum in an interval.
 inline constexpr double around = 0x1p-44;
 
 /// lo + part (hi - lo).
@@ -40,8 +40,8 @@ class OnInterval {
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where an extremum may be, as a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
-  /// Guesses where a cluster of roots may be, as a fraction of the interval that is a multiple of 2^-bits; nothing if the guess
-  /// is outside or at the lower end.
+  /// Guesses where a cluster of roots may be, as a fraction of the interval that is a multiple of 2^-bits;
+  /// nothing if the guess is outside or at the lower end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
  private:
@@ -87,7 +87,7 @@ class Root {
 /// The distinct real roots of p in [0, 1], in ascending order; p must not be zero.
 std::vector<Root> roots_in_step(const Polynomial& p);
 
-/// Whether holds(t) is true for one of these roots, passed as Root& t.
+/// Whether holds(t) is true for one of the roots of p in [0, 1], passed as Root& t.
 template <class Holds>
 bool holds_at_a_root(const Polynomial& p, const Holds& holds) {
   auto roots = roots_in_step(p);

@@ -30,8 +30,9 @@ struct Part {
 
   [[nodiscard]] Number at(const Number& fraction) const { return lo + fraction * (hi - lo); }
 
-  /// Shrinks to the neighbourhood of a multiple of 2^-bits where a cluster of roots may be, if that has all changes of sign: then
-  /// there is no root elsewhere. In this case the bits double, so a part shrinks quadratically; they halve if not.
+  /// Shrinks the part to the neighbourhood of a multiple of 2^-bits at which a cluster of roots may be, if
+  /// all changes of sign are in this neighbourhood; then there is no root elsewhere. If so, `bits` doubles,
+  /// so that parts shrink quadratically; if not, it halves.
   bool shrink(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     if (const auto cluster = on.guess_cluster(bits)) {
@@ -52,9 +53,10 @@ struct Part {
   }
 };
 
-/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an extremum, since two
-/// close roots have one between them, and in the middle. If a few cuts do not help, it gives up unless the polynomial is known to
-/// have no multiple roots; if so, it looks for clusters of roots between the cuts.
+/// Cuts the interval until every part has at most one root, and that is simple. It cuts alternately near an
+/// extremum, since there is one between two close roots, and in the middle. If a few cuts do not help, it
+/// gives up unless the polynomial is known to have no multiple roots; for such a polynomial, it looks for
+/// clusters of roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;

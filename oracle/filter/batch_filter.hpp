@@ -18,17 +18,18 @@
 
 namespace nearmiss::certified {
 
-/// Processes the queries stage by stage, with the undecided ones side by side in n lanes: boxes and moving
-/// planes; F of one sign; then parts of the step. The last stage is a simpler version of ContactSearch, which leaves
-/// difficult queries undecided. The results of a lane depend only on its query, so n changes no answer.
+/// Processes the queries in stages: boxes and moving planes; the sign of F; parts of the step. Each stage
+/// takes the queries that are still undecided, side by side in n lanes. The last stage is a simpler version
+/// of ContactSearch, and leaves difficult queries undecided. The results of a lane depend only on its query,
+/// so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
   BatchFilter(const QueryRows& queries, double caution, const QueryRows& ahead)
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
-  /// Processes those of the at most batch_size queries that are of its kind. It sets stages[i] if it decides
-  /// query i, and leaves it `undecided` otherwise.
+  /// Processes the queries of its kind, among at most batch_size. It sets stages[i] if it decides query i,
+  /// and leaves it `undecided` otherwise.
   void run(FilterStage* stages) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);
@@ -40,7 +41,7 @@ class BatchFilter {
  private:
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
-  using OfBatch = std::array<double, batch_size + n>;  ///< a number of each query
+  using OfBatch = std::array<double, batch_size + n>;  ///< one number for each query
   static constexpr std::size_t weight_count = has_triangle(kind) ? 3 : 4;
 
   /// A list of indices of queries, taken n at a time.
@@ -81,7 +82,7 @@ class BatchFilter {
     for (std::size_t l = 0; l < std::min<std::size_t>(n, count); ++l) visit(l, numbers[l]);
   }
 
-  /// The points of the queries in a pack of rows.
+  /// The points of n queries, one query in each lane.
   struct PointLanes {
     std::array<Real, 24> x;  ///< in the order of Query::x
     const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
@@ -137,7 +138,7 @@ class BatchFilter {
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
-      // By code: not finite, not separated, and separated by a plane, by the boxes, or by both.
+      // The stage for each code: not finite; not separated; separated by a plane, by the boxes, or by both.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;
@@ -192,8 +193,7 @@ class BatchFilter {
         normal[k] = abs(has_triangle(kind) ? cross_component(x21, x31, k) : cross_component(a, x32, k));
       const Mask first = !(normal[0] < max(normal[1], normal[2]));
       const Mask second = !(normal[1] < normal[2]);
-      // Moves component k to the place of component 0, and the other two, which are the only ones needed,
-      // behind it.
+      // Rotates the components so that k comes first; only the other two are needed.
       const auto choose = [&](const Vec<Real>& v) {
         return Vec<Real>{Real(0), select(first, v[1], select(second, v[2], v[0])),
                          select(first, v[2], select(second, v[0], v[1]))};
@@ -282,7 +282,7 @@ class BatchFilter {
     }
   }
 
-  /// Sets the stages from the results for a pack of parts, and adds the parts to examine next.
+  /// Sets the stages from the results for n parts, and adds the parts to examine next.
   template <class PartOfLane>
   static void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
                         FilterStage* stages, PendingParts& next) {
@@ -310,7 +310,7 @@ class BatchFilter {
   double caution_;  ///< factor of all bounds, at least 1
   // Indexed like the list of searched queries; a pack of lanes may reach beyond its end.
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error
-  std::array<OfBatch, 4 * weight_count> W_;  ///< the same for each weight
+  std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
 };
 
 template <int n>

@@ -35,7 +35,7 @@ struct WeightSigns {
   typename Lanes<n>::Mask agree, opposed;
 };
 
-/// Determines these for some weights with a function that gives the signs of one weight.
+/// Determines these lanes for some weights; `signs_of` gives the signs of one weight.
 template <int n, std::size_t count, class SignsOf>
 WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                             const SignsOf& signs_of) {
@@ -102,8 +102,8 @@ struct RootBracket {
   }
 };
 
-/// The time at which a part is divided: near an extremum of F in [lo, hi] if F has one sign at both ends, else in the
-/// middle.
+/// The time at which a part is divided: near an extremum of F in [lo, hi] if F has one sign at both ends,
+/// else in the middle.
 template <int n>
 Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,
                   const Lanes<n>& hi) {
@@ -112,7 +112,7 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
-/// F and the weights of n queries on a part [lo, hi] of the step of each.
+/// Examines F and the weights of n queries, each on a part [lo, hi] of its step.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
              const Lanes<n>& lo, const Lanes<n>& hi) {

@@ -41,7 +41,7 @@ FilterStage search_in_double_words(const Query& query) {
   return stage == FilterStage::undecided ? search_in_double_words(query) : stage;
 }
 
-/// If there is a contact, the first one is in this interval.
+/// An interval that contains the first contact, if there is one; nothing if there certainly is none.
 template <class Real>
 std::optional<KnownTime> search_for_time(const Query& query, const Bernstein<Real, 4>& F,
                                          const StepPart<Real>& whole, Asked asked) {

@@ -38,19 +38,20 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end || stage == FilterStage::within;
 }
 
-/// Decides a query in double arithmetic with certified bounds, or leaves it undecided; it does not include
-/// the box test. A query with a coordinate that is not finite is left undecided.
+/// Decides a query in double arithmetic with certified bounds, or leaves it undecided; the box test is not
+/// included. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
 
-/// Width of an enclosure of a time that is mostly known without double words.
+/// The width to which most times can be enclosed without double words.
 inline constexpr double rough_time = 0x1p-30;
 
-/// An interval that contains the time of the first contact, if there is one, found in the same arithmetic; nothing if there
-/// certainly is none. Most are at most `width` wide, or as narrow as doubles allow. It does not include the box test.
+/// An interval that contains the time of the first contact, if there is one, found in the same arithmetic;
+/// nothing if there certainly is none. Most intervals are at most `width` wide, or as narrow as doubles
+/// allow. The box test is not included.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the answers. A query
-/// with a coordinate that is not finite is left undecided.
+/// Decides many queries of both kinds, each with the box test first. The instruction set does not affect the
+/// answers. A query with a coordinate that is not finite is left undecided.
 void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
 inline void filter(std::span<const Query> queries, std::span<FilterStage> stages,
@@ -58,8 +59,8 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
   filter(QueryRows(queries), stages, instructions);
 }
 
-/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. The queries that it decides
-/// are not near their bounds.
+/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. A query that
+/// is decided in this way is not near its error bounds.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

@@ -1,4 +1,4 @@
-// Lanes as a number type of bounds.
+// Makes Lanes usable as the number type of polynomials and of their bounds.
 #pragma once
 
 #include "ccd/query/lanes.hpp"

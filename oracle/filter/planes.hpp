@@ -25,14 +25,15 @@ struct HeightRange {
 };
 
 /// Whether the first primitive is above the second one at both ends of the step, or below it at both, for the
-/// heights `height(time, vertex)` in some direction; `is_above(lo, hi)` compares the lowest vertex of one with the highest
-/// one of the other. If so, all differences of heights between the primitives have one sign at both ends and, because they
-/// are linear, at every time. Their convex combinations do too, so the primitives never meet. If `is_above` asks for a
-/// difference of more than g, the heights of the primitives always differ by more than g.
+/// heights `height(time, vertex)` in some direction; `is_above(lo, hi)` compares the lowest vertex of one
+/// with the highest one of the other. If so, all differences of heights between the primitives have one sign
+/// at both ends and, because they are linear, at every time. Their convex combinations have this sign, too,
+/// so the primitives never meet. If `is_above` asks for a difference of more than g, the heights of the
+/// primitives always differ by more than g.
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
-  // The range of the heights of some vertices, those from `begin` up to `end`, which is not among them.
+  // The range of the heights of the vertices from `begin` to `end` - 1.
   const auto range = [&](std::size_t time, std::size_t begin, std::size_t end) {
     HeightRange<Real> heights(height(time, begin));
     for (std::size_t vertex = begin + 1; vertex < end; ++vertex) heights.add(height(time, vertex));
@@ -69,10 +70,10 @@ template <Kind kind, class Points, class Above = IsAbove>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// Whether a plane across a diagonal x ± y, y ± z or z ± x separates the primitives likewise. Heights along it are sums or differences of two coordinates,
-/// rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An
-/// overflowing sum is infinite; it is above every finite sum, as the exact sum is, and not above another
-/// infinite sum of its sign.
+/// Whether a plane across a diagonal x ± y, y ± z or z ± x separates the primitives throughout the step.
+/// Heights along a diagonal are sums or differences of two coordinates, rounded once. Rounding is monotone,
+/// so fl(a) > fl(b) implies a > b for numbers of every size. An overflowing sum is infinite; it is above
+/// every finite sum, as the exact sum is, and not above another infinite sum of its sign.
 template <Kind kind, class Points, class Above = IsAbove>
 [[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x, const Above& is_above = {}) {
   const auto both = [&](std::size_t k, std::size_t l) {
@@ -87,8 +88,8 @@ template <Kind kind, class Points, class Above = IsAbove>
   return both(0, 1) | both(1, 2) | both(2, 0);
 }
 
-/// For a separation h: whether a coordinate is more than h above another one. A difference is rounded once, and rounding is
-/// monotone: fl(a - b) > h implies a - b > h, because h is a double.
+/// For a separation h: whether a coordinate is more than h above another one. A difference is rounded once,
+/// and rounding is monotone: fl(a - b) > h implies a - b > h, because h is a double.
 struct IsFartherAbove {
   double h;
   bool operator()(double lo, double hi) const { return lo - hi > h; }
@@ -98,14 +99,15 @@ inline constexpr double root_of_two = 1.4142136;  ///< rounded up by a relative 
 inline constexpr double height_rounding =
     0x1p-51;  ///< rounding of a difference of sums, relative to their magnitudes
 
-/// For a separation h, and heights along a diagonal, which are sums of two coordinates, rounded once. The diagonal vector has
-/// length √2, so heights of points at a distance of at most h differ by at most √2 h.
+/// For a separation h, and heights along a diagonal, which are sums of two coordinates, rounded once. The
+/// diagonal vector has length √2, so heights of points at a distance of at most h differ by at most √2 h.
 ///
-/// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact. D = fl(A - B) is
-/// at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact heights differ by at least
-/// A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The right side below is at least √2 h + 4 u (|A| + |B|), less a relative
-/// 3 u for its roundings, which the margins of its constants cover, and less twice the smallest double for
-/// underflow in its products, which is added. If a sum or D is infinite, the right side is, too, or NaN: no answer.
+/// With u = 2^-53, a sum S is within u |S| of the exact one, also if it is subnormal, for it is then exact.
+/// D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1 (|A| + |B|). The exact
+/// heights differ by at least A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The right side below computes
+/// √2 h + 4 u (|A| + |B|). Its roundings may make it smaller by a relative 3 u, which the margins of its
+/// constants cover. Underflow in its products may make it smaller by twice the smallest double, which is
+/// added. If a sum or D is infinite, the right side is infinite or NaN, and the answer is false.
 struct IsFartherAboveDiagonally {
   double h;
   bool operator()(double lo, double hi) const {

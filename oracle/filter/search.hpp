@@ -17,13 +17,13 @@ namespace nearmiss::certified {
 /// A subinterval that becomes a part of its own is widened by this on both sides.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// What is asked: whether there is a contact, or also when the first one is, roughly or to neighbouring doubles.
+/// What is asked: whether there is a contact, or also its first time, roughly or to neighbouring doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
-/// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two weights have
-/// opposite signs on it, and splits an interval if that helps. It ends when all intervals are dropped, one contains a
-/// collision, or one is unclear. An unclear interval is searched again as a part of its own, in which the
-/// vectors and hence their errors are smaller.
+/// Searches a part of the step, from its beginning to its end. It drops an interval if F has one sign or two
+/// weights have opposite signs on it, and splits an interval if that helps. It ends when all intervals are
+/// dropped, one contains a collision, or one is unclear. An unclear interval is searched again as a part of
+/// its own, in which the vectors and hence their errors are smaller.
 template <class Real>
 class ContactSearch {
  public:
@@ -43,18 +43,18 @@ class ContactSearch {
     return found_ ? FilterStage::sign_change : unclear_ ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// An interval of the step that contains the time of the first contact in this part, if there is one; for run() that was
-  /// asked when.
+  /// An interval of the step that contains the time of the first contact in this part, if there is one.
+  /// Requires that the search was asked for a time.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
   }
-  /// Whether that time is certainly not an end of the interval: F is certainly not zero at the ends of an interval in which it
-  /// changes its sign.
+  /// Whether the time of the first contact is certainly not an end of this interval: F is certainly not zero
+  /// at the ends of an interval in which it changes its sign.
   [[nodiscard]] bool is_between() const { return is_between_ && !unclear_; }
 
  private:
-  // Each of these returns `weights` if the search can go on.
+  // The functions below that return a stage return `weights` if the search can go on.
 
   FilterStage look(const Enclosure& interval) {
     const auto [lo, hi] = interval;
@@ -113,7 +113,8 @@ class ContactSearch {
     return at <= lo ? lo + near * (hi - lo) : at >= hi ? hi - near * (hi - lo) : at;
   }
 
-  /// Examines an interval in which F certainly changes its sign; `agree`: and in which all weights have one sign.
+  /// Examines an interval in which F certainly changes its sign. `agree` says whether all weights have one
+  /// sign there.
   FilterStage look_around(const Enclosure& interval, const std::array<double, 4>& f,
                           const Weights<Real>& weights, bool agree) {
     // The root is computed from the end at which |F| is smaller, so it is as precise as F is there.
@@ -144,7 +145,7 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// There is a contact in `near`, a part of an interval: F changes its sign, and all weights are inside.
+  /// Notes a contact in `near`, a part of an interval: F changes its sign there, and all weights are inside.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
     const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
     found_ = in_step(first, is_whole() ? 0 : zoom_rounding);
@@ -152,7 +153,7 @@ class ContactSearch {
     return look_before(first, interval);
   }
 
-  /// A smaller interval with the first change of sign of F, between neighbouring doubles if F is clear of its error.
+  /// A smaller interval with F's first change of sign; neighbouring doubles if F is clear of its error.
   [[nodiscard]] Enclosure first_change(Enclosure near) const {
     const bool rises = F_.at(near.hi) > 0;
     while (true) {
@@ -166,7 +167,8 @@ class ContactSearch {
     }
   }
 
-  /// The stage that decides if `found_` is known. What comes later does not matter.
+  /// Ends the search after a contact in `near`, unless a time is asked for and F may have a root earlier in
+  /// the interval; then the search goes on there, and drops everything later.
   FilterStage look_before(const Enclosure& near, const Enclosure& interval) {
     if (asked_ == Asked::whether || interval.lo == near.lo || F_.sign_on(interval.lo, near.lo) != 0)
       return FilterStage::sign_change;
@@ -207,7 +209,7 @@ class ContactSearch {
     return FilterStage::weights;
   }
 
-  /// It is not known whether there is a contact in an interval.
+  /// Notes that it is not known whether there is a contact in an interval.
   FilterStage unclear(const Enclosure& interval) {
     if (asked_ == Asked::whether) return FilterStage::undecided;
     return unclear_in_step(in_step(interval, is_whole() ? 0 : zoom_rounding));
@@ -238,11 +240,11 @@ class ContactSearch {
     return stage == FilterStage::undecided ? unclear_in_step(closer.first()) : stage;
   }
 
-  /// Whether this part is the step; then its times are those of the step.
+  /// Whether this part is the whole step, so that its times are those of the step.
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
-  /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the error of four
-  /// roundings of numbers up to 1. The additional range is still inside the step.
+  /// An interval of this part in the time of the step, rounded outward. `zoom_rounding` is more than the
+  /// error of four roundings of numbers up to 1. The additional range is still inside the step.
   [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
     const double length = part_.end - part_.begin;
     return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),
@@ -263,9 +265,9 @@ class ContactSearch {
   const Bernstein<Real, 4>& F_;
   int depth_;
   Asked asked_;
-  std::optional<Enclosure> found_;  ///< of the step; contains the first contact that is not before `unclear_`
-  bool is_between_ = false;         ///< whether that time is certainly neither end of `found_`
-  std::optional<Enclosure> unclear_;  ///< of the step; contains all intervals that are unclear
+  std::optional<Enclosure> found_;    ///< in the time of the step; contains the first contact found so far
+  bool is_between_ = false;           ///< whether that time is certainly neither end of `found_`
+  std::optional<Enclosure> unclear_;  ///< in the time of the step; contains all unclear intervals
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;
   std::array<Enclosure, 64> intervals_;

@@ -10,7 +10,7 @@
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/arithmetic/vectors.hpp"
 
-// The filter decides a query in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, each linear in t,
+// The filter decides a query in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, linear in t,
 //   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
 //   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
@@ -113,7 +113,7 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over [lo, hi] of its part of the step. It has 3 roundings: 1 - t, products, sum.
+/// The motion over the part [lo, hi] of what `whole` covers. It has 3 roundings: 1 - t, products, sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
@@ -244,7 +244,7 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// 1, -1 or 0 likewise for [t - h, t + h].
+  /// The result of agreement_on for [t - h, t + h]; faster, and as good if h is small.
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }

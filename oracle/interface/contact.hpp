@@ -1,6 +1,6 @@
-// The oracle behind the interface that contact codes use for CCD: the positions of all points at the start and the end of the step, a
-// time of impact, a minimum distance, and the largest time. A class with these names and arguments can be replaced by
-// nearmiss::ExactCCD. C++20.
+// The oracle behind the interface that contact codes use for CCD: the positions of all points at the start
+// and the end of the step, a time of impact, a minimum distance, and the largest time. A class with these
+// names and arguments can be replaced by nearmiss::ExactCCD. C++20.
 #pragma once
 
 #include <array>
@@ -13,13 +13,14 @@
 
 namespace nearmiss {
 
-/// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at some t in [0, tmax], and
-/// sets `toi` to the largest double that is not after the first such t. So nothing happens in [0, toi), and no rescaling is needed. If
-/// there is no such t, `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions report a
-/// collision with toi = 0, because a simulation must not step on.
+/// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at
+/// some t in [0, tmax], and sets `toi` to the largest double that is not after the first such t. So nothing
+/// happens in [0, toi), and no rescaling is needed. If there is no such t, `toi` is infinite. If a coordinate
+/// is not finite, `min_distance` negative, or tmax above 1, the functions report a collision with toi = 0,
+/// because a simulation must not step on.
 ///
-/// Points may have any type with operator[] or operator(), and have three coordinates, or two, of which the third is 0, if they have a
-/// size() of 2.
+/// Points may have any type with operator[] or operator(). They have three coordinates; if their size() is 2,
+/// the third coordinate is 0.
 class ExactCCD {
  public:
   /// A point and a triangle.
@@ -38,21 +39,21 @@ class ExactCCD {
                          ea1_t1, eb0_t1, eb1_t1);
   }
 
-  /// A point and an edge, which is a degenerate triangle.
+  /// A point and an edge, which is treated as a degenerate triangle.
   bool point_edge_ccd(const auto& p_t0, const auto& e0_t0, const auto& e1_t0, const auto& p_t1,
                       const auto& e0_t1, const auto& e1_t1, double& toi, double min_distance = 0,
                       double tmax = 1) const noexcept {
     return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, toi, min_distance, tmax);
   }
 
-  /// Two points, one of which is a degenerate triangle.
+  /// Two points, one of which is treated as a degenerate triangle.
   bool point_point_ccd(const auto& p0_t0, const auto& p1_t0, const auto& p0_t1, const auto& p1_t1,
                        double& toi, double min_distance = 0, double tmax = 1) const noexcept {
     return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, toi, min_distance, tmax);
   }
 
  private:
-  /// Exactly, also if the processor takes subnormal floats for 0. What is not finite is infinite.
+  /// A float as a double, exactly, even if the processor takes subnormal floats for 0. NaN becomes infinity.
   static double widened_float(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     constexpr std::uint32_t exponent = 0x7f800000;

@@ -1,6 +1,6 @@
 /** \file
- * The C interface of nearmiss: exact answers (oracle.h) and the failure-proof CCD (wang.h) for queries in the caller's memory
- * (queries.h). C99. Link with -lnearmiss. */
+ * The C interface of nearmiss: exact answers (oracle.h) and the failure-proof CCD (wang.h) for queries in the
+ * caller's memory (queries.h). C99. Link with -lnearmiss. */
 #ifndef NEARMISS_H
 #define NEARMISS_H
 

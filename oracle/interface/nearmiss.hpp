@@ -1,6 +1,7 @@
 /// \file
-/// The C++ interface of nearmiss: exact answers and the failure-proof CCD for queries in the caller's memory. It is a thin layer over
-/// the C functions of nearmiss.h, whose comments say what the answers mean. C++20. Link with nearmiss::oracle, or -lnearmiss.
+/// The C++ interface of nearmiss: exact answers and the failure-proof CCD for queries in the caller's memory.
+/// It is a thin layer over the C functions of nearmiss.h, whose comments say what the answers mean. C++20.
+/// Link with nearmiss::oracle, or -lnearmiss.
 ///
 ///     const auto pairs = nearmiss::Queries::of_mesh(nearmiss::Kind::edge_edge, indices, start, end);
 ///     std::vector<std::int8_t> answers(pairs.size());
@@ -37,40 +38,43 @@ enum class Answer : std::int8_t {
   collision = NEARMISS_COLLISION,
 };
 
-/// The values in a span of what decided.
+/// The values in the span `decided_by`: what decided a query.
 enum class DecidedBy : std::uint8_t {
   boxes = NEARMISS_BY_BOXES,
   filter = NEARMISS_BY_FILTER,
   exact = NEARMISS_BY_EXACT,
 };
 
-/// Two numbers that enclose a time or a distance. Both are infinite for the time of no collision, and NaN if there is no answer.
+/// Two numbers that enclose a time or a distance. Both are infinite for a time if there is no collision, and
+/// NaN if there is no answer.
 struct Interval {
   double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower one
   double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper one
 };
 
-/// A sentence about a status.
+/// A sentence that explains a status.
 inline const char* message(Status status) noexcept { return nearmiss_message(static_cast<int>(status)); }
 
 /// Queries of one kind in the caller's memory, which must outlive them. Nothing is copied.
 class Queries {
  public:
-  /// Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. A rest of fewer than 24 is ignored.
+  /// Queries one after another: 24 coordinates each, x0 x1 x2 x3 at t = 0, then at t = 1. Fewer than 24
+  /// numbers at the end are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), x.size() / 24, x.data()));
   }
-  /// The same in float.
+  /// Queries one after another, in float.
   static Queries packed(Kind kind, std::span<const float> x) noexcept {
     return Queries(nearmiss_packed_float(to_c(kind), x.size() / 24, x.data()));
   }
 
-  /// Pairs of a moving mesh: four numbers of vertices for each pair, and three coordinates for each vertex at t = 0 and t = 1.
+  /// Pairs of a moving mesh: four numbers of vertices for each pair, and three coordinates for each vertex at
+  /// t = 0 and t = 1.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
                          const double* end) noexcept {
     return Queries(nearmiss_of_mesh(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
   }
-  /// The same in float.
+  /// Pairs of a moving mesh, in float.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const float* start,
                          const float* end) noexcept {
     return Queries(nearmiss_of_mesh_float(to_c(kind), vertices.size() / 4, vertices.data(), start, end));
@@ -79,10 +83,11 @@ class Queries {
   /// Any other layout, as nearmiss_queries describes it.
   explicit Queries(const nearmiss_queries& layout) noexcept : layout_(layout) {}
 
-  /// The same queries with one separation h for all, which must outlive them.
+  /// These queries with one separation h for all. `h` must outlive the result.
   [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
   Queries with_separation(double&&) const = delete;
-  /// The same queries with one separation for each. If there is another number of them, nothing will be answered: bad_argument.
+  /// These queries with a separation for each. If the number of separations is wrong, nothing will be
+  /// answered, and the status is bad_argument.
   [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
     Queries queries = with_separations(h.data(), sizeof(double));
     queries.separations_ = h.size();
@@ -91,13 +96,13 @@ class Queries {
 
   /// Number of queries.
   [[nodiscard]] std::size_t size() const noexcept { return layout_.count; }
-  /// Whether a span of separations has one for each query.
+  /// Whether the separations, if they were given as a span, are one for each query.
   [[nodiscard]] bool has_its_separations() const noexcept {
     return separations_ == any_number || separations_ == size();
   }
   /// The layout, as the C functions take it.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
-  /// The same, to be changed.
+  /// The layout, which may be changed.
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:
@@ -117,18 +122,19 @@ class Queries {
   static constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
   nearmiss_queries layout_;
-  std::size_t separations_ = any_number;  // that a span has
+  std::size_t separations_ = any_number;  // length of the span of separations, if one was given
 };
 
 namespace detail {
 
-/// The data of a span that may be left out, if it has as many elements as there are queries.
+/// Whether a span has one element for each query, or is empty where that is allowed.
 template <class T>
 bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
   return to.size() == queries.size() || (may_be_empty && to.empty());
 }
 
-/// Calls a C function with the layout, unless spans do not fit or there is nothing to ask: an empty span may be a null pointer.
+/// Calls a C function with the layout, unless spans do not fit or there is nothing to ask: an empty span may
+/// be a null pointer.
 template <class Call>
 Status ask(const Queries& queries, bool fit, const Call& call) {
   if (!fit || !queries.has_its_separations()) return Status::bad_argument;
@@ -146,7 +152,8 @@ inline Status collides(const Queries& queries, std::span<std::int8_t> answers,
   });
 }
 
-/// nearmiss_earliest_time(): the earliest time of each collision, with a `width` of 0 to the nearest double below.
+/// nearmiss_earliest_time(): the earliest time of each collision. With a `width` of 0, `lo` is the largest
+/// double that is not after it.
 inline Status earliest_times(const Queries& queries, std::span<double> lo, std::span<double> hi = {},
                              double width = 0) noexcept {
   const bool fit = detail::fits(queries, lo) && detail::fits(queries, hi, true);
@@ -155,7 +162,8 @@ inline Status earliest_times(const Queries& queries, std::span<double> lo, std::
   });
 }
 
-/// nearmiss_time_of_impact(): whether each query is a collision in [0, tmax], and the largest double that is not after it.
+/// nearmiss_time_of_impact(): whether each query is a collision in [0, tmax], and the largest double that is
+/// not after its earliest time.
 inline Status times_of_impact(const Queries& queries, std::span<std::int8_t> answers, std::span<double> toi,
                               double tmax = 1) noexcept {
   const bool fit = detail::fits(queries, answers) && detail::fits(queries, toi);

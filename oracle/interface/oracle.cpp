@@ -22,7 +22,7 @@ std::uint8_t decider(FilterStage stage) {
   }
 }
 
-/// Fewer queries are decided faster one by one.
+/// The smallest number of queries that are decided faster side by side than one by one.
 constexpr std::size_t fewest_side_by_side = 4;
 
 /// The arrays of answers.
@@ -113,7 +113,7 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
   return nearmiss::interface::for_each_query(
       queries,
       [&](const Query& query, std::size_t q) {
-        // A time that is no double is at most tmax if the next double is.
+        // If t* is not a double, it is at most tmax if and only if the next double is.
         const auto enclosure = nearmiss::interface::enclosed_time(query, 0);
         const bool is_collision = enclosure.hi <= tmax;
         answers[q] = is_collision ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;

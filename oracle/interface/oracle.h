@@ -1,14 +1,15 @@
 /** \file
  * Exact answers for queries in the caller's memory. C99.
  *
- * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones, too. Nearly all
- * queries are decided in double arithmetic with certified error bounds, without memory from the heap. Exact arithmetic, which decides
- * the others and whether primitives touch at t = 0 or t = 1 where double cannot, allocates memory and takes microseconds to
- * milliseconds; the slowest known queries, with coordinates of very different sizes, take seconds. Distances allocate memory, too. A
- * program cannot go on after an allocation that fails inside GMP or CGAL.
+ * The answers are those of exact arithmetic, for all finite coordinates: degenerate, huge and subnormal ones,
+ * too. Nearly all queries are decided in double arithmetic with certified error bounds, without memory from
+ * the heap. Exact arithmetic decides the others, and contact at t = 0 or t = 1 where double cannot. It
+ * allocates memory and takes microseconds to milliseconds; the slowest known queries, with coordinates of
+ * very different sizes, take seconds. Distances allocate memory, too. A program cannot go on after an
+ * allocation that fails inside GMP or CGAL.
  *
- * All functions may be called from many threads at once; each call works in its own thread. They set the processor's rounding mode
- * if need be and restore it, and neither print nor throw. */
+ * All functions may be called from many threads at once; each call works in its own thread. They set the
+ * processor's rounding mode if need be and restore it, and neither print nor throw. */
 #ifndef NEARMISS_ORACLE_H
 #define NEARMISS_ORACLE_H
 
@@ -23,22 +24,25 @@ extern "C" {
 #define NEARMISS_BY_FILTER 1 /**< double arithmetic with certified bounds */
 #define NEARMISS_BY_EXACT 2  /**< exact arithmetic */
 
-/** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or NEARMISS_NO_ANSWER. A smallest
- * distance of exactly h counts. `decided_by` says what decided, and may be null. */
+/** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
+ * NEARMISS_NO_ANSWER. A smallest distance of exactly h counts as a collision. `decided_by` says what decided,
+ * and may be null. */
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by);
 
-/** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are the same if t* is a double,
- * and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of impact: nothing happens before it. Both are
- * infinite if there is no collision, and NaN if there is no answer. `hi` may be null. */
+/** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are the
+ * same if t* is a double, and neighbours if it is not, or hi - lo is at most `width`. So lo is a safe time of
+ * impact: nothing happens before it. Both are infinite if there is no collision, and NaN if there is no
+ * answer. `hi` may be null. */
 int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double* lo, double* hi);
 
-/** The same as a simulation asks it: whether each query is a collision at some t in [0, tmax], and, if so, toi[q] = lo. Else toi[q] is
- * infinite. Where there is no answer, toi[q] is 0, because a simulation must not step on. tmax must be at most 1. */
+/** The earliest time as a simulation needs it: whether each query is a collision at some t in [0, tmax], and,
+ * if so, the largest double that is not after t* as toi[q]. Else toi[q] is infinite. If there is no answer,
+ * toi[q] is 0, because a simulation must not step on. tmax must be at most 1. */
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi);
 
-/** The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi, or as small as doubles
- * allow; both are 0 if the primitives touch, and NaN if there is no answer. Separations are ignored. `relative_width` must
- * not be negative. `hi` may be null. */
+/** The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi,
+ * or as small as doubles allow; both are 0 if the primitives touch, and NaN if there is no answer.
+ * Separations are ignored. `relative_width` must not be negative. `hi` may be null. */
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
 

@@ -60,8 +60,8 @@ int IntegerPolynomial::sign_on(const Dyadic& lo, const Dyadic& hi) const {
   return least > 0 ? 1 : most < 0 ? -1 : 0;
 }
 
-// The roots of f in (0, 1) are those of (1 + t)^degree f(1 / (1 + t)) for t > 0: its coefficients are those of f in reverse
-// order, as a polynomial in 1 + t.
+// The roots of f in (0, 1) correspond to those of (1 + t)^degree f(1 / (1 + t)) for t > 0. As a polynomial in
+// 1 + t, this has the coefficients of f in reverse order.
 int IntegerPolynomial::most_roots_inside() const {
   std::vector<Integer> shifted(c_.rbegin(), c_.rend());
   for (std::size_t i = 0; i + 1 < shifted.size(); ++i)
@@ -182,8 +182,8 @@ void reduce(Residues& f, const Residues& g) {
 
 }  // namespace
 
-// A common factor with integer coefficients has the same degree modulo the prime if this does not divide its leading
-// coefficient, and so if it does not divide that of f.
+// A common factor of f and g with integer coefficients keeps its degree modulo the prime if the prime does
+// not divide its leading coefficient. That is so if the prime does not divide the leading coefficient of f.
 bool are_surely_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g) {
   Residues a = residues(f);
   Residues b = residues(g);

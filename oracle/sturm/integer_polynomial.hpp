@@ -31,8 +31,8 @@ class IntegerPolynomial {
   [[nodiscard]] int sign_at(const Dyadic& t) const { return scaled_value(t).sign(); }
   /// The sign on all of [lo, hi], for 0 <= lo < hi, if interval arithmetic shows it; else 0.
   [[nodiscard]] int sign_on(const Dyadic& lo, const Dyadic& hi) const;
-  /// The number of roots in (0, 1), counted with multiplicity, or more than that by an even number (Descartes' rule of
-  /// signs).
+  /// The number of roots in (0, 1), counted with multiplicity, or more than that by an even number
+  /// (Descartes' rule of signs).
   [[nodiscard]] int most_roots_inside() const;
   [[nodiscard]] IntegerPolynomial derivative() const;
 
@@ -55,8 +55,8 @@ class IntegerPolynomial {
   std::vector<Integer> c_;
 };
 
-/// Whether two polynomials that are not zero certainly have no common root; false if their residues modulo a prime do not show
-/// it.
+/// Whether two polynomials that are not zero certainly have no common root; false if their residues modulo a
+/// prime do not show it.
 bool are_surely_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g);
 
 /// The signed remainder sequence of f and g, which must not be zero, each up to a positive factor.

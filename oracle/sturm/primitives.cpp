@@ -24,8 +24,8 @@ struct OddMultiple {
   }
 };
 
-/// The exponents of the largest power of two for each axis of which all its coordinates are multiples. If there is a
-/// separation, it is a multiple too, and all axes have the same power.
+/// For each axis, the exponent of the largest power of two of which all coordinates are multiples. If there
+/// is a separation, it is a multiple, too, and all axes have the same power.
 std::array<int, 3> exponents_of_units(const Query& query) {
   std::array<int, 3> smallest;
   smallest.fill(std::numeric_limits<int>::max());

@@ -26,13 +26,15 @@ struct SegmentMembership {
                     const IntegerPolynomialVector& b);
 };
 
-/// The primitives of a query. With N·N not zero, the weights of the closest points of the plane, or of the lines, are in the
-/// primitives iff every weight times N·N is at least zero; for F = 0, the primitives meet there. For a triangle,
-/// x0 + c N = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the triangles with x0, projected on N. For edges,
-/// x2 - x0 = α (x1 - x0) - β (x3 - x2) + c N gives ((x2 - x0) × (x3 - x2))·N = α N·N and ((x2 - x0) × (x1 - x0))·N = β N·N
-/// with N = (x1 - x0) × (x3 - x2). Most queries do not need all polynomials, so each is computed on first use.
+/// The primitives of a query. If N·N is not zero, the closest points of the vertex and the plane, or of the
+/// two lines, are in the primitives iff every weight times N·N is at least zero. If F = 0, too, the
+/// primitives meet there. For a triangle, x0 + c N = λ1 x1 + λ2 x2 + λ3 x3 gives λi from the areas of the
+/// triangles with x0, projected on N. For edges, x2 - x0 = α (x1 - x0) - β (x3 - x2) + c N gives ((x2 - x0) ×
+/// (x3 - x2))·N = α N·N and ((x2 - x0) × (x1 - x0))·N = β N·N with N = (x1 - x0) × (x3 - x2). Most queries do
+/// not need all polynomials, so each is computed on first use.
 ///
-/// Coordinates are multiples of units. If h is 0, each axis has its own unit, because scaling an axis changes no answer.
+/// Coordinates are multiples of units. If h is 0, each axis has its own unit, because scaling an axis changes
+/// no answer.
 class Primitives {
  public:
   explicit Primitives(const Query& query);

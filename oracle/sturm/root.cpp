@@ -64,7 +64,7 @@ struct SturmSequence {
   }
 };
 
-/// A place in (0, 1) that is no root, or an end, with the number of sign changes there.
+/// A number that is 0, 1 or not a root, with the number of sign changes of the sequence there.
 struct Place {
   Dyadic t;
   int variations;
@@ -75,8 +75,8 @@ struct Place {
 
 int roots_between(const Place& lo, const Place& hi) { return lo.variations - hi.variations; }
 
-/// Guesses which border of 2^bits pieces of an interval is nearest to a cluster of roots in it; -1 if the guess is outside. It
-/// is a step of Schröder's method, Newton's for f / f', from the lower end.
+/// Guesses which border of 2^bits pieces of an interval is nearest to a cluster of roots in it; -1 if the
+/// guess is outside. It is a step of Schröder's method, Newton's for f / f', from the lower end.
 Integer border_near_cluster(const IntegerPolynomial& f, const Dyadic& lo, const Dyadic& hi, unsigned bits) {
   const SameDenominator ends(lo, hi);
   const IntegerPolynomial slope = f.derivative();
@@ -98,7 +98,7 @@ Integer border_near_cluster(const IntegerPolynomial& f, const Dyadic& lo, const 
   return border > Integer(1) << bits ? -1 : border;
 }
 
-/// The part of an interval that a guess shows to have all its roots; nothing if it does not show that.
+/// A part of an interval, around a guess, that certainly has all its roots; nothing if the guess gives none.
 std::optional<std::pair<Place, Place>> narrowed(const SturmSequence& sequence, const Place& lo,
                                                 const Place& hi, unsigned bits) {
   const IntegerPolynomial& f = sequence.f;
@@ -161,7 +161,7 @@ void SturmRoot::cut(Dyadic at) {
   end = {std::move(at), std::move(value)};
 }
 
-/// The border of pieces that is nearest to where the chord is 0.
+/// The border between pieces that is nearest to the zero of the chord.
 Integer SturmRoot::border_by_chord() const {
   const auto degree = static_cast<unsigned>(f_.degree());
   const SameDenominator values({abs(lo_.value), degree * lo_.t.exponent},
@@ -170,7 +170,7 @@ Integer SturmRoot::border_by_chord() const {
   return ((values.lo << (fineness_.bits() + 1)) + rise) / (2 * rise);
 }
 
-/// Shrinks the interval to the pieces beside a border if the root is there. Returns whether it is.
+/// Shrinks the interval to the two pieces beside a border if the root is in them. Returns whether it is.
 bool SturmRoot::shrink_to(const Integer& border) {
   const unsigned bits = fineness_.bits();
   const Dyadic below = border_of_piece(lo_.t, hi_.t, border - 1, bits);
@@ -181,7 +181,7 @@ bool SturmRoot::shrink_to(const Integer& border) {
 }
 
 void SturmRoot::refine() {
-  // Complex roots close to this one bend the curve, so that the chord says little; a guess for a cluster then says more.
+  // Complex roots near this one bend the curve, so the chord says little; a guess for a cluster says more.
   constexpr int many = 8;
   ++refinements_;
   bool good_guess = shrink_to(border_by_chord());
@@ -211,7 +211,7 @@ bool SturmRoot::is_common_root(const IntegerPolynomial& g) {
 
 int SturmRoot::sign(const IntegerPolynomial& g) {
   if (g.is_zero()) return 0;
-  constexpr int patience = 5;  // interval arithmetic shows most signs after so many refinements
+  constexpr int patience = 5;  // interval arithmetic shows most signs after this many refinements
   for (bool may_be_zero = true;;) {
     if (is_dyadic_) return g.sign_at(lo_.t);
     if (const int sign = g.sign_on(lo_.t, hi_.t); sign != 0) return sign;

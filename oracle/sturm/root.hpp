@@ -9,8 +9,9 @@
 
 namespace nearmiss::sturm {
 
-/// How finely an interval is cut. A guess says in which of 2^bits pieces of equal width, or in a neighbour of it, the roots are.
-/// A good guess doubles the bits, a bad one halves them, so intervals shrink quadratically once the guesses are good.
+/// How finely an interval is cut. A guess says in which of 2^bits pieces of equal width, or in a neighbour of
+/// it, the roots are. A good guess doubles the bits, a bad one halves them, so intervals shrink quadratically
+/// once the guesses are good.
 class Fineness {
  public:
   [[nodiscard]] unsigned bits() const { return bits_; }
@@ -21,15 +22,16 @@ class Fineness {
   unsigned bits_ = least;
 };
 
-/// A real root in [0, 1]: a dyadic number, or the only root, a simple one, of a polynomial in an open interval at whose ends
-/// it is not zero. Questions may narrow the interval.
+/// A real root in [0, 1]: a dyadic number, or the only root of a polynomial in an open interval. This root is
+/// simple, and the polynomial is not zero at the ends of the interval. Questions may narrow the interval.
 class SturmRoot {
  public:
   explicit SturmRoot(Dyadic value) : is_dyadic_(true), lo_{std::move(value), 0} {}
   SturmRoot(IntegerPolynomial f, Dyadic lo, Dyadic hi);
 
-  /// The sign of g at this root. If interval arithmetic does not show it, and residues do not show that the root is no common
-  /// root, a common factor does. Only the factor of the polynomial that has this root is kept then.
+  /// The sign of g at this root. Interval arithmetic shows most signs. For others, residues may show that g
+  /// has no root in common with the polynomial; else a common factor decides, and only the factor of the
+  /// polynomial that has this root is kept.
   [[nodiscard]] int sign(const IntegerPolynomial& g);
   /// Whether the root is less than a number.
   [[nodiscard]] bool is_below(const Dyadic& number) const;

@@ -1,14 +1,17 @@
-// A pair of features, such as a vertex and an edge, is described by polynomials in t: `excess`, a positive multiple of
-// distance² - h² of the lines or planes through them; `inside`, none of which is negative where the closest points of these
-// lie in the features; and `extent`, which is positive unless the features are degenerate. At every time, the closest
-// points of the primitives are those of such a pair, or of a vertex of each.
+// A pair of features, such as a vertex and an edge, is described by polynomials in t: `excess`, a positive
+// multiple of distance² - h² of the lines or planes through them; `inside`, none of which is negative where
+// the closest points of these lie in the features; and `extent`, which is positive unless the features are
+// degenerate. At every time, the closest points of the primitives are those of such a pair, or of a vertex of
+// each.
 //
-// The distance is at most h at some time iff it is at t = 0, or at a root of the excess of a pair or, if that is identically
-// 0, of one of its `inside`: at the first such time, the conditions of the closest pair begin to hold.
+// The distance is at most h at some time iff it is so at t = 0, or at a root of the excess of a pair or, if
+// that is identically 0, of one of its `inside`: at the first such time, the conditions of the closest pair
+// begin to hold.
 //
-// The distance is below h at some time iff it is so in an open interval, where one pair has the closest points, and none of
-// its polynomials changes its sign. Such an interval of greatest length begins at 0 or at a root of one of them. So it is
-// enough to know the signs right behind 0 and behind these roots: of the first derivative that is not 0 there.
+// The distance is below h at some time iff it is so in an open interval, where one pair has the closest
+// points, and none of its polynomials changes its sign. Such an interval of greatest length begins at 0 or at
+// a root of one of these polynomials. So it is enough to know the signs right after 0 and right after these
+// roots. Each is the sign of the first derivative that is not 0 there.
 #include "oracle/sturm/separation.hpp"
 
 #include <algorithm>
@@ -27,13 +30,13 @@ namespace {
 /// A time at which the conditions of a pair may begin to hold.
 struct Candidate {
   SturmRoot t;
-  const IntegerPolynomial* root_of = nullptr;  ///< one of the pair's that is 0 at t, if that is known
+  const IntegerPolynomial* root_of = nullptr;  ///< a polynomial of the pair that is 0 at t, if one is known
   std::optional<bool> at_most;                 ///< whether the conditions hold at t
-  std::optional<bool> below;                   ///< whether they hold strictly right behind t
+  std::optional<bool> below;                   ///< whether they hold strictly right after t
 
   int sign(const IntegerPolynomial& p) { return &p == root_of ? 0 : t.sign(p); }
 
-  /// The sign of p right behind t.
+  /// The sign of p right after t.
   int sign_behind(const IntegerPolynomial& p) {
     int found = sign(p);
     for (IntegerPolynomial d = p; found == 0 && !d.is_zero(); found = t.sign(d)) d = d.derivative();

@@ -7,9 +7,10 @@
 
 namespace nearmiss {
 
-/// How near two primitives come in a part of the step. It is exact for every finite query with h > 0, and shares no code with
-/// the first method: roots are isolated by Sturm's theorem, `SturmRoot` gives signs there, and derivatives give signs right
-/// behind them. They are isolated when a question needs them, and kept for the next.
+/// How near two primitives come in a part of the step. The answers are exact for every finite query with
+/// h > 0, and found without the code of the first method: roots are isolated by Sturm's theorem, `SturmRoot`
+/// gives signs at them, and derivatives give signs right after them. Roots are isolated when a question needs
+/// them, and kept for the next question.
 class SturmApproach {
  public:
   explicit SturmApproach(const Query& query);

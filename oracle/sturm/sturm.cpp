@@ -37,8 +37,9 @@ int multiplicity(const IntegerPolynomial& F, SturmRoot& t) {
   return m;
 }
 
-/// The times of which the first contact is one, if there is a contact: the roots of F. If F is identically zero, the set of
-/// colliding times is closed, and its least element is 0 or a root of one of the polynomials whose signs decide.
+/// Times that include the first contact, if there is one: the roots of F. If F is identically zero, they are
+/// 0 and the roots of the polynomials whose signs decide, because the set of colliding times is closed, and
+/// its least element is one of these.
 std::vector<SturmRoot> contact_candidates(Primitives& primitives) {
   if (!primitives.F().is_zero()) return roots_in_unit_interval(primitives.F());
   std::vector<const IntegerPolynomial*> deciding{&primitives.area()};

@@ -8,7 +8,8 @@
 
 namespace nearmiss {
 
-/// Answers the questions of EarliestTime by the second exact method, also for primitives that never come near.
+/// Answers the questions of EarliestTime by the second exact method, also for primitives that never touch or
+/// come within h.
 class SturmTimes {
  public:
   explicit SturmTimes(const Query& query) {

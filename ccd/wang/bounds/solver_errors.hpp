@@ -29,8 +29,8 @@ constexpr Number cubic_residual(const Number& u) {
 
 /// The least ψ with which `vertex_edge` misses nothing, for the threshold S, B = 1, positions within 2
 /// (edges), and operations with a relative error of at most u <= 2^-10:
-/// - Components of x_0i × x_ji: 98 u each (a has the bound 2 with k = 10; b has 6 with 9; c has 4 with
-///   4 + 2, where 2 comes from the discriminant), 6ρ for dropped components, and 4 S u for x_ji. All of these count
+/// - Components of x_0i × x_ji: 98 u each (a has the bound 2 with k = 10; b has 6 with 9; c has 4 with 4 + 2,
+///   where 2 comes from the discriminant), 6ρ for dropped components, and 4 S u for x_ji. All of these count
 ///   twice: 588 u, 8 S u, 12ρ.
 /// - The vertex of a piece: (34 + S) u.
 /// - Times with an error of 6 u, at which F changes at a rate of 30 + S: 180 u, 6 S u.
