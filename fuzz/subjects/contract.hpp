@@ -6,8 +6,8 @@
 
 namespace nearmiss {
 
-/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are coplanar at
-/// all times, their volume has more than one root.
+/// Whether the query has all that the contract takes for granted, decided exactly. If the four vertices are
+/// coplanar at all times, F counts as having more than one root.
 bool keeps_contract(const Query& query, const Contract& contract);
 
 }  // namespace nearmiss

@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// Passes everything on to another subject, which must outlive it. A derived class changes how it is asked: in decide()
-/// for batches, which decides single queries, too; decide_timed() and time_each() do not call decide().
+/// Passes everything on to another subject, which must outlive it. A derived class changes how that subject
+/// is asked by overriding decide() for batches, which decides single queries, too. decide_timed() and
+/// time_each() do not call decide().
 class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}

@@ -9,8 +9,9 @@
 
 namespace nearmiss::isolation {
 
-/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the command of a
-/// program names, the program included. What these load is not part of it. Many threads use it at once.
+/// The files of a plug-in, as they were when this object was made: the shared object, or all files that the
+/// command of a program names, the program included. What these load is not part of it. Many threads use it
+/// at once.
 class PluginCode {
  public:
   /// Reads the files. Throws Error if that fails.

@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// A number of this type that is at least 0.
+/// Parses a number of this type that is at least 0.
 template <class Number>
 Number number(const std::string& text, const char* expected) {
   Number value = 0;
