@@ -14,7 +14,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// A short number from 1/16 to 7.
+/// A number from 1/16 to 7 that has at most three bits.
 double short_separation(Random& random) {
   const int odd_or_even = random.integer(1, 7);
   return std::ldexp(odd_or_even, -random.integer(0, 4));

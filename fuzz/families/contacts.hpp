@@ -45,8 +45,8 @@ struct Contact {
 /// with few bits, every operation here is exact in double, and the query touches exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
-/// Draws the parts of a contact, of size 1. Half of the samplers draw multiples of 1/16, so that short sums
-/// and products stay exact in double; the others draw arbitrary numbers.
+/// Draws the parts of contacts of size 1. Half of the samplers draw multiples of 1/16, so that short sums and
+/// products stay exact in double; the others draw arbitrary numbers.
 class ContactSampler {
  public:
   explicit ContactSampler(Random& random) : random_(random), exact_(random.one_in(2)) {}

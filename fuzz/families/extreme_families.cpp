@@ -150,8 +150,8 @@ Eigen::Matrix3d rotation(const Vector& axis, double size) {
   return Eigen::Quaterniond(1, part[0], part[1], part[2]).normalized().toRotationMatrix();
 }
 
-/// The primitives are long along one axis only. In half of the queries, so is their relative motion. One
-/// query in three is rotated.
+/// The primitives are long along one axis, and thin along the others. In half of the queries, so is their
+/// relative motion. One query in three is rotated.
 Query needle(Random& random, Kind kind, double x) {
   const double thin = power_of_ten(x);
   ContactSampler sampler(random);

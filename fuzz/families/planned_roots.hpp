@@ -43,7 +43,7 @@ bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots);
 ///
 /// The matrix with the columns p = x0 - base, q and r is M = U L adj(K): U has the directions as columns, L
 /// the factors on its diagonal, and K has the columns (whole, -sign α, -β), so that M K = det(K) U L. F is
-/// det(M). All operations are exact if numbers are short.
+/// det(M). All operations are exact if numbers have few bits.
 Query with_roots(Kind kind, const Path& base, const std::array<PlannedRoot, 3>& roots);
 
 }  // namespace nearmiss
