@@ -30,7 +30,7 @@ const Subject& subject();
 /// Feedback in addition to coverage. libFuzzer keeps a query that shows a new value, and mutates it further.
 enum class Signal {
   filter_stage,  ///< the stage of the oracle's filter
-  true_stage,    ///< the stage at which the subject accepted a collision, or that it missed it
+  true_stage,    ///< the stage at which the subject accepted a collision, or a miss
   false_stage,   ///< the stage at which the subject accepted a false positive
   margin,        ///< how much less tolerance a collision needs than the subject has
   distance,      ///< distance of a false positive, divided by its bound
