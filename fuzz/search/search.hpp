@@ -34,19 +34,19 @@ Family miss_search(const Subject& subject, const Stop& stop = Stop::never(),
 
 /// The family "search-far-NAME". Each query is the farthest false positive that a search found, relative to
 /// the bound that the subject claims, or to wang's bound if it claims none. A false positive that refutes the
-/// bound ends the search. If a search finds no false positive, it returns another query. Otherwise as
+/// bound ends the search. If a search finds no false positive, it returns another query. All else is as for
 /// miss_search.
 Family far_search(const Subject& subject, const Stop& stop = Stop::never(), std::string_view separation = {});
 
 /// The family "search-late-NAME", for a subject that gives times. Each query is the collision with the latest
 /// time that a search found, compared with t*, the exact earliest time: the one with the largest time - t* if
 /// any time is after t*, otherwise the one with the smallest (t* - time) / t*. Misses are passed over, and so
-/// are up to 20 queries over the time limit. Otherwise as miss_search.
+/// are up to 20 queries over the time limit. All else is as for miss_search.
 Family late_search(const Subject& subject, const Stop& stop = Stop::never(),
                    std::string_view separation = {});
 
 /// The family "search-early-NAME", for a subject that gives times. Each query is the collision with the
-/// largest t* - time that a search found. Otherwise as late_search.
+/// largest t* - time that a search found. All else is as for late_search.
 Family early_search(const Subject& subject, const Stop& stop = Stop::never(),
                     std::string_view separation = {});
 
