@@ -1,4 +1,4 @@
-// Whether a query is one for which a subject's contract holds.
+// Whether a query keeps a subject's contract.
 #pragma once
 
 #include "ccd/query/query.hpp"

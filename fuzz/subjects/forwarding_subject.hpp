@@ -50,7 +50,7 @@ class ForwardingSubject : public BatchSubject {
   const Subject& to_;
 };
 
-/// The subject that answers in the end: what a chain of forwarding subjects leads to.
+/// The subject at the end of a chain of forwarding subjects, which answers in the end.
 inline const Subject& innermost(const Subject& subject) {
   const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
   return forwarding == nullptr ? subject : innermost(forwarding->to());

@@ -27,14 +27,14 @@ std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           std::optional<double> given_bound = std::nullopt,
                                           const isolation::PluginLimits& limits = {});
 
-/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and names none.
+/// As make_any_subject, but makes all detectors of a shared object if the text has no NAME and no detector.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Gives different names to plug-ins with equal names, as versions of one CCD have: each of them whose name
-/// was not given gets that of its file, "v1" for ./v1.so; or "v1.DETECTOR" if the file has several detectors
-/// or the detector was chosen. Throws Error if two names are still equal.
+/// Gives different names to plug-ins with equal names, such as versions of one CCD. Each plug-in that was not
+/// given a NAME gets the name of its file, "v1" for ./v1.so, or "v1.DETECTOR" if the file has several
+/// detectors or the detector was chosen. Throws Error if two names are still equal.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
 /// The text that makes a subject under its name, whatever other subjects there are: "v1=./v1.so"; without

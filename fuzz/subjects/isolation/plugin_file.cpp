@@ -35,7 +35,7 @@ PluginFile::Stamp PluginFile::stamp_of(const struct stat& about) {
 struct PluginFile::Snapshot {
   std::string bytes;
   Stamp stamp;     ///< of the file before it was read
-  bool is_recent;  ///< when the stamp was taken
+  bool is_recent;  ///< whether the stamp was recent when it was taken
 };
 
 PluginFile::PluginFile(std::string path) : path_(std::move(path)) {

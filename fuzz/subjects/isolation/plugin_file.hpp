@@ -1,4 +1,4 @@
-// The file of a plug-in: which bytes it has, and that they stay the same.
+// The file of a plug-in: identifies its bytes, and checks that they stay the same.
 #pragma once
 
 #include <sys/stat.h>
@@ -17,8 +17,8 @@ class PluginChanged : public Error {
   using Error::Error;
 };
 
-/// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not part
-/// of it. Many threads use it at once.
+/// The file of a plug-in, as it was when this object was made. Libraries that the plug-in loads are not
+/// included. Many threads use it at once.
 class PluginFile {
  public:
   /// Reads the file. Throws Error if that fails.

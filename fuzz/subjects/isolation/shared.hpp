@@ -56,7 +56,7 @@ struct SharedQuestions {
 
 /// DetectorInfo and Contract (ccd/) as plain numbers, which can be read whatever the plug-in wrote.
 struct PluginDescription {
-  std::array<char, 4096> name{};  ///< with its options
+  std::array<char, 4096> name{};  ///< of the detector, with its options
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
       names{};  ///< of all detectors in the shared object, a line each

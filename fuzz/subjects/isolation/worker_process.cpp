@@ -96,7 +96,7 @@ WorkerProcess::Elapsed WorkerProcess::Elapsed::with_waiting(Duration computing) 
   return {computing, patience * computing};
 }
 
-/// Measures from its construction.
+/// Measures times from its construction on.
 class WorkerProcess::Watch {
  public:
   explicit Watch(const WorkerProcess& worker) : worker_(worker), computing_(worker.computing()) {}
@@ -119,7 +119,7 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged();  // a change is the reason
+    file.expect_unchanged();  // a change of the file may be the reason
     throw;
   }
   file.expect_unchanged();  // otherwise it might have loaded other bytes

@@ -1,6 +1,6 @@
 // nearmiss-worker PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor that
-// never runs the plug-in's code. The supervisor tells nearmiss how the process ended. When the process or
-// nearmiss ends, it ends all that the plug-in has started, and itself.
+// never runs the plug-in's code. The supervisor tells nearmiss how the process ended. When the plug-in's
+// process or nearmiss ends, the supervisor ends all that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
 // other process can stop, kill or trace it. A guard outside, which nobody in the namespace can name, also
@@ -63,7 +63,7 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Waits until a child has ended, and says how; or until nearmiss has closed the status socket.
+/// Waits until a child has ended, and returns how it ended, or until nearmiss has closed the status socket.
 std::optional<siginfo_t> watch(pid_t child) {
   const sigset_t wanted = end_of_child();
   const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
@@ -92,7 +92,7 @@ int run_plugin(const Assignment& work) {
   return answer_requests(work.plugin, work.bytes);
 }
 
-/// The supervisor. Returns in the plug-in's process only.
+/// The supervisor. Returns only in the plug-in's process.
 int supervise(const Assignment& work) {
   // Nobody without more privileges may trace it, or take its descriptors.
   prctl(PR_SET_DUMPABLE, 0);
