@@ -71,7 +71,7 @@ class CampaignRun {
   CasesOfShard cases_;
   CampaignProgress progress_;
   Clock::time_point start_ = Clock::now();
-  bool is_enough_ = false;  // for the sink
+  bool is_enough_ = false;  // whether the sink has ended the campaign
   std::atomic<bool> is_over_ = false;
 };
 

@@ -16,8 +16,8 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   return sum;
 }
 
-/// How many times `block_cases` each round has of a family: 1, 2, 4 and so on up to `largest()`, and
-/// `largest()` from then on. All multiples are numbered from 0, round by round.
+/// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 and so
+/// on units, up to `largest()`, which all later rounds have, too.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {
@@ -28,13 +28,13 @@ class Rounds {
     doublings_ = std::min<std::uint64_t>(doublings_, std::bit_width(std::max<std::uint64_t>(fitting, 1)) - 1);
   }
 
-  /// The number of the multiple with which a round begins.
+  /// The unit with which a round begins.
   [[nodiscard]] std::uint64_t start(std::uint64_t round) const {
     if (round < doublings_) return (std::uint64_t{1} << round) - 1;
     return largest() * (round - doublings_ + 1) - 1;
   }
 
-  /// The round that contains the multiple with this number.
+  /// The round that contains the unit number `multiple`.
   [[nodiscard]] std::uint64_t containing(std::uint64_t multiple) const {
     if (multiple + 1 < largest()) return std::bit_width(multiple + 1) - 1;
     return (multiple + 1) / largest() + doublings_ - 1;

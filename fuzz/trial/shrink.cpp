@@ -88,8 +88,8 @@ class Shrinker {
     return batch;
   }
 
-  /// Whether a candidate is a query that is simpler than the best one so far; notes its complexity. Of two
-  /// queries of equal complexity, the one with smaller coordinates counts as simpler, so that no step undoes
+  /// Whether a candidate is a query that is simpler than the best one so far; notes its complexity. If two
+  /// queries are equally complex, the one with smaller coordinates counts as simpler, so that no step undoes
   /// another.
   bool is_simpler(Candidate& candidate) const {
     Numbers& x = candidate.numbers;

@@ -48,8 +48,8 @@ class FindingShrinker {
   /// the finding is `broken_since` an earlier version of the CCD, both are queries that the earlier version
   /// answers rightly. The result depends only on the finding and the subjects, unless the time limit ends a
   /// search. A query that the subject refuses does not fail. A contradiction to a recorded truth is not
-  /// shrunk, because the truth is known for one query only. Throws Stopped if the stop is due, with its
-  /// grace; then the finding stays as it is.
+  /// shrunk, because the truth is known only for the finding's own query. Throws Stopped if the stop is due,
+  /// with its grace; then the finding stays as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:

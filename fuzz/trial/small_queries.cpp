@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t paths = 12;  // coordinate i at t = 0 belongs to coordinate i + 12 at t = 1
 constexpr std::array values{0, 1, -1, 2};
-constexpr int most_numbers = 3;  // all queries with at most so many numbers are listed
+constexpr int most_numbers = 3;  // queries with at most this many numbers are all listed
 using Integers = std::array<int, 24>;
 
 /// A symmetry of queries: coordinate i of the copy is coordinate from[i], times a sign.

@@ -23,8 +23,8 @@ struct SmallQuery {
 };
 
 /// All queries of a kind with at most three nonzero numbers (Complexity::numbers) in {-1, 1, 2}, and 4096
-/// random queries with more of them; simplest first. Of queries that differ by the order or the direction of
-/// axes, by the numbering of vertices or by the direction of time, only one is listed. If they are to be
+/// random queries with more of them; simplest first. Queries that differ only by the order or the direction
+/// of axes, by the numbering of vertices or by the direction of time are listed once. If they are to be
 /// `apart`, each of them is listed with h = 1, 2, 1/2 and 1/4, unless its smallest distance is exactly h. A
 /// list is made when it is first asked for.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);

@@ -48,7 +48,7 @@ std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& d
   return near;
 }
 
-/// Times a sample of the queries that a subject answered one by one.
+/// Times the subject on a sample of the queries that it answered, one by one.
 void time_sample(const Subject& subject, const Batch& batch, const std::vector<Verdict>& verdicts,
                  SubjectTimes& times) {
   constexpr std::uint64_t one_in = 256;

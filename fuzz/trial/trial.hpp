@@ -60,7 +60,7 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Findings that were passed on before, by their number among all, and are shrunk now.
+  /// Findings that were passed on earlier and have been shrunk since, by their number among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
